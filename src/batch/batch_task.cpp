@@ -51,6 +51,13 @@ Profile openFiltered(const BatchItem& item,
   return filteredRecording(filters, whole, item.source, partOf(progress, 0.5, 0.5));
 }
 
+// Why the result of an item has only a part of its recording; else empty.
+std::string partText(const BatchItem& item, const Profile& profile, std::size_t damagedEvents = 0) {
+  std::string text = lostText(profile);
+  if (damagedEvents > 0) text += (text.empty() ? "" : "; ") + eventsLeftOutText(damagedEvents);
+  return text.empty() ? text : item.source.string() + ": " + text;
+}
+
 std::string choicesText(const ExportChoices& choices) {
   std::string text;
   const auto add = [&](bool given, const char* name) {
@@ -126,8 +133,7 @@ BatchTask convertTask(const ConvertOptions& options) {
               answer.said += "; " + std::to_string(saved.movedStamps) +
                              " time stamps moved behind the one before: whole milliseconds must "
                              "grow";
-            if (events.damaged > 0)
-              answer.problem = item.source.string() + ": " + eventsLeftOutText(events.damaged);
+            answer.problem = partText(item, profile, events.damaged);
             return answer;
           }};
 }
@@ -167,8 +173,7 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
                        answer.results,
                        files,
                        partOf(progress, 0.5, 1.0));
-            if (events.damaged > 0)
-              answer.problem = item.source.string() + ": " + eventsLeftOutText(events.damaged);
+            answer.problem = partText(item, profile, events.damaged);
             return answer;
           },
       .namesResults = true};
@@ -198,7 +203,8 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
                 [&](const std::string& lines) { out.write(lines); },
                 partOf(progress, 0.5, 1.0));
             out.commit();
-            return BatchAnswer{.said = counted(profile.numFrames(), "frame")};
+            return BatchAnswer{.said = counted(profile.numFrames(), "frame"),
+                               .problem = partText(item, profile)};
           }};
 }
 
@@ -259,7 +265,8 @@ BatchTask slipTask(const SlipRowsOptions& table) {
                 },
                 partOf(progress, 0.2, 1.0));
             out.commit();
-            return BatchAnswer{.said = counted(rows, table.segments ? "slip" : "row")};
+            return BatchAnswer{.said = counted(rows, table.segments ? "slip" : "row"),
+                               .problem = partText(item, profile)};
           }};
 }
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_name.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_file.h"
@@ -22,7 +22,7 @@
 namespace palpate {
 namespace {
 
-constexpr const char* kHandFrame = "hand";
+constexpr const char* kHandFrame = "hand";  // of a hand without a URDF
 constexpr double kMPerMm = 1e-3;
 constexpr std::int64_t kFoxgloveUsPerS = 1'000'000;
 constexpr std::int64_t kFoxgloveNsPerUs = 1000;
@@ -76,14 +76,6 @@ Json poseJson(const Eigen::Isometry3d& pose) {
                .set("y", turn.y())
                .set("z", turn.z())
                .set("w", turn.w()));
-}
-
-std::string linkFrame(std::size_t finger, std::size_t link) {
-  return "finger_" + std::to_string(finger) + "/link_" + std::to_string(link);
-}
-
-std::string frameOf(const LinkPlace& place) {
-  return place.link ? linkFrame(place.finger, *place.link) : kHandFrame;
 }
 
 // A name as part of a topic: small letters, digits and '_', as ROS has them; a name that is taken
@@ -163,13 +155,16 @@ void addShape(Json& entity, const LinkShape& shape) {
   if (bytes.empty()) return;
   std::string text;
   appendBase64(text, bytes.data(), bytes.size());
-  entity.set("models",
-             Json::array().push(body.set("scale", vectorJson(shape.sizeMm * kMPerMm))
-                                    .set("color", grey)
-                                    .set("override_color", true)
-                                    .set("url", "")
-                                    .set("media_type", "model/stl")
-                                    .set("data", text)));
+  entity.set(
+      "models",
+      Json::array().push(
+          body.set("scale", vectorJson(shape.sizeMm * kMPerMm))
+              .set("color", grey)
+              .set("override_color", true)
+              .set("url", "")
+              .set("media_type",
+                   lowerEndingOf(shape.mesh) == ".dae" ? "model/vnd.collada+xml" : "model/stl")
+              .set("data", text)));
 }
 
 }  // namespace
@@ -211,16 +206,18 @@ FoxgloveMessages::FoxgloveMessages(HandDescription hand, FoxgloveImage image)
   std::set<std::string> taken;
   for (std::size_t m = 0; m < hand_.layout->numMatrices(); ++m) {
     const std::string name = topicName(hand_.matrixName(m), taken);
-    frameIds_.push_back(Json(name).text(-1));
+    frameIds_.push_back(Json("tactile/" + name).text(-1));
     addChannel(
         {"/tactile/" + name + "/image", "foxglove.RawImage", foxgloveImageSchema(hand_.unit)});
   }
   signals_ = addChannel({"/signals", "palpate.Signals", foxgloveSignalsSchema(hand_)});
   events_ = addChannel({"/events", "foxglove.Log", foxgloveLogSchema()});
-  for (const AxisDescription& axis : hand_.axes) jointNames_.push_back(Json(axis.name).text(-1));
+  handJoints_ = shownJoints(hand_);
+  for (const HandJoint& joint : handJoints_) jointNames_.push_back(Json(joint.name).text(-1));
   if (!hand_.axes.empty())
     joints_ = addChannel({"/joint_states", "foxglove.JointStates", foxgloveJointsSchema()});
   if (!geometry_) return;
+  makeFrames();
   transforms_ = addChannel({"/tf", "foxglove.FrameTransforms", foxgloveTransformsSchema()});
   taxels_ =
       addChannel({"/hand/taxels", "foxglove.PointCloud", foxglovePointCloudSchema(hand_.unit)});
@@ -231,6 +228,26 @@ FoxgloveMessages::FoxgloveMessages(HandDescription hand, FoxgloveImage image)
 std::size_t FoxgloveMessages::addChannel(FoxgloveChannel channel) {
   channels_.push_back(std::move(channel));
   return channels_.size() - 1;
+}
+
+void FoxgloveMessages::makeFrames() {
+  const GeometryDescription& hand = geometry_->description();
+  for (const NamedLink& link : hand.links)
+    frames_.push_back(
+        {link.name, Json(link.name).text(-1), link.parent, link.place, link.placeFromLink});
+  if (!frames_.empty()) return;
+  frames_.push_back({kHandFrame, Json(kHandFrame).text(-1), std::nullopt, {}});
+  for (std::size_t f = 0; f < hand.fingers.size(); ++f)
+    for (std::size_t l = 0; l < hand.fingers[f].links.size(); ++l) {
+      const std::string name = "finger_" + std::to_string(f) + "/link_" + std::to_string(l);
+      frames_.push_back({name, Json(name).text(-1), 0, {f, l}});
+    }
+}
+
+const FoxgloveMessages::Frame& FoxgloveMessages::frameAt(const LinkPlace& place) const {
+  const auto found = std::find_if(
+      frames_.begin(), frames_.end(), [&](const Frame& frame) { return frame.place == place; });
+  return found == frames_.end() ? frames_.front() : *found;
 }
 
 FoxgloveColor FoxgloveMessages::colorOf(float value) const noexcept {
@@ -284,12 +301,14 @@ std::string FoxgloveMessages::joints(const JointAngles& angles) const {
   appendTime(out, angles.hostUs);
   out += ",\"joints\":[";
   bool first = true;
-  for (std::size_t i = 0; i < std::min(angles.deg.size(), jointNames_.size()); ++i) {
-    if (!std::isfinite(angles.deg[i])) continue;
+  for (std::size_t i = 0; i < handJoints_.size(); ++i) {
+    const HandJoint& joint = handJoints_[i];
+    if (joint.axis && *joint.axis >= angles.deg.size()) continue;
+    const double position = joint.valueSi(angles.deg);
+    if (!std::isfinite(position)) continue;
     if (!std::exchange(first, false)) out += ',';
     out += "{\"name\":" + jointNames_[i] + ",\"position\":";
-    appendNumber(out,
-                 angles.deg[i] * (hand_.axes[i].isSliding ? kMPerMm : std::numbers::pi / 180.0));
+    appendNumber(out, position);
     out += '}';
   }
   out += "]}";
@@ -328,14 +347,17 @@ bool FoxgloveMessages::setPose(const LiveResults& results) {
 std::string FoxgloveMessages::transforms(std::int64_t timeUs) const {
   std::string stamp = "{\"timestamp\":";
   appendTime(stamp, timeUs);
-  stamp += std::string(",\"parent_frame_id\":\"") + kHandFrame + "\",\"child_frame_id\":";
   std::string out = "{\"transforms\":[";
   bool first = true;
-  const auto add = [&](const std::string& child, const Eigen::Isometry3d& handFromChild) {
+  // The names are JSON texts.
+  const auto add = [&](const std::string& parent,
+                       const std::string& child,
+                       const Eigen::Isometry3d& parentFromChild) {
     if (!std::exchange(first, false)) out += ',';
-    out += stamp + child + ",\"translation\":";
-    appendVector(out, handFromChild.translation() * kMPerMm);
-    const Eigen::Quaterniond turn(handFromChild.rotation());
+    out += stamp + ",\"parent_frame_id\":" + parent + ",\"child_frame_id\":" + child +
+           ",\"translation\":";
+    appendVector(out, parentFromChild.translation() * kMPerMm);
+    const Eigen::Quaterniond turn(parentFromChild.rotation());
     out += ",\"rotation\":{\"x\":";
     appendNumber(out, turn.x());
     out += ",\"y\":";
@@ -346,11 +368,16 @@ std::string FoxgloveMessages::transforms(std::int64_t timeUs) const {
     appendNumber(out, turn.w());
     out += "}}";
   };
-  const GeometryDescription& described = pose_.description();
-  for (std::size_t f = 0; f < described.fingers.size(); ++f)
-    for (std::size_t l = 0; l < described.fingers[f].links.size(); ++l)
-      add("\"" + linkFrame(f, l) + "\"", pose_.baseFromLink(f, l));
-  for (std::size_t m = 0; m < frameIds_.size(); ++m) add(frameIds_[m], pose_.baseFromMatrix(m));
+  std::vector<Eigen::Isometry3d> baseFrom;
+  for (const Frame& frame : frames_) {
+    baseFrom.push_back(pose_.baseFrom(frame.place) * frame.placeFromFrame);
+    if (frame.parent)
+      add(frames_[*frame.parent].text,
+          frame.text,
+          baseFrom[*frame.parent].inverse(Eigen::Isometry) * baseFrom.back());
+  }
+  for (std::size_t m = 0; m < frameIds_.size(); ++m)
+    add(frames_.front().text, frameIds_[m], pose_.baseFromMatrix(m));
   out += "]}";
   return out;
 }
@@ -376,8 +403,8 @@ std::string FoxgloveMessages::taxels(const TactileFrame& frame) const {
   std::string out = "{\"timestamp\":";
   appendTime(out, frame.hostUs);
   out +=
-      std::string(",\"frame_id\":\"") + kHandFrame +
-      "\",\"pose\":{\"position\":{\"x\":0,\"y\":0,\"z\":0},"
+      ",\"frame_id\":" + frames_.front().text +
+      ",\"pose\":{\"position\":{\"x\":0,\"y\":0,\"z\":0},"
       "\"orientation\":{\"x\":0,\"y\":0,\"z\":0,\"w\":1}},\"point_stride\":" +
       std::to_string(kPointBytes) +
       ",\"fields\":[{\"name\":\"x\",\"offset\":0,\"type\":7},"
@@ -396,9 +423,10 @@ std::string FoxgloveMessages::shapes(std::int64_t timeUs) const {
   if (geometry_) {
     const std::vector<LinkShape>& shapes = geometry_->description().shapes;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const Frame& frame = frameAt(shapes[i].place);
       Json entity = Json::object()
                         .set("timestamp", timeJson(timeUs))
-                        .set("frame_id", frameOf(shapes[i].place))
+                        .set("frame_id", frame.name)
                         .set("id", "shape_" + std::to_string(i))
                         .set("lifetime", Json::object().set("sec", 0).set("nsec", 0))
                         .set("frame_locked", true);
@@ -412,7 +440,9 @@ std::string FoxgloveMessages::shapes(std::int64_t timeUs) const {
                                 "texts",
                                 "models"})
         entity.set(empty, Json::array());
-      addShape(entity, shapes[i]);
+      LinkShape shape = shapes[i];
+      shape.linkFromShape = frame.placeFromFrame.inverse(Eigen::Isometry) * shape.linkFromShape;
+      addShape(entity, shape);
       entities.push(std::move(entity));
     }
   }

@@ -12,6 +12,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/model/hand_joints.h"
 
 #include "kinematics/urdf_tree.h"
 
@@ -66,6 +67,8 @@ class GeometryBuilder {
           shape.linkFromShape = linkFromUrdf_[i] * shape.linkFromShape;
           out_.shapes.push_back(std::move(shape));
         }
+      for (std::size_t i = 0; i < tree_.size(); ++i)
+        out_.links.push_back({tree_[i].name, tree_[i].parent, places_[i], linkFromUrdf_[i]});
     }
     for (std::size_t m = 0; m < file_.surfaces.size(); ++m)
       out_.surfaces.push_back(surfaceOf(file_.surfaces[m], m));
@@ -84,49 +87,8 @@ class GeometryBuilder {
   };
 
   void findAxes() {
-    std::map<std::string, const UrdfJoint*> joints;
-    for (const UrdfLink& link : tree_)
-      if (link.parent) joints.emplace(link.joint.name, &link.joint);
-    for (std::size_t axis = 0; axis < file_.axisJoints.size(); ++axis)
-      for (const std::string& name : file_.axisJoints[axis]) {
-        const auto joint = joints.find(name);
-        const std::string place = "axes[" + std::to_string(axis) + "].joints";
-        if (joint == joints.end())
-          fail(place + " names '" + shortened(name) + "', which the URDF does not have");
-        if (joint->second->kind == UrdfJoint::Kind::kFixed)
-          fail(place + " names '" + shortened(name) + "', which is a fixed joint");
-        const bool slides = joint->second->kind == UrdfJoint::Kind::kPrismatic;
-        if (slides != hand_.axes[axis].isSliding)
-          fail(place + " names '" + shortened(name) + "', whose values are in " +
-               (slides ? "mm" : "deg") + "; the axis is in " + hand_.axes[axis].unit());
-        drives_[name] = {axis, 1.0, 0.0};
-      }
-    // Joints that follow others, which may follow others again.
-    for (const auto& [name, joint] : joints) {
-      if (joint->mimics.empty() || drives_.contains(name)) continue;
-      Drive drive;
-      const UrdfJoint* follows = joint;
-      for (std::size_t steps = 0;; ++steps) {
-        drive.offset += drive.factor * follows->offset;
-        drive.factor *= follows->multiplier;
-        const auto next = joints.find(follows->mimics);
-        if (next == joints.end() || steps > joints.size())
-          fail("the URDF's joint '" + shortened(name) + "' mimics '" + shortened(follows->mimics) +
-               "', which does not exist or mimics it in turn");
-        if (next->second->kind != joint->kind)
-          fail("the URDF's joint '" + shortened(name) + "' mimics a joint of another type, '" +
-               shortened(follows->mimics) + "'");
-        follows = next->second;
-        if (const auto known = drives_.find(follows->name); known != drives_.end()) {
-          drive.axis = known->second.axis;
-          drive.offset += drive.factor * known->second.offset;
-          drive.factor *= known->second.factor;
-          break;
-        }
-        if (follows->mimics.empty()) break;
-      }
-      drives_[name] = drive;
-    }
+    for (const HandJoint& joint : handJoints(hand_))
+      drives_[joint.name] = {joint.axis, joint.factor, joint.offset};
   }
 
   // Whether this link only marks the end of the link before it.
@@ -290,6 +252,10 @@ void GeometryDescription::validate() const {
       if (!surface.positionsMm[i].allFinite() ||
           !(std::abs(surface.normals[i].norm() - 1.0) < 1e-6))
         misfit(name + " has a taxel without a place or a normal");
+  }
+  for (const NamedLink& link : links) {
+    requirePlace(link.place, "a link of the URDF");
+    validateFrame(link.placeFromLink, "a link of the URDF");
   }
   for (const LinkShape& shape : shapes) {
     requirePlace(shape.place, "a shape");

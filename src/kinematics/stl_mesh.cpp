@@ -10,6 +10,7 @@
 
 #include "palpate/core/byte_reader.h"
 #include "palpate/core/error.h"
+#include "palpate/core/file_name.h"
 #include "palpate/core/text_file.h"
 
 namespace palpate {
@@ -100,6 +101,27 @@ std::vector<StlTriangle> readStl(const std::filesystem::path& path) {
   if (!bytes.starts_with("solid"))
     throw FormatError(path, "no STL file: neither its length nor its first word is of one");
   return readText(bytes, path);
+}
+
+std::vector<std::string> meshFaults(const GeometryDescription& hand) {
+  std::vector<std::string> faults;
+  for (const LinkShape& shape : hand.shapes) {
+    if (shape.kind != LinkShape::Kind::kMesh) continue;
+    std::string fault = shape.meshFault;
+    if (fault.empty()) {
+      try {
+        readStl(shape.mesh);
+        continue;
+      } catch (const Error& error) {
+        fault = error.what();
+        if (lowerEndingOf(shape.mesh) != ".stl") fault += "; convert it to STL";
+      }
+    }
+    fault = "the mesh " + fault + "; a box is drawn instead";
+    if (std::find(faults.begin(), faults.end(), fault) == faults.end())
+      faults.push_back(std::move(fault));
+  }
+  return faults;
 }
 
 }  // namespace palpate

@@ -43,20 +43,33 @@ class UrdfMessages : public console_bridge::OutputHandler {
 };
 
 // Checks that the text is well-formed XML without deep nesting, which the URDF library, whose
-// reader is recursive, does not do.
-class NoContent : public XmlHandler {
+// reader is recursive, does not do, and whether it is an unexpanded xacro.
+class UrdfCheck : public XmlHandler {
  public:
-  void startElement(std::string_view, const char* const*) override {}
+  void startElement(std::string_view name, const char* const* attributes) override {
+    isXacro_ |= name.starts_with("xacro:");
+    for (; *attributes; attributes += 2)
+      isXacro_ |= std::string_view(attributes[1]).find("${") != std::string_view::npos ||
+                  std::string_view(attributes[1]).find("$(") != std::string_view::npos;
+  }
   void endElement(std::string_view) override {}
   void text(std::string_view) override {}
+  bool isXacro() const { return isXacro_; }
+
+ private:
+  bool isXacro_ = false;
 };
 
 urdf::ModelInterfaceSharedPtr parseModel(const std::string& text, const fs::path& source) {
   try {
-    NoContent handler;
-    XmlParser parser(handler, {.maxDepth = 16});
+    UrdfCheck check;
+    XmlParser parser(check, {.maxDepth = 16});
     parser.push(text);
     parser.finish();
+    if (check.isXacro())
+      throw FormatError(source,
+                        "is a xacro that is not expanded: write it anew with 'xacro IN.xacro -o "
+                        "hand.urdf'");
   } catch (const XmlError& error) {
     throw FormatError(source, error.what(), error.offset());
   }
@@ -204,7 +217,7 @@ class UrdfTreeBuilder {
         const auto& mesh = static_cast<const urdf::Mesh&>(*visual.geometry);
         shape.kind = LinkShape::Kind::kMesh;
         shape.sizeMm = lengths(mesh.scale.x, mesh.scale.y, mesh.scale.z);
-        shape.mesh = meshPath(mesh.filename, where);
+        setMesh(shape, mesh.filename);
         return shape;
       }
     }
@@ -212,8 +225,9 @@ class UrdfTreeBuilder {
     return shape;
   }
 
-  // A mesh lies in the folder of the hand; "package://NAME/" and "file://" are taken off.
-  fs::path meshPath(std::string name, const std::string& where) const {
+  // A mesh lies in the folder of the hand; "package://NAME/" and "file://" are taken off. One that
+  // lies elsewhere is not read: only the looks of the hand need it.
+  void setMesh(LinkShape& shape, std::string name) const {
     if (name.starts_with("package://")) {
       const std::size_t slash = name.find('/', 10);
       name = slash == std::string::npos ? std::string() : name.substr(slash + 1);
@@ -223,9 +237,9 @@ class UrdfTreeBuilder {
     const fs::path path(name);
     const bool leaves = std::find(path.begin(), path.end(), "..") != path.end();
     if (name.empty() || path.is_absolute() || leaves)
-      fail("names a mesh in " + where + " that is not in the folder of the hand: '" +
-           shortened(name) + "'");
-    return folder_.empty() ? path : folder_ / path;
+      shape.meshFault = "'" + shortened(name) + "' is not in the folder of the hand: copy it there";
+    else
+      shape.mesh = folder_.empty() ? path : folder_ / path;
   }
 
   void add(const urdf::Link& from, std::optional<std::size_t> parent) {

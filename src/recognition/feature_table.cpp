@@ -61,6 +61,7 @@ Gathered gather(const Source& source, const FeatureExtractionOptions& options, b
         filteredFirst(options.filters,
                       openRecording(source.file, {}, alone ? 0 : threadsBesideOthers(source.file)),
                       source.file);
+    if (const std::string lost = lostText(profile); !lost.empty()) say(lost);
     out.set = options.set.value_or(defaultFeatureSet(profile.hand()));
     out.sensor = sensorText(profile.layout());
     out.pinches = pinchHandOf(profile.hand()) != nullptr;

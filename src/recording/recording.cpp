@@ -181,11 +181,18 @@ RecoverReport recoverNative(const std::filesystem::path& in,
   return report;
 }
 
+// What an MCAP file lacks, or what of it could not be used; empty when nothing.
+std::string mcapDamageText(const McapRecording& recording) {
+  if (recording.damage.empty()) return recording.lost;
+  return "the file " + recording.damage + (recording.lost.empty() ? "" : "; " + recording.lost);
+}
+
 RecoverReport recoverMcapFile(const std::filesystem::path& in,
                               const std::filesystem::path& out,
                               Overwrite overwrite,
-                              const Progress& progress) {
-  const McapRecording recording = recoverMcap(in, progress);
+                              const Progress& progress,
+                              const std::vector<std::string>& topics) {
+  const McapRecording recording = recoverMcap(in, progress, 0, topics);
   const Profile& profile = recording.profile;
   RecoverReport report;
   if (profile.numFrames() + profile.numAngles() + profile.numTemperatures() == 0 &&
@@ -195,7 +202,7 @@ RecoverReport recoverMcapFile(const std::filesystem::path& in,
   }
   SaveExtras extras;
   extras.meta = recording.meta;
-  std::string missing = recording.damage.empty() ? "" : "the file " + recording.damage;
+  std::string missing = mcapDamageText(recording);
   if (recording.eventsLeftOut > 0)
     missing += (missing.empty() ? "" : "; ") + mcapEventsLeftOutText(recording.eventsLeftOut);
   const bool whole = missing.empty();
@@ -312,6 +319,31 @@ Profile openRecording(const std::filesystem::path& path,
 
 namespace {
 
+void requireMcapForTopics(const std::filesystem::path& path,
+                          const std::vector<std::string>& topics) {
+  if (!topics.empty() && containerOf(path) != Container::kMcap)
+    throw FileError(path, "has no topics: --topic is for MCAP files of other programs");
+}
+
+}  // namespace
+
+std::string lostText(const Profile& profile) {
+  for (const std::string& warning : profile.info().warnings)
+    if (warning.starts_with(kLostWarning)) return warning.substr(kLostWarning.size());
+  return "";
+}
+
+Profile openTopics(const std::filesystem::path& path,
+                   const std::vector<std::string>& topics,
+                   const Progress& progress,
+                   std::size_t threads) {
+  if (topics.empty()) return openRecording(path, progress, threads);
+  requireMcapForTopics(path, topics);
+  return readMcap(path, progress, threads, topics).profile;
+}
+
+namespace {
+
 // Opens every block once: the samples of a native recording are read when they are asked for.
 void readThrough(const Profile& profile, const Progress& progress) {
   constexpr std::size_t kSamplesPerReport = 4096;
@@ -352,13 +384,14 @@ ReadableRecording readableHdf5(const std::filesystem::path& path, const Progress
 
 ReadableRecording readableMcap(const std::filesystem::path& path,
                                const Progress& progress,
-                               std::size_t threads) {
-  McapRecording recording = recoverMcap(path, progress, threads);
+                               std::size_t threads,
+                               const std::vector<std::string>& topics = {}) {
+  McapRecording recording = recoverMcap(path, progress, threads, topics);
   const Profile& profile = recording.profile;
-  std::string damage = std::move(recording.damage);
+  std::string damage = mcapDamageText(recording);
   if (!damage.empty())
-    damage = "the file " + damage + "; readable: " +
-             countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
+    damage += "; readable: " +
+              countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
   return {.profile = std::move(recording.profile),
           .events = std::move(recording.events),
           .damage = std::move(damage),
@@ -453,6 +486,15 @@ ReadableRecording readableRecording(const std::filesystem::path& path,
     if (!recording) throw;
     return std::move(*recording);
   }
+}
+
+ReadableRecording readableTopics(const std::filesystem::path& path,
+                                 const std::vector<std::string>& topics,
+                                 const Progress& progress,
+                                 std::size_t threads) {
+  if (topics.empty()) return readableRecording(path, progress, threads);
+  requireMcapForTopics(path, topics);
+  return readableMcap(path, progress, threads, topics);
 }
 
 VerifyReport verifyRecording(const std::filesystem::path& path,
@@ -600,15 +642,17 @@ SaveReport saveRecording(const Profile& profile,
 RecoverReport recoverRecording(const std::filesystem::path& in,
                                const std::filesystem::path& out,
                                Overwrite overwrite,
-                               const Progress& progress) {
+                               const Progress& progress,
+                               const std::vector<std::string>& topics) {
   formatOf(out);  // before the work, not after it
   requireOther(in, out);
   requireWritable(out, overwrite);
+  requireMcapForTopics(in, topics);
   if (isHdf5Recording(in))
     throw FileError(in,
                     "is an HDF5 file; if it is damaged, nothing of it can be recovered: use the "
                     "recording that it was exported from");
-  if (isMcapRecording(in)) return recoverMcapFile(in, out, overwrite, progress);
+  if (isMcapRecording(in)) return recoverMcapFile(in, out, overwrite, progress, topics);
   return isNativeRecording(in) ? recoverNative(in, out, overwrite, progress)
                                : recoverDsa(in, out, overwrite, progress);
 }

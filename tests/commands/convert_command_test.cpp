@@ -87,6 +87,46 @@ TEST_F(ConvertCommand, toMcapAndBackIsTheSameAsStraight) {
   expectOneLineError(palpate({"info", in("x.mcap")}), 1, {"isn't an MCAP file"});
 }
 
+// A camera beside the pad is a note, a value that is not a number a loss.
+TEST_F(ConvertCommand, whatAForeignMcapLosesIsSaidAndInTheExitCode) {
+  const auto python = testing::runProgram("/usr/bin/python3",
+                                          {"-c",
+                                           R"(
+import sys, math
+sys.dont_write_bytecode = True
+sys.path.insert(0, sys.argv[1])
+import mcap_check as m
+w = m.Writer(sys.argv[2])
+for at in 1000, 2000:
+  w.message('/pad', 'sensor_msgs/msg/Image', m.cdr_image(at, [[1, math.nan]], '32FC1'), at)
+  w.message('/other', 'sensor_msgs/msg/Image', m.cdr_image(at, [[5]], 'mono8'), at)
+  w.message('/camera', 'sensor_msgs/msg/Image', m.cdr_image(at, [[1, 2, 3]], 'rgb8'), at)
+w.close()
+)",
+                                           PALPATE_MCAP_CHECK_FOLDER,
+                                           in("a.mcap")});
+  ASSERT_EQ(python.exitCode, 0) << python.err;
+  const auto both = palpate({"convert", in("a.mcap"), in("b.palpate")});
+  EXPECT_EQ(both.exitCode, 3) << both.err;
+  EXPECT_NE(both.err.find("\"/camera\" is left out"), std::string::npos) << both.err;
+  EXPECT_NE(both.err.find("2 values of the topic \"/pad\" are taken as 0"), std::string::npos)
+      << both.err;
+  EXPECT_EQ(openRecording(in("b.palpate")).frame(1).values, (std::vector<float>{5, 1, 0}));
+  const auto other = palpate({"convert", in("a.mcap"), in("c.palpate"), "--topic", "/other"});
+  EXPECT_EQ(other.exitCode, 0) << other.err;
+  EXPECT_EQ(other.err, "");
+  EXPECT_EQ(openRecording(in("c.palpate")).frame(1).values, (std::vector<float>{5}));
+  EXPECT_EQ(palpate({"info", in("a.mcap"), "--topic", "/other"}).exitCode, 0);
+  EXPECT_EQ(palpate({"info", in("a.mcap")}).exitCode, 3);
+  EXPECT_EQ(palpate({"signals", in("a.mcap")}).exitCode, 3);
+  EXPECT_EQ(palpate({"recover", in("a.mcap"), in("d.palpate"), "--topic", "/pad"}).exitCode, 3);
+  EXPECT_EQ(palpate({"convert", in("a.mcap"), "-o", in("{name}.npz")}).exitCode, 3);
+  expectOneLineError(palpate({"convert", in("a.mcap"), in("e.npz"), "--topic", "/camera"}),
+                     1,
+                     {"\"/camera\" can't be read"});
+  expectOneLineError(palpate({"info", in("a.dsa"), "--topic", "/pad"}), 1, {"has no topics"});
+}
+
 TEST_F(ConvertCommand, anExportSaysWhereItComesFromAndHasSeriesUnlessTheyAreLeftOut) {
   ASSERT_EQ(palpate({"convert", in("a.dsa"), in("a.h5"), "--filter", "median:size=3"}).exitCode, 0);
   ASSERT_EQ(palpate({"convert", in("a.dsa"), in("b.h5"), "--no-signals", "--no-slip"}).exitCode, 0);

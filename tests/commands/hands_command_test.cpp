@@ -94,9 +94,31 @@ TEST(HandsCommand, SaysWhatDoesNotFit) {
   write("hand.urdf",
         R"(<robot name="x"><link name="tip"><visual><geometry><mesh filename="no.stl"/></geometry>)"
         R"(</visual></link></robot>)");
-  expectFault("no.stl");
+  const auto expectBox = [&](const std::vector<std::string>& parts) {
+    const auto result = run({"check", folder.path().string()});
+    EXPECT_EQ(result.exitCode, 3) << result.err;
+    EXPECT_NE(result.out.find("with geometry"), std::string::npos) << result.out;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    for (const std::string& part : parts)
+      EXPECT_NE(result.err.find(part), std::string::npos) << part << ": " << result.err;
+  };
+  expectBox({"no.stl", "a box is drawn instead"});
   write("no.stl", "solid x\nfacet\nvertex 0 0 nan\n");
-  expectFault("no.stl");
+  expectBox({"no.stl"});
+  const auto writeMesh = [&](const std::string& name) {
+    write("hand.urdf",
+          R"(<robot name="x"><link name="tip"><visual><geometry><mesh filename=")" + name +
+              R"("/></geometry></visual></link></robot>)");
+  };
+  writeMesh("file:///opt/hand/tip.stl");
+  expectBox({"'/opt/hand/tip.stl' is not in the folder of the hand"});
+  writeMesh("package://x/tip.dae");
+  write("tip.dae", "<COLLADA/>");
+  expectBox({"tip.dae", "convert it to STL"});
+  write("hand.urdf",
+        R"(<robot name="x" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:tip/>)"
+        R"(<link name="tip"/></robot>)");
+  expectFault("is a xacro that is not expanded");
 }
 
 TEST(HandsCommand, WrongUse) {

@@ -46,6 +46,16 @@ TEST_F(ImportCommand, MakesARecordingOfATable) {
       palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16", "--force", "-q"}).exitCode, 0);
 }
 
+TEST_F(ImportCommand, TimesThatRepeatNameTheOptionThatKeepsTheRows) {
+  std::string text = padTable(4);
+  text.replace(text.find("\n30,") + 1, 2, "20");
+  testing::writeFile(in("pad.csv"), text);
+  const auto result = palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.err.find("--rate HZ keeps rows whose times repeat"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(ImportCommand, RefusedRowsAreCountedAndTheCodeSaysSo) {
   testing::writeFile(in("pad.csv"), padTable(20, "15,oops\n"));
   const auto result = palpate(

@@ -64,7 +64,7 @@ TEST(FoxgloveMessages, AnImageHoldsTheCounts) {
   const Json image = Json::parse(messages.image(*results.frame, 1));
   EXPECT_EQ(image.at("timestamp").at("sec").asInteger(), 1'416'996'123);
   EXPECT_EQ(image.at("timestamp").at("nsec").asInteger(), 250'007'000);
-  EXPECT_EQ(image.at("frame_id").asString(), "finger_0_distal");
+  EXPECT_EQ(image.at("frame_id").asString(), "tactile/finger_0_distal");
   EXPECT_EQ(image.at("encoding").asString(), "mono16");
   EXPECT_EQ(image.at("width").asInteger(), 6);
   EXPECT_EQ(image.at("height").asInteger(), 13);
@@ -104,10 +104,17 @@ TEST(FoxgloveMessages, JointsAreInRadians) {
   const FoxgloveMessages messages(sdh2());
   const Json joints =
       Json::parse(messages.joints({1'000'000, {0.0, -90.0, std::nan(""), 0.0, 0.0, 0.0, 45.0}}));
-  ASSERT_EQ(joints.at("joints").size(), 6u);  // NaN has no position
-  const Json second = joints.at("joints").at(std::size_t{1});
-  EXPECT_EQ(second.at("name").asString(), sdh2().axes[1].name);
-  EXPECT_DOUBLE_EQ(second.at("position").asDouble(), -std::numbers::pi / 2.0);
+  // One axis moves two joints; NaN has no position.
+  ASSERT_EQ(joints.at("joints").size(), 7u);
+  const auto nameOf = [&](std::size_t i) {
+    return joints.at("joints").at(i).at("name").asString();
+  };
+  EXPECT_EQ(nameOf(0), "finger_0_base");
+  EXPECT_EQ(nameOf(1), "finger_2_base");
+  EXPECT_EQ(nameOf(2), "finger_0_proximal");
+  EXPECT_EQ(nameOf(3), "finger_1_proximal");
+  EXPECT_DOUBLE_EQ(joints.at("joints").at(std::size_t{2}).at("position").asDouble(),
+                   -std::numbers::pi / 2.0);
 }
 
 TEST(FoxgloveMessages, EventsHaveALevelAndTheirMatrix) {
@@ -138,13 +145,13 @@ TEST(FoxgloveMessages, TransformsAgreeWithTheTaxels) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < transforms.size(); ++i) {
     const Json transform = transforms.at(i);
-    EXPECT_EQ(transform.at("parent_frame_id").asString(), "hand");
     const Json turn = transform.at("rotation");
     EXPECT_NEAR(std::pow(turn.at("x").asDouble(), 2) + std::pow(turn.at("y").asDouble(), 2) +
                     std::pow(turn.at("z").asDouble(), 2) + std::pow(turn.at("w").asDouble(), 2),
                 1.0,
                 1e-9);
-    if (transform.at("child_frame_id").asString() != "finger_0_proximal") continue;
+    if (transform.at("child_frame_id").asString() != "tactile/finger_0_proximal") continue;
+    EXPECT_EQ(transform.at("parent_frame_id").asString(), "palm");
     ++found;  // a flat matrix: its frame lies at the centre of taxel (0, 0), the first point
     float at[3];
     std::memcpy(at, bytes.data(), sizeof at);
@@ -154,6 +161,57 @@ TEST(FoxgloveMessages, TransformsAgreeWithTheTaxels) {
     EXPECT_NEAR(place.at("z").asDouble(), static_cast<double>(at[2]), 1e-6);
   }
   EXPECT_EQ(found, 1u);
+}
+
+// What a program with the URDF moves by these messages: links and joints have its names, and a link
+// stands in the frame of its parent. The second joint follows the first one; the numbers by hand.
+TEST(FoxgloveMessages, LinksAndJointsHaveTheNamesOfTheUrdf) {
+  const std::string urdf = R"(<robot name="x"><link name="base_link"/><link name="near"/>
+<link name="far"><visual><origin xyz="0.01 0 0"/><geometry><sphere radius="0.002"/></geometry></visual></link>
+<joint name="bend" type="revolute"><parent link="base_link"/><child link="near"/>
+<origin xyz="0.1 0 0"/><axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+<joint name="follow" type="revolute"><parent link="near"/><child link="far"/>
+<origin xyz="0.05 0 0"/><axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="1" velocity="1"/>
+<mimic joint="bend" multiplier="-0.5" offset="0.1"/></joint></robot>)";
+  const std::string json = R"({"format":"palpate-hand","version":1,"name":"x","full_scale":1,
+"urdf":"hand.urdf","axes":[{"name":"the axis","minimum":-90,"maximum":90,"joints":["bend"]}],
+"matrices":[{"name":"far","rows":1,"columns":1,"pitch_mm":1,
+"surface":{"link":"far","origin_mm":[0,0,0],"x_axis":[1,0,0],"y_axis":[0,1,0]}}]})";
+  FoxgloveMessages messages(parseHand(json, urdf, "hand.json"));
+  ASSERT_EQ(messages.geometryProblem(), "");
+  LiveResults results;
+  results.angles = JointAngles{1, {90.0}};
+  ASSERT_TRUE(messages.setPose(results));
+
+  const Json joints = Json::parse(messages.joints(*results.angles)).at("joints");
+  ASSERT_EQ(joints.size(), 2u);
+  EXPECT_EQ(joints.at(std::size_t{0}).at("name").asString(), "bend");
+  EXPECT_NEAR(joints.at(std::size_t{0}).at("position").asDouble(), std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(joints.at(std::size_t{1}).at("name").asString(), "follow");
+  const double follow = 0.1 - std::numbers::pi / 4;
+  EXPECT_NEAR(joints.at(std::size_t{1}).at("position").asDouble(), follow, 1e-12);
+
+  const Json transforms = Json::parse(messages.transforms(1)).at("transforms");
+  ASSERT_EQ(transforms.size(), 3u);
+  const auto expectFrame =
+      [&](std::size_t i, const char* parent, const char* child, double x, double turned) {
+        const Json transform = transforms.at(i);
+        EXPECT_EQ(transform.at("parent_frame_id").asString(), parent);
+        EXPECT_EQ(transform.at("child_frame_id").asString(), child);
+        EXPECT_NEAR(transform.at("translation").at("x").asDouble(), x, 1e-9);
+        EXPECT_NEAR(transform.at("translation").at("y").asDouble(), 0.0, 1e-9);
+        EXPECT_NEAR(transform.at("rotation").at("z").asDouble(), std::sin(turned / 2), 1e-9);
+        EXPECT_NEAR(transform.at("rotation").at("w").asDouble(), std::cos(turned / 2), 1e-9);
+      };
+  expectFrame(0, "base_link", "near", 0.1, std::numbers::pi / 2);
+  expectFrame(1, "near", "far", 0.05, follow);
+  // The matrix has the name of a link, and a frame of its own.
+  EXPECT_EQ(transforms.at(std::size_t{2}).at("child_frame_id").asString(), "tactile/far");
+
+  const Json shape = Json::parse(messages.shapes(1)).at("entities").at(std::size_t{0});
+  EXPECT_EQ(shape.at("frame_id").asString(), "far");
+  const Json place = shape.at("spheres").at(std::size_t{0}).at("pose").at("position");
+  EXPECT_NEAR(place.at("x").asDouble(), 0.01, 1e-12);
 }
 
 TEST(FoxgloveMessages, ShapesStandInTheFramesOfTheirLinks) {
@@ -166,7 +224,7 @@ TEST(FoxgloveMessages, ShapesStandInTheFramesOfTheirLinks) {
   for (std::size_t i = 0; i < entities.size(); ++i) {
     const Json entity = entities.at(i);
     const std::string frame = entity.at("frame_id").asString();
-    EXPECT_TRUE(frame == "hand" || frame.starts_with("finger_")) << frame;
+    EXPECT_TRUE(frame == "palm" || frame.ends_with("_link")) << frame;
     EXPECT_EQ(entity.at("cubes").size() + entity.at("cylinders").size() +
                   entity.at("spheres").size() + entity.at("models").size(),
               1u);

@@ -121,6 +121,12 @@ constexpr std::int64_t kShowProgressAfterUs = 1'000'000;
 
 }  // namespace
 
+OptionSpec topicOption() {
+  return {"topic",
+          "TOPIC",
+          "of an MCAP file of another program: reads only this topic; may be repeated"};
+}
+
 CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>& words) {
   const po::options_description options = described(spec);
   po::options_description all = options;

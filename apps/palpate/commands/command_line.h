@@ -30,6 +30,9 @@ struct OptionSpec {
   std::string help;
 };
 
+// --topic TOPIC, which may be repeated (CommandLine::texts).
+OptionSpec topicOption();
+
 // Everything that a command accepts, also for its help.
 struct CommandSpec {
   // The usage line: "palpate info FILE [--json]".

@@ -17,6 +17,7 @@
 #include "commands/commands.h"
 #include "commands/export_options.h"
 #include "commands/filter_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -45,7 +46,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   const ExportChoices choices = exportChoicesOf(given, recipe, out);
   Profile profile = [&] {
     ProgressLine progress("reading " + in, given.quiet());
-    return openRecording(in, progress.callback());
+    return openTopics(in, given.texts("topic"), progress.callback());
   }();
   EventsReport events = readEvents(in);
   if (from || to) {
@@ -67,7 +68,8 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   }();
   if (!given.quiet())
     std::printf("%s\n", escapedLine(doneText(out, profile) + movedText(saved.movedStamps)).c_str());
-  if (events.damaged == 0) return kDone;
+  const int code = reportOpened(in, profile, given.quiet());
+  if (events.damaged == 0) return code;
   std::fprintf(
       stderr, "palpate: %s\n", escapedLine(in + ": " + eventsLeftOutText(events.damaged)).c_str());
   return kPartlyDone;
@@ -87,7 +89,7 @@ BatchTask convertTaskOf(const CommandLine& given, const std::string& ending) {
 
 // --each-grasp PATH.. -o TEMPLATE
 int convertGrasps(const CommandLine& given) {
-  for (const char* name : {"from", "to", "to-form"})
+  for (const char* name : {"from", "to", "to-form", "topic"})
     if (given.has(name))
       throw UsageError("--" + std::string(name) + " doesn't go with --each-grasp");
   if (!given.has("output"))
@@ -107,6 +109,7 @@ int convertGrasps(const CommandLine& given) {
 }
 
 int convertBatch(const CommandLine& given) {
+  if (given.has("topic")) throw UsageError("--topic works with one recording: give IN OUT");
   for (const char* name : {"from", "to", "to-form"})
     if (given.has(name))
       throw UsageError("--" + std::string(name) +
@@ -148,7 +151,8 @@ int convertCommand(const Arguments& words) {
            {{"from", "N", "first frame, default 0"},
             {"to", "M", "last frame (inclusive), default the last one"},
             {"each-grasp", "", "a file for each grasp, as -o out/{name}_{n}.palpate"},
-            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5, mat or mcap"}}))),
+            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5, mat or mcap"},
+            topicOption()}))),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
        .minArguments = 1},
       words);
@@ -166,8 +170,8 @@ int convertCommand(const Arguments& words) {
   if (isFolder && !form)
     throw UsageError(in + " is a folder: choose the format of the results with --to-form");
   if (!isFolder && form) throw UsageError("--to-form needs a folder; " + in + " isn't one");
-  if (isFolder && (given.has("from") || given.has("to")))
-    throw UsageError("--from and --to work with one recording, not with a folder");
+  if (isFolder && (given.has("from") || given.has("to") || given.has("topic")))
+    throw UsageError("--from, --to and --topic work with one recording, not with a folder");
   if (isFolder) return convertFolder(given, *form);
   refuseBatchOptions(given);
   return convertOne(given, in, out);

@@ -11,6 +11,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -90,7 +91,8 @@ int filterCommand(const Arguments& words) {
                 counted(filtered.numFrames(), "frame").c_str(),
                 fullRecipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
-  if (events.damaged == 0) return kDone;
+  const int code = reportOpened(in, profile, given.quiet());
+  if (events.damaged == 0) return code;
   std::fprintf(
       stderr, "palpate: %s\n", escapedLine(in + ": " + eventsLeftOutText(events.damaged)).c_str());
   return kPartlyDone;

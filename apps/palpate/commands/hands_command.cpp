@@ -70,24 +70,28 @@ Json handJson(const ListedHand& listed) {
       .set("geometry", hasGeometry(hand));
 }
 
-// Reads everything that the folder of a hand refers to. Throws what is wrong.
-void checkHand(const HandDescription& hand) {
-  if (!hasGeometry(hand)) return;
+// Reads everything that the folder of a hand refers to. Throws what is wrong; returns what only
+// changes the looks of the hand.
+std::vector<std::string> checkHand(const HandDescription& hand) {
+  if (!hasGeometry(hand)) return {};
   const HandGeometry geometry(describeGeometry(hand));
-  for (const LinkShape& shape : geometry.description().shapes)
-    if (shape.kind == LinkShape::Kind::kMesh) readStl(shape.mesh);
   std::vector<double> middle;
   for (const AxisDescription& axis : hand.axes)
     middle.push_back((axis.minimumDeg + axis.maximumDeg) / 2.0);
   geometry.pose(middle);
+  return meshFaults(geometry.description());
 }
 
 int checkFolders(const std::vector<std::string>& folders) {
   int failed = 0;
+  bool inPart = false;
   for (const std::string& folder : folders) {
     try {
       const HandDescription hand = readHandFolder(folder);
-      checkHand(hand);
+      for (const std::string& fault : checkHand(hand)) {
+        std::fprintf(stderr, "palpate: %s\n", escapedLine(folder + ": " + fault).c_str());
+        inPart = true;
+      }
       std::printf("%s: %s: %s, %zu taxels, %zu axes, %s\n",
                   escapedLine(folder).c_str(),
                   escapedLine(hand.name).c_str(),
@@ -100,7 +104,7 @@ int checkFolders(const std::vector<std::string>& folders) {
       ++failed;
     }
   }
-  return failed > 0 ? kFailed : kDone;
+  return failed > 0 ? kFailed : inPart ? kPartlyDone : kDone;
 }
 
 }  // namespace
@@ -108,9 +112,11 @@ int checkFolders(const std::vector<std::string>& folders) {
 int handsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate hands [--json]\npalpate hands check FOLDER..",
-       .purpose = "Lists the known hands: the built-in ones, and those in "
-                  "~/.local/share/palpate/hands. With check: reads the hand.json, URDF and meshes "
-                  "of each FOLDER, and prints what does not fit together.",
+       .purpose =
+           "Lists the known hands: the built-in ones, and those in "
+           "~/.local/share/palpate/hands. With check: reads the hand.json, URDF and meshes "
+           "of each FOLDER, and prints what does not fit together. A mesh that can't be read "
+           "is replaced by a box: exit code 3.",
        .options = {{"json", "", "as JSON, one object per hand"}},
        .example = "palpate hands check my_hand",
        .minArguments = 0},

@@ -249,7 +249,10 @@ int importCommand(const Arguments& words) {
   std::fprintf(stderr,
                "palpate: %s\n",
                escapedLine(data.string() + ": " + report.refused.summary() +
-                           "; the first: " + report.refused.first)
+                           "; the first: " + report.refused.first +
+                           (report.refused.notLater > 0
+                                ? "; --rate HZ keeps rows whose times repeat, at equal intervals"
+                                : ""))
                    .c_str());
   return kPartlyDone;
 }

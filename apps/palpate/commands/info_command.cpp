@@ -294,7 +294,10 @@ std::string tableRow(const std::filesystem::path& file,
                   joinedTexts(lossTexts(recording.events))});
 }
 
-int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
+int infoOfOne(const RecordingList& recordings,
+              bool quiet,
+              bool json,
+              const std::vector<std::string>& topics) {
   return writeReadableTexts(
       recordings,
       quiet,
@@ -307,11 +310,15 @@ int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
         const ValueReport values = valuesOf(recording.profile, progress);
         write(json ? infoJsonOf(Json::object(), recording, timing, values).text() + "\n"
                    : plainText(file.string(), recording, timing, values));
-      });
+      },
+      topics);
 }
 
 // Prints a table with one row, or one object with one item, for each recording while they are read.
-int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
+int infoOfSeveral(const RecordingList& recordings,
+                  bool quiet,
+                  bool json,
+                  const std::vector<std::string>& topics) {
   StandardOutput out;
   if (!recordings.files.empty()) out.write(json ? "{\"recordings\": [" : kTableHeader);
   out.finish();
@@ -329,7 +336,8 @@ int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
                   ? infoJsonOf(Json::object().set("file", file.string()), recording, timing, values)
                         .text(-1)
                   : tableRow(file, recording, timing, values));
-      });
+      },
+      topics);
   if (json && !recordings.files.empty()) out.write("\n]}\n");
   out.finish();
   return code;
@@ -339,7 +347,7 @@ int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
 
 int infoCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate info PATH... [--json]",
+      {.synopsis = "palpate info PATH... [--json] [--topic TOPIC]..",
        .purpose =
            "Shows what a recording contains: frames, rates, gaps, matrices, angles, temperatures, "
            "largest value, what was entered before recording (operator, object, run, notes), "
@@ -350,14 +358,15 @@ int infoCommand(const Arguments& words) {
            "file that can't be read is reported, and the others are printed: exit code 3. Of a "
            "damaged "
            "recording it shows what can be read and what is missing: exit code 3, too.",
-       .options = {{"json", "", "one JSON object; of several: with a list, recordings"}},
+       .options = {{"json", "", "one JSON object; of several: with a list, recordings"},
+                   topicOption()},
        .example = "palpate info foam_ball.dsa --json",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const RecordingList recordings = recordingsIn(given.words());
   return (recordings.several ? infoOfSeveral : infoOfOne)(
-      recordings, given.quiet(), given.has("json"));
+      recordings, given.quiet(), given.has("json"), given.texts("topic"));
 }
 
 }  // namespace palpate::commands

@@ -6,6 +6,7 @@
 #include <new>
 #include <optional>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include <unistd.h>
@@ -31,13 +32,14 @@ std::string countText(std::size_t part, std::size_t whole) {
   return std::to_string(part) + " of " + std::to_string(whole);
 }
 
-// The warnings of native recordings, which tell that the end is missing; those of a .dsa file don't
-// matter here.
-std::vector<std::string> notedWarnings(const fs::path& file, const Profile& profile) {
+// Of several files the warnings of native recordings, which tell that the end is missing; those of
+// MCAP files, which tell what was guessed; those of a .dsa file don't matter here.
+std::vector<std::string> notedWarnings(const fs::path& file, const Profile& profile, bool several) {
   std::vector<std::string> lines;
-  if (profile.info().format == "palpate")
+  const std::string& format = profile.info().format;
+  if (format == "mcap" || (format == "palpate" && several))
     for (const std::string& warning : profile.info().warnings)
-      lines.push_back(file.string() + ": " + warning);
+      if (!warning.starts_with(kLostWarning)) lines.push_back(file.string() + ": " + warning);
   return lines;
 }
 
@@ -73,12 +75,9 @@ class ListRun {
 
   // Prints a message that is not a failure.
   void note(const std::string& message) {
-    if (quiet_ || !list_.several) return;
+    if (quiet_) return;
     line_.wipe();
     sayRecordingList(message);
-  }
-  void noteWarnings(const fs::path& file, const Profile& profile) {
-    for (const std::string& warning : notedWarnings(file, profile)) note(warning);
   }
   // Stops showing progress when rows go to a terminal: they would appear behind the percentage, and
   // they show the progress themselves.
@@ -167,7 +166,7 @@ struct TextAhead {
   std::exception_ptr failure = {};
 };
 
-std::string damageOf(const Profile&) { return {}; }
+std::string damageOf(const Profile& profile) { return lostText(profile); }
 std::string damageOf(const ReadableRecording& recording) {
   if (!recording.damage.empty() || recording.damagedEvents == 0) return recording.damage;
   return eventsLeftOutText(recording.damagedEvents);
@@ -195,6 +194,12 @@ int writeTexts(const RecordingList& list,
   const auto unitsOf = [&](const Content& content) {
     return frame.units ? frame.units(profileOf(content)) : std::string();
   };
+  // The report on a single readable recording has its warnings.
+  const auto notesOf = [&](const fs::path& file, const Content& content) {
+    const bool reported = std::is_same_v<Content, ReadableRecording> && !list.several;
+    return reported ? std::vector<std::string>()
+                    : notedWarnings(file, profileOf(content), list.several);
+  };
   const auto begin = [&](const fs::path& file, const std::string& itsUnits) {
     if (begun && itsUnits != units) throw Error(file.string() + ": " + kOtherUnits);
     out.write(begun ? frame.between : frame.begin + itsUnits);
@@ -204,7 +209,7 @@ int writeTexts(const RecordingList& list,
 
   const auto atItsTurn = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
     const Content content = read(file, halfOf(progress, 0.0), threads);
-    run.noteWarnings(file, profileOf(content));
+    for (const std::string& note : notesOf(file, content)) run.note(note);
     run.leaveTheTerminal();
     bool first = true;
     const auto write = [&](const std::string& text) {
@@ -221,7 +226,7 @@ int writeTexts(const RecordingList& list,
     if (!isReadAhead(file)) return result;
     try {
       const Content content = read(file, halfOf(progress, 0.0), threads);
-      result.notes = notedWarnings(file, profileOf(content));
+      result.notes = notesOf(file, content);
       result.units = unitsOf(content);
       const auto write = [&](const std::string& text) {
         if (result.text.size() + text.size() > kMostTextAhead) throw TooMuchText();
@@ -292,6 +297,20 @@ RecordingList recordingsIn(const Arguments& words) {
   return list;
 }
 
+std::string lostLine(const fs::path& file, const Profile& profile) {
+  const std::string lost = lostText(profile);
+  return lost.empty() ? lost : file.string() + ": " + lost;
+}
+
+int reportOpened(const fs::path& file, const Profile& profile, bool quiet) {
+  if (!quiet)
+    for (const std::string& line : notedWarnings(file, profile, false)) sayRecordingList(line);
+  const std::string lost = lostLine(file, profile);
+  if (lost.empty()) return kDone;
+  sayRecordingList(lost);
+  return kPartlyDone;
+}
+
 int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work) {
   return ListRun(list, quiet).through(work);
 }
@@ -308,10 +327,10 @@ int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& wor
   ReadAhead<Profile> profiles(list.files, &openRecording);
   return run.through([&](const fs::path& file, const Progress& progress) {
     const Profile profile = profiles.take(halfOf(progress, 0.0));
-    run.noteWarnings(file, profile);
+    for (const std::string& note : notedWarnings(file, profile, list.several)) run.note(note);
     run.leaveTheTerminal();
     work(file, profile, halfOf(progress, 0.5));
-    return FileOutcome();
+    return FileOutcome{.problem = lostLine(file, profile)};
   });
 }
 
@@ -325,8 +344,12 @@ int writeProfileTexts(const RecordingList& list,
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,
-                       const ReadableText& work) {
-  return writeTexts<ReadableRecording>(list, quiet, frame, &readableRecording, work);
+                       const ReadableText& work,
+                       const std::vector<std::string>& topics) {
+  const auto read = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
+    return readableTopics(file, topics, progress, threads);
+  };
+  return writeTexts<ReadableRecording>(list, quiet, frame, read, work);
 }
 
 }  // namespace palpate::commands

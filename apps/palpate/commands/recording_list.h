@@ -63,6 +63,12 @@ struct TextFrame {
   std::function<std::string(const Profile&)> units = {};
 };
 
+// The line that says what a recording lost when it was read (lostText()); empty: nothing.
+std::string lostLine(const std::filesystem::path& file, const Profile& profile);
+// Prints on standard error what was guessed, unless quiet, and what was lost when a recording of
+// another program was opened. Returns kPartlyDone where something was lost, else kDone.
+int reportOpened(const std::filesystem::path& file, const Profile& profile, bool quiet);
+
 // Runs `work` for every file, one at a time, and prints on standard error one line for each file
 // that failed. Returns the exit code: 0 all done; 1 none done (or no file); 3 some done, also after
 // an interruption (then the number of done files is printed). Passes on exceptions that no file
@@ -83,10 +89,11 @@ int writeProfileTexts(const RecordingList& list,
                       const TextFrame& frame,
                       const ProfileText& work);
 // The same with every recording read completely; of a damaged one the readable part is used, and
-// the rest is reported.
+// the rest is reported. `topics` as of readableTopics().
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,
-                       const ReadableText& work);
+                       const ReadableText& work,
+                       const std::vector<std::string>& topics = {});
 
 }  // namespace palpate::commands

@@ -12,12 +12,12 @@ namespace palpate::commands {
 
 int recoverCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate recover IN OUT",
+      {.synopsis = "palpate recover IN OUT [--topic TOPIC]..",
        .purpose = "Saves what is readable in a damaged or unfinished recording; IN is never "
                   "changed. The ending of OUT chooses the format, as in `palpate convert` "
                   "(.palpate, .dsa, .csv, .npz, ..). Exit code: 0 nothing was lost, 3 something "
                   "was lost, 1 nothing could be saved (then there is no OUT).",
-       .options = {{"force", "", "replace OUT"}},
+       .options = {{"force", "", "replace OUT"}, topicOption()},
        .example = "palpate recover broken.dsa saved.palpate",
        .minArguments = 2,
        .maxArguments = 2},
@@ -29,7 +29,8 @@ int recoverCommand(const Arguments& words) {
     return recoverRecording(in,
                             given.words()[1],
                             given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
-                            progress.callback());
+                            progress.callback(),
+                            given.texts("topic"));
   }();
   if (report.state == RecoverReport::State::kNothing) throw Error(in + ": " + report.message);
   if (!given.quiet()) std::printf("%s\n", escapedLine(in + ": " + report.message).c_str());

@@ -20,6 +20,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/live_streams.h"
+#include "commands/recording_list.h"
 #include "commands/stream_options.h"
 
 namespace palpate::commands {
@@ -134,6 +135,7 @@ Profile playedRecording(const CommandLine& given, std::string& damage) {
     ProgressLine progress("reading " + file, given.quiet());
     Profile profile = openRecording(file, progress.callback());
     if (profile.numFrames() == 0) throw Error(file + ": has no frames");
+    damage = lostLine(file, profile);
     return profile;
   } catch (const FormatError&) {
     return streamedRecording(given, damage).profile;

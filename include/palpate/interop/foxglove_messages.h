@@ -17,6 +17,7 @@
 #include <palpate/kinematics/hand_geometry.h>
 #include <palpate/live/live_results.h>
 #include <palpate/model/hand_description.h>
+#include <palpate/model/hand_joints.h>
 #include <palpate/recording/recording_event.h>
 
 namespace palpate {
@@ -72,15 +73,28 @@ class FoxgloveMessages {
   // Computes the pose for transforms() and taxels(). Returns false where it is not known: no
   // geometry, no angles yet, another number of angles, or angles that are not finite.
   bool setPose(const LiveResults& results);
-  // foxglove.FrameTransforms: from "hand" to each link and matrix.
+  // foxglove.FrameTransforms: from the root link to each link of the URDF (from its parent), by the
+  // URDF's names, and to each matrix, "tactile/NAME". Without a URDF the root is "hand".
   std::string transforms(std::int64_t timeUs) const;
-  // foxglove.PointCloud in "hand": x, y, z [m], value, and its colour, for each taxel.
+  // foxglove.PointCloud in the frame of the root: x, y, z [m], value, and its colour, for each
+  // taxel.
   std::string taxels(const TactileFrame& frame) const;
   // foxglove.SceneUpdate with the visible shapes of the links, each fixed to its link.
   std::string shapes(std::int64_t timeUs) const;
 
  private:
+  // A link, in the frame of its place.
+  struct Frame {
+    std::string name;
+    std::string text;                   // its name as a JSON text
+    std::optional<std::size_t> parent;  // empty: the root
+    LinkPlace place;
+    Eigen::Isometry3d placeFromFrame = Eigen::Isometry3d::Identity();
+  };
+
   std::size_t addChannel(FoxgloveChannel channel);
+  void makeFrames();
+  const Frame& frameAt(const LinkPlace& place) const;
   FoxgloveColor colorOf(float value) const noexcept;
 
   const HandDescription hand_;
@@ -90,8 +104,10 @@ class FoxgloveMessages {
   std::string geometryProblem_;
   HandPose pose_;
   std::vector<FoxgloveChannel> channels_;
-  std::vector<std::string> frameIds_;    // of the matrices, as JSON texts
-  std::vector<std::string> jointNames_;  // as JSON texts
+  std::vector<std::string> frameIds_;  // of the matrices, as JSON texts
+  std::vector<Frame> frames_;          // the root first
+  std::vector<HandJoint> handJoints_;
+  std::vector<std::string> jointNames_;  // of them, as JSON texts
   std::size_t signals_ = 0, events_ = 0;
   std::optional<std::size_t> joints_, transforms_, taxels_, shapes_;
 };

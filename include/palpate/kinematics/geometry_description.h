@@ -86,7 +86,17 @@ struct LinkShape {
   // Box: its three lengths; cylinder (about z): diameter, diameter, length; sphere: its diameter
   // three times [mm]. Mesh: factors by which the file's coordinates become mm.
   Eigen::Vector3d sizeMm = Eigen::Vector3d::Ones();
-  std::filesystem::path mesh;  // file of a mesh (STL)
+  std::filesystem::path mesh;  // file of a mesh (STL); empty: meshFault says why there is none
+  std::string meshFault = {};  // "'/a/b.stl' is not in the folder of the hand"
+};
+
+// A link of the hand's URDF.
+struct NamedLink {
+  std::string name;
+  std::optional<std::size_t> parent;  // index of its parent link; empty: the root
+  LinkPlace place;
+  // The frame that the URDF gives the link, in the frame of its place.
+  Eigen::Isometry3d placeFromLink = Eigen::Isometry3d::Identity();
 };
 
 // The geometry of a whole hand.
@@ -96,6 +106,8 @@ struct GeometryDescription {
   std::vector<SensorSurface> surfaces;  // one per matrix
   SensorLayout layout;
   std::vector<LinkShape> shapes = {};  // may be empty
+  // All links of the URDF, the root first, parents before their children; empty without a URDF.
+  std::vector<NamedLink> links = {};
 
   // Throws std::invalid_argument that names the inconsistency (an axis or link that does not exist,
   // a value that is not finite, and so on).

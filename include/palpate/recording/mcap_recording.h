@@ -2,7 +2,7 @@
 // docs/bridges.md has its topics. It holds all of a recording (frames, stamps, angles,
 // temperatures, events, hand, what was said of it) bit by bit, so that it can be read back, and
 // beside that where it comes from and series that were computed of its frames. MCAP files of other
-// programs are read as far as they have images of one channel.
+// programs are read as far as they have images with one value per pixel.
 #pragma once
 
 #include <cstddef>
@@ -113,24 +113,34 @@ struct McapRecording {
   Provenance provenance;
   std::string damage;             // one line: what is missing; empty: nothing
   std::size_t eventsLeftOut = 0;  // that are more than are read: no damage
+  // One line: messages and values of another program's file that are not used, with their count;
+  // empty: none. readMcap() also adds it to the warnings of the profile (lostText()).
+  std::string lost = {};
 };
 
 // Reads a whole MCAP file through, all its checksums, and opens it. Of another program's file each
 // topic of images becomes a matrix of a plain hand, in the order of the topics' names: messages
-// sensor_msgs/msg/Image (CDR) of the encodings mono8, mono16, 8UC1, 16UC1, 32FC1. A frame is made
-// at every stamp of any of them and holds the last image of each; the angles are those of the first
-// topic of sensor_msgs/msg/JointState, as if all joints turned. Throws FileError; FormatError
-// where it is cut off, damaged, compressed in another way, of a newer layout, where images have
-// several sizes, or none is there; Cancelled.
+// sensor_msgs/msg/Image (CDR) and foxglove.RawImage (protobuf) of the encodings mono8, mono16,
+// 8UC1, 16UC1, 32FC1, at most 256 x 256. A frame is made at every stamp of any of them and holds
+// the last image of each. The angles are those of the first topic of sensor_msgs/msg/JointState, by
+// the names of the joints; each sample has the last value of each joint. Where the stamps of a
+// topic don't ascend, all times are log times. What is left out as it can't be tactile data, and
+// what is guessed, is in info().warnings of the profile; messages and values that are lost are in
+// `lost`. `topics`: reads only these topics of another program's file. Throws FileError
+// (`topics` for a recording of Palpate's); FormatError where it is cut off, damaged, compressed in
+// another way, of a newer layout, where it has no images or one of `topics` can't be read;
+// Cancelled.
 McapRecording readMcap(const std::filesystem::path& path,
                        const Progress& progress = {},
-                       std::size_t threads = 0);
+                       std::size_t threads = 0,
+                       const std::vector<std::string>& topics = {});
 // Reads what can be read of a file that is cut off or damaged: without chunks whose checksum is
 // wrong, and up to where it was cut. Throws FileError, FormatError (nothing can be read),
 // Cancelled.
 McapRecording recoverMcap(const std::filesystem::path& path,
                           const Progress& progress = {},
-                          std::size_t threads = 0);
+                          std::size_t threads = 0,
+                          const std::vector<std::string>& topics = {});
 // The events, or the meta data, of a file that Palpate has written; of other files none.
 // Only what they need is read. Throw as readMcap(). Events beyond kMaxMcapEventsBytes are left out
 // and counted.

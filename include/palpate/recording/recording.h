@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <palpate/core/output_file.h>
@@ -24,6 +25,17 @@ namespace palpate {
 Profile openRecording(const std::filesystem::path& path,
                       const Progress& progress = {},
                       std::size_t threads = 0);
+// As openRecording(), with only these topics of an MCAP file of another program; none: all. Throws
+// FileError where other files are given topics.
+Profile openTopics(const std::filesystem::path& path,
+                   const std::vector<std::string>& topics,
+                   const Progress& progress = {},
+                   std::size_t threads = 0);
+
+// What readers say of data of the file that a profile doesn't have, with its count: the warning
+// that begins with kLostWarning, without that; empty: nothing. Commands end with exit code 3 then.
+inline constexpr std::string_view kLostWarning = "lost: ";
+std::string lostText(const Profile& profile);
 
 // Whether a file is a native recording; if not, it is taken for a .dsa. The first bytes tell; where
 // they are neither SQLite's nor those of a .dsa (damaged), the ending of the name does. Throws
@@ -50,6 +62,11 @@ struct ReadableRecording {
 ReadableRecording readableRecording(const std::filesystem::path& path,
                                     const Progress& progress = {},
                                     std::size_t threads = 0);
+// As readableRecording(), with topics as openTopics().
+ReadableRecording readableTopics(const std::filesystem::path& path,
+                                 const std::vector<std::string>& topics,
+                                 const Progress& progress = {},
+                                 std::size_t threads = 0);
 
 struct VerifyReport {
   enum class State { kSound, kDamaged, kUnreadable };
@@ -119,11 +136,12 @@ struct RecoverReport {
   std::string message;  // one line: what was saved, what is lost
 };
 // Saves what can be saved of a damaged or unfinished recording; IN is never touched, OUT is not
-// made when there is nothing to save. Throws FileError, FormatError (no recording at all),
-// Cancelled.
+// made when there is nothing to save. `topics` as of openTopics(). Throws FileError, FormatError
+// (no recording at all), Cancelled.
 RecoverReport recoverRecording(const std::filesystem::path& in,
                                const std::filesystem::path& out,
                                Overwrite overwrite = Overwrite::kRefuse,
-                               const Progress& progress = {});
+                               const Progress& progress = {},
+                               const std::vector<std::string>& topics = {});
 
 }  // namespace palpate

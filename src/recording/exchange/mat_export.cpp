@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/model/active_taxels.h"
 
 #include "recording/exchange/mat_file.h"
 #include "recording/profile_meta.h"
@@ -208,8 +209,8 @@ class MatExport {
     const std::size_t cells = profile_.layout().matrix(m).numCells();
     std::vector<std::uint8_t> active(cells);
     forEachFrame([&](const TactileFrame& frame) {
-      const float* own = frame.values.data() + profile_.layout().offset(m);
-      for (std::size_t k = 0; k < cells; ++k) active[k] = own[k] > 0.0F;
+      const std::size_t begin = profile_.layout().offset(m);
+      for (std::size_t k = 0; k < cells; ++k) active[k] = isActive(frame, begin + k);
       sink(matBytesOf(active));
     });
   }

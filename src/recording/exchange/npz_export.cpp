@@ -8,6 +8,7 @@
 #include "palpate/core/json.h"
 #include "palpate/core/output_file.h"
 #include "palpate/core/time.h"
+#include "palpate/model/active_taxels.h"
 #include "palpate/recording/table_export.h"
 
 #include "recording/event_sidecar.h"
@@ -273,8 +274,9 @@ void writeActive(ZipWriter& zip, const Profile& profile, std::size_t m) {
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     profile.readFrame(i, frame);
-    const auto values = frame.matrix(m);
-    for (Eigen::Index k = 0; k < values.size(); ++k) array.u8(values.data()[k] > 0.0F ? 1 : 0);
+    const std::size_t begin = profile.layout().offset(m);
+    for (std::size_t k = 0; k < profile.layout().matrix(m).numCells(); ++k)
+      array.u8(isActive(frame, begin + k) ? 1 : 0);
   }
   array.end();
 }

@@ -340,9 +340,13 @@ class Hdf5Storage final : public ProfileStorage {
     counts_ = anyCounts;
     if (file_->has("tactile/filtered")) {
       filtered_.emplace(ofFrames("tactile/filtered", {timesUs_.size()}, {Hdf5Kind::kInteger}));
-      for (std::size_t m = 0; m < layout_.numMatrices(); ++m)
-        active_.push_back(
-            ofFrames(hdf5_layout::matrixPath(m) + "_active", shapeOf(m), {Hdf5Kind::kInteger}));
+      for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
+        const std::string path = hdf5_layout::matrixPath(m);
+        // Older files have them under the other name.
+        kept_.push_back(ofFrames(path + (file_->has(path + "_kept") ? "_kept" : "_active"),
+                                 shapeOf(m),
+                                 {Hdf5Kind::kInteger}));
+      }
     }
     // A block is a chunk, but not more than fits into memory.
     const std::size_t fitting = (16u << 20) / (layout_.numCells() * sizeof(float)) + 1;
@@ -382,7 +386,7 @@ class Hdf5Storage final : public ProfileStorage {
     for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
       const std::size_t cells = layout_.matrix(m).numCells();
       for (std::size_t k = 0; k < cells; ++k)
-        if (block->active[m][at * cells + k] == 0) out.values[layout_.offset(m) + k] = 0.0F;
+        if (block->kept[m][at * cells + k] == 0) out.values[layout_.offset(m) + k] = 0.0F;
     }
   }
   std::size_t numAngles() const override { return angles_.timesUs().size(); }
@@ -416,7 +420,7 @@ class Hdf5Storage final : public ProfileStorage {
     std::vector<std::vector<float>> values;
     std::vector<std::int64_t> deviceTimes;
     std::vector<std::uint8_t> filtered;
-    std::vector<std::vector<std::uint8_t>> active;
+    std::vector<std::vector<std::uint8_t>> kept;
   };
 
   std::vector<std::uint64_t> shapeOf(std::size_t m) const {
@@ -523,8 +527,8 @@ class Hdf5Storage final : public ProfileStorage {
     block->filtered.resize(count);
     filtered_->read<std::uint8_t>(first, count, Hdf5Number::kU8, block->filtered);
     for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
-      auto& active = block->active.emplace_back(count * layout_.matrix(m).numCells());
-      active_[m].read<std::uint8_t>(first, count, Hdf5Number::kU8, active);
+      auto& kept = block->kept.emplace_back(count * layout_.matrix(m).numCells());
+      kept_[m].read<std::uint8_t>(first, count, Hdf5Number::kU8, kept);
     }
     return block;
   }
@@ -546,7 +550,7 @@ class Hdf5Storage final : public ProfileStorage {
   std::optional<ReadArray> deviceTimes_;
   std::optional<ReadArray> filtered_;
   std::vector<ReadArray> matrices_;
-  std::vector<ReadArray> active_;
+  std::vector<ReadArray> kept_;
   bool counts_ = true;
   std::size_t framesPerBlock_ = 1;
   mutable std::mutex mutex_;                                    // over the cache

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "palpate/core/bounded_queue.h"
 #include "palpate/core/error.h"
+#include "palpate/model/active_taxels.h"
 #include "palpate/recording/hdf5_recording.h"
 
 #include "recording/hdf5/chunk_compression.h"
@@ -378,6 +378,7 @@ class Hdf5Writer {
     ChunkedArray* isFiltered = nullptr;   // of a recording of floats
     std::vector<ChunkedArray*> matrices;
     std::vector<ChunkedArray*> active;  // of a recording of floats
+    std::vector<ChunkedArray*> kept;    // of a recording of floats
     std::size_t perChunk = 1;
   };
 
@@ -428,9 +429,13 @@ class Hdf5Writer {
         smallArray(path + "_dynamic_mask", u8(), {rows, columns}, layout.dynamicMask.data());
     frames.matrices.push_back(&array);
     if (counts) return;
-    ChunkedArray& active = chunkedArray(path + "_active", u8(), shape, chunk);
-    attachScale(active.id.get(), frames.times->id.get(), 0);
-    frames.active.push_back(&active);
+    const auto mask = [&](const char* ending) {
+      ChunkedArray& made = chunkedArray(path + ending, u8(), shape, chunk);
+      attachScale(made.id.get(), frames.times->id.get(), 0);
+      return &made;
+    };
+    frames.active.push_back(mask("_active"));
+    frames.kept.push_back(mask("_kept"));
   }
 
   FrameArrays makeFrameArrays() {
@@ -485,10 +490,13 @@ class Hdf5Writer {
     Bytes isFiltered(counts ? 0 : frames.perChunk);
     std::vector<Bytes> values(layout.numMatrices());
     std::vector<Bytes> active(counts ? 0 : layout.numMatrices());
+    std::vector<Bytes> kept(active.size());
     for (std::size_t m = 0; m < values.size(); ++m) {
       const std::size_t cells = frames.perChunk * layout.matrix(m).numCells();
       values[m].resize(cells * (counts ? 2 : 4));
-      if (!counts) active[m].resize(cells);
+      if (counts) continue;
+      active[m].resize(cells);
+      kept[m].resize(cells);
     }
     bool anyDevice = false;
     for (std::size_t i = 0; i < frames.perChunk; ++i)
@@ -515,13 +523,11 @@ class Hdf5Writer {
                                         " of a recording of counts has another value");
         } else {
           std::memcpy(values[m].data() + at * cells * 4, all, cells * 4);
-          const float* own = frame.values.data() + layout.offset(m);
-          // Of a filtered frame: where `values` has what the filters gave, also where that is below
-          // zero; elsewhere it is +0.
-          const bool filtered = !frame.filtered.empty();
-          for (std::size_t k = 0; k < cells; ++k)
-            active[m][at * cells + k] =
-                filtered ? std::bit_cast<std::uint32_t>(own[k]) != 0 : own[k] > 0.0F;
+          const std::size_t begin = layout.offset(m);
+          for (std::size_t k = 0; k < cells; ++k) {
+            active[m][at * cells + k] = isActive(frame, begin + k);
+            kept[m][at * cells + k] = isKept(frame, begin + k);
+          }
         }
       }
     }
@@ -531,7 +537,9 @@ class Hdf5Writer {
     if (frames.isFiltered) addChunk(*frames.isFiltered, {first}, std::move(isFiltered));
     for (std::size_t m = 0; m < values.size(); ++m) {
       addChunk(*frames.matrices[m], {first, 0, 0}, std::move(values[m]));
-      if (!counts) addChunk(*frames.active[m], {first, 0, 0}, std::move(active[m]));
+      if (counts) continue;
+      addChunk(*frames.active[m], {first, 0, 0}, std::move(active[m]));
+      addChunk(*frames.kept[m], {first, 0, 0}, std::move(kept[m]));
     }
   }
 

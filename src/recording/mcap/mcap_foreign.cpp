@@ -6,6 +6,8 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -13,8 +15,10 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/model/frame_coding.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/profile.h"
 #include "palpate/recording/palpate_schema.h"
+#include "palpate/recording/recording.h"
 
 #include "recording/mcap/mcap_format.h"
 #include "recording/mcap/mcap_messages.h"
@@ -35,6 +39,7 @@ constexpr std::uint64_t kForeignUnpackedAgain = 512u << 20;
 // Where a message is.
 struct ForeignPlace {
   std::int64_t timeUs = 0;
+  std::int64_t logUs = 0;
   std::uint32_t piece = 0;
   std::uint32_t offset = 0;  // of its data in the records of the piece
   std::uint32_t size = 0;
@@ -54,6 +59,7 @@ class ForeignChunks {
   const fs::path& path() const { return file_.path(); }
   std::size_t size() const { return pieces_.size(); }
   std::size_t numBad() const { return numBad_; }
+  const std::string& firstFault() const { return firstFault_; }
 
   // Records of a piece; nothing of a damaged one in a salvage.
   Records of(std::size_t piece) {
@@ -66,7 +72,7 @@ class ForeignChunks {
       forget(kept_.begin());
       if (!salvage_ || !dynamic_cast<const FormatError*>(&error)) throw;
       bad_[piece] = true;
-      ++numBad_;
+      if (numBad_++ == 0) firstFault_ = mcapFaultOf(path(), error);
       return nullptr;
     }
     return kept_.front().second;
@@ -124,41 +130,100 @@ class ForeignChunks {
   bool salvage_ = false;
   std::vector<bool> bad_;
   std::size_t numBad_ = 0;
+  std::string firstFault_;                                  // of a damaged piece
   Kept kept_;                                               // the latest used first
   std::unordered_map<std::size_t, Kept::iterator> places_;  // of pieces in it
   std::uint64_t keptBytes_ = 0;
 };
 
+// What a message of joints says; positions in rad or m.
+struct ForeignJoints {
+  std::int64_t timeUs = 0;
+  std::vector<std::string> names;  // may be empty
+  std::vector<double> positions;
+};
+
+// Nothing of a damaged message.
+std::optional<ForeignJoints> foreignJoints(std::string_view message) {
+  constexpr std::size_t kMaxJoints = 1024;
+  CdrReader reader(message);
+  ForeignJoints joints;
+  joints.timeUs = reader.time();
+  reader.text();  // frame_id
+  joints.names = reader.texts(kMaxJoints);
+  joints.positions = reader.doubles(kMaxJoints);
+  if (!reader.ok()) return std::nullopt;
+  return joints;
+}
+
+std::optional<McapImage> foreignImage(std::string_view message, bool isRawImage) {
+  return isRawImage ? readRawImage(message) : readRosImage(message);
+}
+
+// Puts 0 where a value is not a number. Returns how often.
+std::size_t zeroNotNumbers(std::span<float> values) {
+  std::size_t count = 0;
+  for (float& value : values)
+    if (!std::isfinite(value)) {
+      value = 0.0F;
+      ++count;
+    }
+  return count;
+}
+
+// Where the messages of a series go.
+struct ForeignTarget {
+  std::optional<std::size_t> matrix = {};  // of images
+  bool isRawImage = false;                 // foxglove.RawImage
+  bool isJoints = false;                   // neither: they are not used
+};
+
+// The columns of the angles.
+struct ForeignAngles {
+  std::map<std::string, std::size_t, std::less<>> columnOf;  // by name; empty: by position
+  std::vector<double> unitsPerSi;                            // [deg/rad] or [mm/m]
+};
+
 // Frames and angles as they are asked for.
 class ForeignStorage final : public ProfileStorage {
  public:
-  // `places`: in order of time. `matrixOf`: by series; nothing: of the joints.
+  // `places`: in order of time. `targets`: by series.
   ForeignStorage(ForeignChunks chunks,
                  std::shared_ptr<const SensorLayout> layout,
                  std::vector<ForeignPlace> places,
-                 const std::vector<std::optional<std::size_t>>& matrixOf)
+                 std::vector<ForeignTarget> targets,
+                 ForeignAngles columns)
       : chunks_(std::move(chunks)),
         layout_(std::move(layout)),
         places_(std::move(places)),
+        targets_(std::move(targets)),
+        columns_(std::move(columns)),
         images_(layout_->numMatrices()),
         shown_(layout_->numMatrices()),
         values_(layout_->numCells()) {
+    const auto numSets = std::count_if(
+        targets_.begin(), targets_.end(), [](const ForeignTarget& each) { return each.isJoints; });
+    std::map<std::uint16_t, std::size_t> sets;  // of joints, by series
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const auto at = static_cast<std::uint32_t>(i);
-      const std::int64_t timeUs = places_[i].timeUs;
-      const auto matrix = matrixOf[places_[i].series];
-      if (!matrix) {
-        angles_.push_back(at);
-        continue;
+      const ForeignTarget& target = targets_[places_[i].series];
+      if (target.matrix) {
+        images_[*target.matrix].push_back(at);
+        addSample(frames_, at);
+      } else if (target.isJoints) {
+        const auto set = sets.emplace(places_[i].series, sets.size()).first->second;
+        if (set == joints_.size()) joints_.emplace_back();
+        joints_[set].push_back(at);
+        if (static_cast<std::ptrdiff_t>(sets.size()) == numSets)
+          addSample(angles_, at);
+        else
+          ++numEarly_;
       }
-      images_[*matrix].push_back(at);
-      // Images of one stamp are one frame.
-      if (frames_.empty() || places_[frames_.back()].timeUs != timeUs)
-        frames_.push_back(at);
-      else
-        frames_.back() = at;
     }
   }
+
+  // Messages of joints before the first one of each joint: no angles are made of them.
+  std::size_t numEarly() const { return numEarly_; }
 
   std::size_t numFrames() const override { return frames_.size(); }
   std::int64_t frameTimeUs(std::size_t frame) const override {
@@ -177,32 +242,19 @@ class ForeignStorage final : public ProfileStorage {
   }
   JointAngles angles(std::size_t sample) const override {
     const std::lock_guard lock(mutex_);
-    const ForeignPlace& place = places_[angles_[sample]];
-    const auto records = chunks_.of(place.piece);
-    auto angles = foreignAngles(dataOf(records, place));
-    if (!angles) throwChanged();
-    return {place.timeUs, std::move(*angles)};
+    std::vector<std::uint32_t> latest;  // of each set of joints
+    for (const std::vector<std::uint32_t>& set : joints_) {
+      const auto behind = std::upper_bound(set.begin(), set.end(), angles_[sample]);
+      if (behind != set.begin()) latest.push_back(*std::prev(behind));
+    }
+    std::sort(latest.begin(), latest.end());
+    JointAngles result{angleTimeUs(sample), std::vector<double>(columns_.unitsPerSi.size())};
+    for (const std::uint32_t at : latest) takeAngles(places_[at], result.deg);
+    return result;
   }
   std::size_t numTemperatures() const override { return 0; }
   std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
   Temperatures temperatures(std::size_t) const override { return {}; }
-
-  // Degrees of a message; empty: it is damaged.
-  static std::optional<std::vector<double>> foreignAngles(
-      std::string_view message,
-      std::int64_t* timeUs = nullptr,
-      std::vector<std::string>* names = nullptr) {
-    CdrReader reader(message);
-    const std::int64_t stampUs = reader.time();
-    reader.text();
-    std::vector<std::string> joints = reader.texts(kMaxSampleValues);
-    std::vector<double> angles = reader.doubles(kMaxSampleValues);
-    if (!reader.ok()) return std::nullopt;
-    for (double& angle : angles) angle *= 180.0 / std::numbers::pi;
-    if (timeUs) *timeUs = stampUs;
-    if (names) *names = std::move(joints);
-    return angles;
-  }
 
  private:
   [[noreturn]] void throwChanged() const {
@@ -212,6 +264,31 @@ class ForeignStorage final : public ProfileStorage {
     if (!records || place.offset > records->size() || place.size > records->size() - place.offset)
       throwChanged();
     return std::string_view(*records).substr(place.offset, place.size);
+  }
+
+  // Messages of one stamp are one sample.
+  void addSample(std::vector<std::uint32_t>& samples, std::uint32_t at) const {
+    if (samples.empty() || places_[samples.back()].timeUs != places_[at].timeUs)
+      samples.push_back(at);
+    else
+      samples.back() = at;
+  }
+
+  void takeAngles(const ForeignPlace& place, std::vector<double>& angles) const {
+    const auto records = chunks_.of(place.piece);
+    const auto joints = foreignJoints(dataOf(records, place));
+    if (!joints || (!joints->names.empty() && joints->names.size() != joints->positions.size()))
+      throwChanged();
+    for (std::size_t i = 0; i < joints->positions.size(); ++i) {
+      std::size_t column = i;
+      if (!joints->names.empty()) {
+        const auto found = columns_.columnOf.find(joints->names[i]);
+        if (found == columns_.columnOf.end()) continue;
+        column = found->second;
+      }
+      if (column >= angles.size()) throwChanged();
+      angles[column] = joints->positions[i] * columns_.unitsPerSi[column];
+    }
   }
 
   // Puts the last image of a matrix that is not behind a place into `values_`.
@@ -229,9 +306,10 @@ class ForeignStorage final : public ProfileStorage {
     if (shown_[matrix] == at) return;
     const ForeignPlace& place = places_[at];
     const auto records = chunks_.of(place.piece);
-    const auto image = readRosImage(dataOf(records, place));
+    const auto image = foreignImage(dataOf(records, place), targets_[place.series].isRawImage);
     if (!image || std::size_t{image->rows} * image->columns != cells) throwChanged();
     mcapPixels(*image, values_.data() + offset);
+    zeroNotNumbers(std::span(values_).subspan(offset, cells));
     shown_[matrix] = at;
   }
 
@@ -239,38 +317,68 @@ class ForeignStorage final : public ProfileStorage {
   mutable ForeignChunks chunks_;
   std::shared_ptr<const SensorLayout> layout_;
   std::vector<ForeignPlace> places_;
+  std::vector<ForeignTarget> targets_;
+  ForeignAngles columns_;
   std::vector<std::vector<std::uint32_t>> images_;           // places, by matrix
+  std::vector<std::vector<std::uint32_t>> joints_;           // places, by set of joints
   std::vector<std::uint32_t> frames_;                        // the last place of each
-  std::vector<std::uint32_t> angles_;                        // places
+  std::vector<std::uint32_t> angles_;                        // the last place of each
+  std::size_t numEarly_ = 0;                                 // of joints
   mutable std::vector<std::optional<std::uint32_t>> shown_;  // place of each matrix in `values_`
   mutable std::vector<float> values_;
 };
 
-// A topic of images, or that of the joints.
+// A topic of images or joints.
 struct ForeignTopic {
-  std::string topic;
+  std::string name;
+  bool isJoints = false;
+  bool isRawImage = false;
+  std::string unusable = {};  // why the topic is left out as a whole
   std::uint32_t rows = 0;
   std::uint32_t columns = 0;
+  bool isBytes = true;           // of images: 8 bits per pixel
+  std::size_t messages = 0;      // that are used
+  std::size_t leftOut = 0;       // messages that are not
+  std::string firstReason = {};  // why the first of those is not
+  std::size_t notNumbers = 0;    // values that are 0 instead
+};
+
+// The images of a topic, or the messages about one set of joints.
+struct ForeignSeries {
+  std::size_t topic = 0;
   std::int64_t lastUs = 0;
-  std::size_t messages = 0;
-  bool isBytes = false;  // of images: 8 bits per pixel
+  std::int64_t lastLogUs = 0;
+  bool begun = false;
+  bool logsAscend = true;
+  std::size_t notLater = 0;  // messages whose stamp is not behind the one before
 };
 
 class ForeignReader {
  public:
-  ForeignReader(McapFile file, McapStructure structure, const Progress& progress, bool salvage)
+  ForeignReader(McapFile file,
+                McapStructure structure,
+                const std::vector<std::string>& chosen,
+                const Progress& progress,
+                bool salvage)
       : chunks_(std::move(file), std::move(structure.pieces), salvage),
         channels_(std::move(structure.channels)),
         damage_(std::move(structure.damage)),
-        progress_(progress) {}
+        chosen_(chosen),
+        progress_(progress),
+        salvage_(salvage) {}
 
   McapRecording read() {
     for (std::size_t i = 0; i < chunks_.size(); ++i) {
       reportProgress(progress_, i, chunks_.size());
       findIn(i);
     }
+    if (chunks_.numBad() > 0)
+      damage_ += (damage_.empty() ? "has " : "; ") +
+                 mcapDamagedChunksText(chunks_.numBad(), chunks_.firstFault(), "messages");
+    limitJoints();
+    requireChosen();
     requireImages();
-    sortTopics();
+    orderByTime();
     return built();
   }
 
@@ -279,34 +387,53 @@ class ForeignReader {
     throw FormatError(chunks_.path(), fault);
   }
 
+  void note(std::string text) { notes_.push_back(std::move(text)); }
+
+  // Counts a message of a topic that is not used.
+  static void leaveOut(ForeignTopic& topic, const std::string& reason) {
+    if (topic.leftOut++ == 0) topic.firstReason = reason;
+  }
+
   // The topic of a channel: its number, or nothing where its messages are of another kind.
-  std::optional<std::uint16_t> seriesOf(std::uint16_t id) {
-    const auto known = series_.find(id);
-    if (known != series_.end()) return known->second;
+  std::optional<std::size_t> topicOf(std::uint16_t id) {
+    const auto known = topicOfChannel_.find(id);
+    if (known != topicOfChannel_.end()) return known->second;
     const auto channel = channels_.channels.find(id);
     if (channel == channels_.channels.end()) return std::nullopt;
-    const auto schema = channels_.schemas.find(channel->second.schema);
-    std::optional<std::uint16_t> result;
-    if (schema != channels_.schemas.end()) {
-      const std::string& name = schema->second.name;
-      const bool isImage = name == "sensor_msgs/msg/Image" || name == "sensor_msgs/Image";
-      const bool isJoints = name == "sensor_msgs/msg/JointState";
-      if (isImage && channel->second.encoding != "cdr")
-        fail("the topic " + inQuotes(channel->second.topic) + " has images in the encoding " +
-             inQuotes(channel->second.encoding) + "; only cdr (ROS 2) is read");
-      if (isImage || (isJoints && channel->second.encoding == "cdr" && !joints_)) {
-        if (topics_.size() > kMaxMatrices) fail("has too many topics of images");
-        // Several channels of a topic (publishers) are one.
-        const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const auto& topic) {
-          return topic.topic == channel->second.topic;
-        });
-        result = static_cast<std::uint16_t>(same - topics_.begin());
-        if (same == topics_.end()) topics_.push_back({channel->second.topic});
-        if (isJoints) joints_ = result;
-      }
-    }
-    series_[id] = result;
-    return result;
+    return topicOfChannel_[id] = newTopicOf(channel->second);
+  }
+
+  std::optional<std::size_t> newTopicOf(const McapChannel& channel) {
+    if (!isChosen(channel.topic)) return std::nullopt;
+    const std::string name = schemaOf(channel);
+    const bool isRawImage = name == "foxglove.RawImage";
+    const bool isImage = name == "sensor_msgs/msg/Image" || name == "sensor_msgs/Image";
+    const bool isJoints = name == "sensor_msgs/msg/JointState" || name == "sensor_msgs/JointState";
+    if (!isRawImage && !isImage && !isJoints) return std::nullopt;
+    // Several channels of a topic (publishers) are one.
+    const auto [same, isNew] = topicOfName_.emplace(channel.topic + '\n' + name, topics_.size());
+    if (!isNew) return same->second;
+    ForeignTopic topic{.name = channel.topic, .isJoints = isJoints, .isRawImage = isRawImage};
+    const char* const read = isRawImage ? "protobuf" : "cdr";
+    if (channel.encoding != read)
+      topic.unusable = "its messages have the encoding " + inQuotes(channel.encoding) + " (only " +
+                       read + (isRawImage ? "" : ", of ROS 2,") + " is read)";
+    else if (isJoints && joints_)
+      topic.unusable = "the angles are those of " + inQuotes(topics_[*joints_].name) +
+                       " (--topic chooses topics)";
+    else if (isJoints)
+      joints_ = topics_.size();
+    topics_.push_back(std::move(topic));
+    return topics_.size() - 1;
+  }
+
+  bool isChosen(const std::string& topic) const {
+    return chosen_.empty() || std::find(chosen_.begin(), chosen_.end(), topic) != chosen_.end();
+  }
+
+  std::string schemaOf(const McapChannel& channel) const {
+    const auto schema = channels_.schemas.find(channel.schema);
+    return schema == channels_.schemas.end() ? std::string() : schema->second.name;
   }
 
   void findIn(std::size_t piece) {
@@ -323,157 +450,402 @@ class ForeignReader {
           if (opcode != mcap_format::kMessage) return;
           if (!readMcapMessage(content, message))
             fail("chunk " + std::to_string(piece) + " has a damaged message");
-          if (const auto series = seriesOf(message.channel))
-            addPlace(*series, message, piece, *records);
+          const auto topic = topicOf(message.channel);
+          if (!topic || !topics_[*topic].unusable.empty()) return;
+          if (topics_[*topic].isJoints)
+            addJoints(*topic, message, piece, *records);
+          else
+            addImage(*topic, message, piece, *records);
         });
     if (!whole) fail("chunk " + std::to_string(piece) + " is damaged: its records don't fit");
   }
 
-  void addPlace(std::uint16_t series,
+  void addImage(std::size_t index,
                 const McapMessage& message,
                 std::size_t piece,
                 const std::string& records) {
-    ForeignTopic& topic = topics_[series];
-    std::int64_t timeUs = 0;
-    bool known = true;  // values of joints that were not known are none
-    if (joints_ == series) {
-      std::vector<std::string> names;
-      const auto angles = ForeignStorage::foreignAngles(message.data, &timeUs, &names);
-      if (!angles) fail("the topic " + inQuotes(topic.topic) + " has a damaged message");
-      if (topic.messages == 0) {
-        numAngles_ = angles->size();
-        jointNames_ = std::move(names);
-      }
-      if (angles->size() != numAngles_)
-        fail("the number of joints of the topic " + inQuotes(topic.topic) + " changes");
-      known = numAngles_ > 0 && std::all_of(angles->begin(), angles->end(), [](double v) {
-                return std::isfinite(v);
-              });
-    } else {
-      const auto image = readRosImage(message.data);
-      if (!image) fail("the topic " + inQuotes(topic.topic) + " has a damaged image");
-      takeImage(*image, topic);
-      timeUs = image->timeUs;
+    ForeignTopic& topic = topics_[index];
+    const auto image = foreignImage(message.data, topic.isRawImage);
+    if (!image) return leaveOut(topic, "a damaged image");
+    const std::string fault = faultOf(*image);
+    const bool isFirst = topic.messages == 0;
+    if (isFirst && !fault.empty()) {
+      topic.unusable = fault;
+      return;
     }
-    // A message without a stamp has that of its record.
-    if (timeUs == 0) timeUs = static_cast<std::int64_t>(message.logNs / 1000);
-    if (topic.messages > 0 && timeUs <= topic.lastUs)
-      fail("the stamps of the topic " + inQuotes(topic.topic) + " don't ascend at message " +
-           std::to_string(topic.messages));
-    topic.lastUs = timeUs;
-    ++topic.messages;
-    if (!known) return;
-    if (places_.size() == kForeignMessages) fail("has too many messages");
-    places_.push_back({timeUs,
-                       static_cast<std::uint32_t>(piece),
-                       static_cast<std::uint32_t>(message.data.data() - records.data()),
-                       static_cast<std::uint32_t>(message.data.size()),
-                       series});
+    if (!fault.empty()) return leaveOut(topic, fault);
+    if (!isFirst && (image->rows != topic.rows || image->columns != topic.columns))
+      return leaveOut(topic,
+                      "the size of its images changes from " + sizeText(topic.rows, topic.columns) +
+                          " to " + sizeText(image->rows, image->columns) + " pixels");
+    if (isFirst) {
+      if (imageSeries_.size() == kMaxMatrices)
+        fail("has more than " + std::to_string(kMaxMatrices) +
+             " topics of images; choose some with --topic");
+      imageSeries_[index] = newSeries(index);
+    }
+    topic.rows = image->rows;
+    topic.columns = image->columns;
+    topic.isBytes &= mcapPixelBytes(image->encoding) == 1;
+    takePixels(*image, topic);
+    addPlace(imageSeries_[index], image->timeUs, message, piece, records);
   }
 
-  void takeImage(const McapImage& image, ForeignTopic& topic) {
+  // Why an image can't be a matrix, or an empty text.
+  static std::string faultOf(const McapImage& image) {
     if (mcapPixelBytes(image.encoding) == 0)
-      fail("the topic " + inQuotes(topic.topic) + " has images of the encoding " +
-           inQuotes(image.encoding) + "; mono8, mono16, 8UC1, 16UC1 and 32FC1 are read");
+      return "its images have the encoding " + inQuotes(image.encoding) +
+             " (mono8, mono16, 8UC1, 16UC1 and 32FC1 are read)";
     if (image.rows < 1 || image.rows > 256 || image.columns < 1 || image.columns > 256)
-      fail("the topic " + inQuotes(topic.topic) + " has images of " +
-           std::to_string(image.columns) + " x " + std::to_string(image.rows) +
-           " pixels; a matrix has at most 256 x 256 taxels");
-    if (topic.messages > 0 && (image.rows != topic.rows || image.columns != topic.columns))
-      fail("the size of the images of the topic " + inQuotes(topic.topic) + " changes at message " +
-           std::to_string(topic.messages));
-    topic.rows = image.rows;
-    topic.columns = image.columns;
-    topic.isBytes = mcapPixelBytes(image.encoding) == 1;
+      return "its images have " + sizeText(image.rows, image.columns) +
+             " pixels (a matrix has at most 256 x 256 taxels)";
+    return "";
+  }
+  static std::string sizeText(std::uint32_t rows, std::uint32_t columns) {
+    return std::to_string(columns) + " x " + std::to_string(rows);
+  }
+
+  void takePixels(const McapImage& image, ForeignTopic& topic) {
     pixels_.resize(std::size_t{image.rows} * image.columns);
     mcapPixels(image, pixels_.data());
-    for (const float value : pixels_) {
-      if (!std::isfinite(value))
-        fail("the topic " + inQuotes(topic.topic) +
-             " has an image with a value that is not a number");
-      if (value > largest_) largest_ = value;
-    }
+    topic.notNumbers += zeroNotNumbers(pixels_);
+    for (const float value : pixels_) largest_ = std::max(largest_, value);
     allCounts_ = allCounts_ && codingFor(std::span<const float>(pixels_)) == FrameCoding::kCounts;
   }
 
-  void requireImages() const {
-    for (std::size_t i = 0; i < topics_.size(); ++i)
-      if (topics_[i].messages > 0 && joints_ != i) return;
-    fail((damage_.empty() ? "" : damage_ + "; before that it ") +
-         std::string("has no images (sensor_msgs/msg/Image, CDR) that could be matrices"));
+  void addJoints(std::size_t index,
+                 const McapMessage& message,
+                 std::size_t piece,
+                 const std::string& records) {
+    ForeignTopic& topic = topics_[index];
+    const auto joints = foreignJoints(message.data);
+    if (!joints) return leaveOut(topic, "a damaged message");
+    if (joints->positions.empty()) return;  // speeds and torques are not read
+    const std::string fault = faultOf(*joints);
+    if (!fault.empty()) return leaveOut(topic, fault);
+    if (joints->names != lastJoints_ || jointSeries_.empty()) {
+      const std::set<std::string> names(joints->names.begin(), joints->names.end());
+      if (names.size() != joints->names.size()) return leaveOut(topic, "a joint is named twice");
+      const auto [set, isNew] = jointSeries_.emplace(names, 0);
+      if (isNew) {
+        set->second = newSeries(index);
+        for (const std::string& name : joints->names)
+          if (std::find(jointNames_.begin(), jointNames_.end(), name) == jointNames_.end())
+            jointNames_.push_back(name);
+        if (names.empty()) numUnnamed_ = joints->positions.size();
+        if (jointNames_.size() > kMaxSampleValues || numUnnamed_ > kMaxSampleValues ||
+            jointSeries_.size() > kMaxSampleValues) {
+          topic.unusable = "it has more than " + std::to_string(kMaxSampleValues) + " joints";
+          return;
+        }
+      }
+      lastJoints_ = joints->names;
+      lastJointSeries_ = set->second;
+    }
+    addPlace(lastJointSeries_, joints->timeUs, message, piece, records);
   }
 
-  // Matrices in the order of the names of their topics.
-  void sortTopics() {
-    for (std::size_t i = 0; i < topics_.size(); ++i)
-      if (joints_ != i && topics_[i].messages > 0) order_.push_back(i);
-    std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-      return topics_[a].topic < topics_[b].topic;
+  // Why a message of joints can't be used, or an empty text.
+  std::string faultOf(const ForeignJoints& joints) const {
+    const std::size_t size = joints.positions.size();
+    if (!joints.names.empty() && joints.names.size() != size)
+      return counted(joints.names.size(), "name") + " for " + counted(size, "position");
+    if (!std::all_of(joints.positions.begin(), joints.positions.end(), [](double position) {
+          return std::isfinite(position);
+        }))
+      return "a position that is not a number";
+    if (jointSeries_.empty()) return "";
+    if (joints.names.empty() != jointNames_.empty())
+      return "positions with names and without names";
+    if (joints.names.empty() && size != numUnnamed_)
+      return "the number of positions without names changes";
+    return "";
+  }
+
+  std::uint16_t newSeries(std::size_t topic) {
+    series_.push_back({.topic = topic});
+    return static_cast<std::uint16_t>(series_.size() - 1);
+  }
+
+  void addPlace(std::uint16_t index,
+                std::int64_t stampUs,
+                const McapMessage& message,
+                std::size_t piece,
+                const std::string& records) {
+    ForeignSeries& series = series_[index];
+    const auto logUs = static_cast<std::int64_t>(message.logNs / 1000);
+    // A message without a stamp has that of its record.
+    const std::int64_t timeUs = stampUs == 0 ? logUs : stampUs;
+    if (series.begun && timeUs <= series.lastUs) ++series.notLater;
+    if (series.begun && logUs <= series.lastLogUs) series.logsAscend = false;
+    series.lastUs = timeUs;
+    series.lastLogUs = logUs;
+    series.begun = true;
+    ++topics_[series.topic].messages;
+    if (places_.size() == kForeignMessages) fail("has too many messages");
+    places_.push_back({timeUs,
+                       logUs,
+                       static_cast<std::uint32_t>(piece),
+                       static_cast<std::uint32_t>(message.data.data() - records.data()),
+                       static_cast<std::uint32_t>(message.data.size()),
+                       index});
+  }
+
+  // Takes back the messages of a topic that turned out to have too many joints.
+  void limitJoints() {
+    if (!joints_ || topics_[*joints_].unusable.empty()) return;
+    std::erase_if(places_, [&](const ForeignPlace& place) {
+      return series_[place.series].topic == *joints_;
     });
-    if (order_.size() > kMaxMatrices) fail("has too many topics of images");
+    for (const auto& [names, series] : jointSeries_) series_[series] = {.topic = *joints_};
+    topics_[*joints_].messages = 0;
+    jointSeries_.clear();
+    jointNames_.clear();
+    numUnnamed_ = 0;
+  }
+
+  // The topics of the file with what their messages are.
+  std::string topicsText() const {
+    constexpr std::size_t kMaxListed = 8;
+    std::map<std::string, std::string> texts;
+    for (const auto& [id, channel] : channels_.channels)
+      texts.emplace(channel.topic,
+                    shortened(schemaOf(channel)) + ", " + shortened(channel.encoding));
+    for (const ForeignTopic& topic : topics_)
+      if (!topic.unusable.empty() || !topic.firstReason.empty())
+        texts[topic.name] = topic.unusable.empty() ? topic.firstReason : topic.unusable;
+    if (texts.empty()) return "it has no topics";
+    std::string list;
+    std::size_t listed = 0;
+    for (const auto& [topic, text] : texts)
+      if (listed++ < kMaxListed) list += (list.empty() ? "" : "; ") + inQuotes(topic) + ": " + text;
+    return "its topics: " + list +
+           (listed > kMaxListed ? "; and " + std::to_string(listed - kMaxListed) + " more" : "");
+  }
+
+  std::string afterDamage() const { return damage_.empty() ? "" : damage_ + "; before that it "; }
+
+  // All topics that were asked for must be usable.
+  void requireChosen() const {
+    for (const std::string& name : chosen_) {
+      const auto topic = std::find_if(
+          topics_.begin(), topics_.end(), [&](const auto& each) { return each.name == name; });
+      if (topic == topics_.end())
+        fail(afterDamage() + "has no topic " + inQuotes(name) + " with images or joint states; " +
+             topicsText());
+      if (!topic->unusable.empty())
+        fail("the topic " + inQuotes(name) + " can't be read: " + topic->unusable);
+    }
+  }
+
+  void requireImages() const {
+    if (!imageSeries_.empty()) return;
+    fail(afterDamage() +
+         "has no images that could be matrices (sensor_msgs/msg/Image in cdr or foxglove.RawImage, "
+         "at most 256 x 256); " +
+         topicsText());
+  }
+
+  // By the stamps of the headers. Where these don't ascend, by the log times; where those don't,
+  // either, the messages are sorted, and of those of one stamp the first is taken.
+  void orderByTime() {
+    const bool stampsAscend = std::all_of(
+        series_.begin(), series_.end(), [](const auto& each) { return each.notLater == 0; });
+    const bool logsAscend = std::all_of(
+        series_.begin(), series_.end(), [](const auto& each) { return each.logsAscend; });
+    if (!stampsAscend && logsAscend) {
+      for (ForeignPlace& place : places_) place.timeUs = place.logUs;
+      for (const ForeignSeries& series : series_)
+        if (series.notLater > 0)
+          note(counted(series.notLater, "stamp") + " of the topic " +
+               inQuotes(topics_[series.topic].name) +
+               (series.notLater == 1 ? " repeats or comes" : " repeat or come") +
+               " late: all times are the file's log times instead");
+    }
     std::stable_sort(places_.begin(), places_.end(), [](const auto& a, const auto& b) {
       return a.timeUs < b.timeUs;
     });
+    if (stampsAscend || logsAscend) return;
+    for (const ForeignSeries& series : series_)
+      if (series.notLater > 0)
+        note("stamps of the topic " + inQuotes(topics_[series.topic].name) +
+             " repeat or come late: its messages are sorted by them");
+    std::vector<std::optional<std::int64_t>> last(series_.size());
+    std::erase_if(places_, [&](const ForeignPlace& place) {
+      if (std::exchange(last[place.series], place.timeUs) != place.timeUs) return false;
+      leaveOut(topics_[series_[place.series].topic], "its stamp is that of another message");
+      return true;
+    });
   }
 
-  HandDescription handOf(const std::shared_ptr<const SensorLayout>& layout) const {
-    HandDescription hand = describeHand(*layout, numAngles_, 0);
+  // Topics of images, in the order of their names.
+  std::vector<std::size_t> matrixTopics() const {
+    std::vector<std::size_t> order;
+    for (const auto& [topic, series] : imageSeries_) order.push_back(topic);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return topics_[a].name < topics_[b].name;
+    });
+    return order;
+  }
+
+  // Takes the joints in the order of the hand's axes, by the names of the axes or of the URDF's
+  // joints. Returns false, and changes nothing, where an axis isn't found.
+  bool takeAxes(const HandDescription& hand) {
+    std::vector<std::string> ordered;
+    for (std::size_t axis = 0; axis < hand.axes.size(); ++axis) {
+      std::vector<std::string> known{hand.axes[axis].name};
+      if (axis < hand.file->axisJoints.size())
+        known.insert(
+            known.end(), hand.file->axisJoints[axis].begin(), hand.file->axisJoints[axis].end());
+      const auto found =
+          std::find_first_of(jointNames_.begin(), jointNames_.end(), known.begin(), known.end());
+      if (found == jointNames_.end()) return false;
+      ordered.push_back(*found);
+    }
+    jointNames_ = std::move(ordered);
+    return true;
+  }
+
+  HandDescription handOf(const std::shared_ptr<const SensorLayout>& layout,
+                         const std::vector<std::size_t>& order) {
+    HandDescription hand = describeHand(*layout, 0, 0);
     hand.layout = layout;
+    if (hand.file && !hand.axes.empty() && takeAxes(hand)) return hand;
+    const std::size_t numAngles = std::max(jointNames_.size(), numUnnamed_);
+    const bool sameNumber = numAngles == hand.axes.size();
+    hand = withSeriesOf(std::move(hand), numAngles, 0);
+    if (hand.file && sameNumber && !jointNames_.empty())
+      note("the joints are taken for the axes of " + hand.name +
+           " in the order of the file, since their names are others");
+    if (!hand.file || !sameNumber)
+      for (std::size_t i = 0; i < hand.axes.size() && i < jointNames_.size(); ++i)
+        hand.axes[i].name = jointNames_[i];
     if (hand.file) return hand;  // a hand of these sizes is known
-    for (std::size_t m = 0; m < order_.size(); ++m)
-      hand.matrices[m].name = hand.matrices[m].shortName = topics_[order_[m]].topic;
-    for (std::size_t i = 0; i < hand.axes.size() && i < jointNames_.size(); ++i)
-      hand.axes[i].name = jointNames_[i];
-    const bool bytes = std::all_of(
-        order_.begin(), order_.end(), [&](std::size_t i) { return topics_[i].isBytes; });
+    for (std::size_t m = 0; m < order.size(); ++m)
+      hand.matrices[m].name = hand.matrices[m].shortName = topics_[order[m]].name;
+    const bool bytes =
+        std::all_of(order.begin(), order.end(), [&](std::size_t i) { return topics_[i].isBytes; });
     constexpr float kMostOfBytes = 255.0F;
     hand.maximumCounts = bytes ? kMostOfBytes : std::max(hand.maximumCounts, std::ceil(largest_));
     hand.saturationCounts = hand.maximumCounts;
     return hand;
   }
 
+  std::vector<ForeignTarget> targetsOf(const std::vector<std::size_t>& order) const {
+    std::vector<ForeignTarget> targets(series_.size());
+    for (std::size_t m = 0; m < order.size(); ++m) {
+      const std::uint16_t series = imageSeries_.at(order[m]);
+      targets[series] = {.matrix = m, .isRawImage = topics_[order[m]].isRawImage};
+    }
+    for (const auto& [names, series] : jointSeries_) targets[series] = {.isJoints = true};
+    return targets;
+  }
+
+  ForeignAngles anglesOf(const HandDescription& hand) const {
+    ForeignAngles angles;
+    for (std::size_t i = 0; i < jointNames_.size(); ++i) angles.columnOf[jointNames_[i]] = i;
+    const std::size_t numAngles = std::max(jointNames_.size(), numUnnamed_);
+    for (std::size_t i = 0; i < numAngles; ++i)
+      angles.unitsPerSi.push_back(
+          i < hand.axes.size() && hand.axes[i].isSliding ? 1000.0 : 180.0 / std::numbers::pi);
+    return angles;
+  }
+
+  void noteTopics(std::size_t numEarly) {
+    for (const ForeignTopic& topic : topics_)
+      if (!topic.unusable.empty())
+        note("the topic " + inQuotes(topic.name) + " is left out: " + topic.unusable);
+    if (jointSeries_.size() > 1) noteJoints(numEarly);
+    constexpr std::size_t kMaxNotes = 20;
+    if (notes_.size() <= kMaxNotes) return;
+    const std::size_t more = notes_.size() - kMaxNotes;
+    notes_.resize(kMaxNotes);
+    note("and " + counted(more, "more note"));
+  }
+
+  void noteJoints(std::size_t numEarly) {
+    note("the messages of " + inQuotes(topics_[*joints_].name) +
+         " have different joints, which are put together by name" +
+         (numEarly == 0
+              ? std::string()
+              : "; the first " + counted(numEarly, "message") + ", before all joints are known, " +
+                    (numEarly == 1 ? "gives" : "give") + " no angles"));
+  }
+
+  std::string lostOfTopics() const {
+    constexpr std::size_t kMaxListed = 8;
+    std::string text;
+    std::size_t listed = 0;
+    const auto add = [&](std::size_t count,
+                         const char* what,
+                         const std::string& topic,
+                         const std::string& rest) {
+      if (count == 0 || ++listed > kMaxListed) return;
+      text += (text.empty() ? "" : "; ") + counted(count, what) + " of the topic " +
+              inQuotes(topic) + (count == 1 ? " is " : " are ") + rest;
+    };
+    for (const ForeignTopic& topic : topics_) {
+      if (!topic.unusable.empty()) continue;
+      add(topic.leftOut, "message", topic.name, "left out (the first: " + topic.firstReason + ")");
+      add(topic.notNumbers, "value", topic.name, "taken as 0 (NaN or infinite)");
+    }
+    return listed > kMaxListed ? text + "; and more" : text;
+  }
+
   McapRecording built() {
+    const std::vector<std::size_t> order = matrixTopics();
     std::vector<MatrixLayout> matrices;
     std::size_t cells = 0;
-    for (const std::size_t i : order_) {
+    for (const std::size_t i : order) {
       // The pitch of foreign images is not known.
       matrices.push_back(MatrixLayout::full(
           static_cast<int>(topics_[i].rows), static_cast<int>(topics_[i].columns), 1.0));
       cells += matrices.back().numCells();
     }
-    if (cells > kMaxPlaces) fail("has too many pixels for one hand");
+    if (cells > kMaxPlaces) fail("has too many pixels for one hand; choose topics with --topic");
     const auto layout = std::make_shared<const SensorLayout>(std::move(matrices));
     chunks_.requireOrder(places_, progress_);
-    std::vector<std::optional<std::size_t>> matrixOf(topics_.size());
-    for (std::size_t m = 0; m < order_.size(); ++m) matrixOf[order_[m]] = m;
-    HandDescription hand = handOf(layout);
+    HandDescription hand = handOf(layout, order);
+    const ForeignAngles angles = anglesOf(hand);
+    const std::size_t numColumns = angles.unitsPerSi.size();
+    auto storage = std::make_shared<ForeignStorage>(
+        std::move(chunks_), layout, std::move(places_), targetsOf(order), angles);
+    noteTopics(storage->numEarly());
     ProfileInfo info;
     info.format = "mcap";
     info.valueType = allCounts_ ? ValueType::kCounts : ValueType::kFloat;
-    if (chunks_.numBad() > 0)
-      damage_ += (damage_.empty() ? "has " : "; ") + counted(chunks_.numBad(), "damaged chunk") +
-                 ", whose messages are lost";
-    auto storage =
-        std::make_shared<ForeignStorage>(std::move(chunks_), layout, std::move(places_), matrixOf);
-    const std::size_t axes = storage->numAngles() > 0 ? numAngles_ : 0;
+    info.warnings = std::move(notes_);
+    std::string lost = lostOfTopics();
+    if (!lost.empty() && !salvage_) info.warnings.push_back(std::string(kLostWarning) + lost);
+    const std::size_t axes = storage->numAngles() > 0 ? numColumns : 0;
     return {Profile(std::move(info), withSeriesOf(std::move(hand), axes, 0), std::move(storage)),
             {},
             {},
             {},
-            std::move(damage_)};
+            std::move(damage_),
+            0,
+            std::move(lost)};
   }
 
   ForeignChunks chunks_;
   McapChannels channels_;
   std::string damage_;
+  const std::vector<std::string>& chosen_;
   const Progress& progress_;
-  std::map<std::uint16_t, std::optional<std::uint16_t>> series_;  // by channel
+  const bool salvage_;
+  std::map<std::uint16_t, std::optional<std::size_t>> topicOfChannel_;
+  std::map<std::string, std::size_t> topicOfName_;  // by name and schema
   std::vector<ForeignTopic> topics_;
-  std::optional<std::uint16_t> joints_;
+  std::optional<std::size_t> joints_;  // topic
+  std::vector<ForeignSeries> series_;
+  std::map<std::size_t, std::uint16_t> imageSeries_;            // by topic
+  std::map<std::set<std::string>, std::uint16_t> jointSeries_;  // by the names of the joints
+  std::vector<std::string> jointNames_;                         // in the order of the file
+  std::size_t numUnnamed_ = 0;                                  // joints without names
+  std::vector<std::string> lastJoints_;                         // of the last message
+  std::uint16_t lastJointSeries_ = 0;
   std::vector<ForeignPlace> places_;
-  std::vector<std::size_t> order_;  // topics of images
-  std::size_t numAngles_ = 0;
-  std::vector<std::string> jointNames_;
+  std::vector<std::string> notes_;
   std::vector<float> pixels_;
   float largest_ = 0.0F;
   bool allCounts_ = true;
@@ -483,9 +855,10 @@ class ForeignReader {
 
 McapRecording readForeignMcap(McapFile file,
                               McapStructure structure,
+                              const std::vector<std::string>& topics,
                               const Progress& progress,
                               bool salvage) {
-  return ForeignReader(std::move(file), std::move(structure), progress, salvage).read();
+  return ForeignReader(std::move(file), std::move(structure), topics, progress, salvage).read();
 }
 
 }  // namespace palpate

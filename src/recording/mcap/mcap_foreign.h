@@ -1,4 +1,4 @@
-// MCAP files of other programs: images of one channel as the matrices of a plain hand. Private to
+// MCAP files of other programs: images as the matrices of a plain hand. Private to
 // this module.
 #pragma once
 
@@ -8,10 +8,11 @@
 
 namespace palpate {
 
-// As readMcap() says; in a salvage, damaged chunks are left out. Throws FormatError, FileError,
-// Cancelled.
+// As readMcap() says; `topics`: the only ones that are read, or empty: all. In a salvage, damaged
+// chunks are left out. Throws FormatError, FileError, Cancelled.
 McapRecording readForeignMcap(McapFile file,
                               McapStructure structure,
+                              const std::vector<std::string>& topics,
                               const Progress& progress,
                               bool salvage);
 

@@ -233,7 +233,8 @@ McapSchemaText mcapFrameSchema() {
       "int64 device_time_ms  # the controller's clock [ms]; -2^63: not known\n"
       "uint8 filtered        # 1: the values went through filters\n"
       "uint8[] active        # of a filtered frame: a bit per taxel of all matrices, the lowest\n"
-      "                      # first: 1 where the taxel is touched\n"};
+      "                      # first: 1 where the taxel is touched\n"
+      "uint8[] kept          # the same: 1 where the value counts, also where it is below 0\n"};
 }
 
 McapSchemaText mcapValuesSchema() {

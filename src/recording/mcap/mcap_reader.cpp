@@ -71,8 +71,8 @@ struct McapBlock {
   std::vector<std::int64_t> frameUs;
   std::vector<std::int64_t> deviceMs;
   std::vector<std::uint8_t> filtered;
-  std::vector<float> values;         // frames x places
-  std::vector<std::uint8_t> active;  // frames x bytes; empty where no frame is filtered
+  std::vector<float> values;       // frames x places
+  std::vector<std::uint8_t> kept;  // frames x bytes; empty where no frame is filtered
   bool anyFloat = false;
   std::vector<std::int64_t> angleUs;
   std::vector<double> angles;  // rows x width
@@ -225,10 +225,10 @@ class McapOwnFile {
     block.deviceMs.pop_back();
     block.filtered.pop_back();
     block.values.resize(block.frameUs.size() * layout_.numCells());
-    if (!block.active.empty()) block.active.resize(block.frameUs.size() * activeBytes());
+    if (!block.kept.empty()) block.kept.resize(block.frameUs.size() * maskBytes());
   }
 
-  std::size_t activeBytes() const { return (layout_.numCells() + 7) / 8; }
+  std::size_t maskBytes() const { return (layout_.numCells() + 7) / 8; }
 
   void findChannels(const McapChannels& channels, std::int64_t numMatrices) {
     if (numMatrices < 1 || numMatrices > static_cast<std::int64_t>(kMaxMatrices))
@@ -330,14 +330,16 @@ class McapOwnFile {
     block.values.resize(block.frameUs.size() * layout_.numCells());
     if (!reader.ok()) return false;
     if (block.filtered.back() == 0) {
-      if (!block.active.empty()) block.active.resize(block.frameUs.size() * activeBytes());
+      if (!block.kept.empty()) block.kept.resize(block.frameUs.size() * maskBytes());
       return active.empty();
     }
-    if (active.size() != activeBytes()) return false;
-    block.active.resize(block.frameUs.size() * activeBytes());
-    std::copy(active.begin(),
-              active.end(),
-              block.active.end() - static_cast<std::ptrdiff_t>(active.size()));
+    // Older files have only `active`, for both.
+    std::string_view kept = reader.bytes();
+    if (!reader.ok()) kept = active;
+    if (active.size() != maskBytes() || kept.size() != maskBytes()) return false;
+    block.kept.resize(block.frameUs.size() * maskBytes());
+    std::copy(
+        kept.begin(), kept.end(), block.kept.end() - static_cast<std::ptrdiff_t>(kept.size()));
     return true;
   }
 
@@ -456,22 +458,22 @@ class McapStorage final : public ProfileStorage {
              areSmallMcapPieces(raw += pieces_[first + count].rawSize))
         ++count;
       std::vector<McapBlock> blocks(count);
-      std::vector<char> bad(count, 0);
+      std::vector<std::string> faults(count);
       forEachInParallel(
           count,
           [&](std::size_t i) {
             try {
               blocks[i] = readBlock(first + i);
-            } catch (const FormatError&) {
+            } catch (const FormatError& error) {
               if (!salvage) throw;
               blocks[i] = {};
-              bad[i] = 1;
+              faults[i] = mcapFaultOf(file_.path(), error);
             }
           },
           {},
           threads);
       for (std::size_t i = 0; i < count; ++i) {
-        if (bad[i] != 0) ++damaged;
+        if (!faults[i].empty() && damaged++ == 0) firstFault_ = faults[i];
         take(blocks[i], first + i);
       }
     }
@@ -484,6 +486,7 @@ class McapStorage final : public ProfileStorage {
   std::size_t temperatureWidth() const { return temperatures_.width; }
   McapEvents& events() { return events_; }
   std::size_t cutFrames() const { return cutFrames_; }
+  const std::string& firstFault() const { return firstFault_; }  // of a damaged chunk
 
   std::size_t numFrames() const override { return frames_.timesUs.size(); }
   std::int64_t frameTimeUs(std::size_t frame) const override { return frames_.timesUs[frame]; }
@@ -500,9 +503,9 @@ class McapStorage final : public ProfileStorage {
     out.filtered.clear();
     if (block->filtered[at] == 0) return;
     out.filtered = out.values;
-    const std::uint8_t* const active = block->active.data() + at * ((cells + 7) / 8);
+    const std::uint8_t* const kept = block->kept.data() + at * ((cells + 7) / 8);
     for (std::size_t k = 0; k < cells; ++k)
-      if ((active[k / 8] >> k % 8 & 1) == 0) out.values[k] = 0.0F;
+      if ((kept[k / 8] >> k % 8 & 1) == 0) out.values[k] = 0.0F;
   }
   std::size_t numAngles() const override { return angles_.timesUs.size(); }
   std::int64_t angleTimeUs(std::size_t sample) const override { return angles_.timesUs[sample]; }
@@ -609,6 +612,7 @@ class McapStorage final : public ProfileStorage {
   McapSeriesIndex temperatures_;
   McapEvents events_;
   std::size_t cutFrames_ = 0;
+  std::string firstFault_;
   std::size_t continued_ = 0;  // images that frames have taken from chunks to come
   bool anyFloat_ = false;
   mutable std::mutex mutex_;
@@ -669,8 +673,8 @@ McapRecording openOwnMcap(McapFile file,
       meta, storage->own().layout(), storage->angleWidth(), storage->temperatureWidth());
   std::string damage = structure.damage;
   if (damaged > 0)
-    damage += (damage.empty() ? "has " : "; ") + counted(damaged, "damaged chunk") +
-              ", whose samples are lost";
+    damage += (damage.empty() ? "has " : "; ") +
+              mcapDamagedChunksText(damaged, storage->firstFault(), "samples");
   const std::size_t leftOut = storage->events().leftOut();
   std::vector<RecordingEvent> events = storage->events().take();
   return {Profile(std::move(info), std::move(hand), std::move(storage)),
@@ -682,6 +686,7 @@ McapRecording openOwnMcap(McapFile file,
 }
 
 McapRecording openMcap(const fs::path& path,
+                       const std::vector<std::string>& topics,
                        const Progress& progress,
                        std::size_t threads,
                        bool salvage) {
@@ -700,20 +705,30 @@ McapRecording openMcap(const fs::path& path,
         readMcapPiece(file, structure.pieces[i], i);
     throw FormatError(path, structure.damage + "; 'palpate recover' saves what can be read");
   }
+  if (isOwnMcap(structure) && !topics.empty())
+    throw FileError(path,
+                    "is a recording of Palpate's, which is read as a whole: leave out --topic");
   if (isOwnMcap(structure))
     return openOwnMcap(
         std::move(file), std::move(structure), part(kWalk, 1.0 - kWalk), threads, salvage);
-  return readForeignMcap(std::move(file), std::move(structure), part(kWalk, 1.0 - kWalk), salvage);
+  return readForeignMcap(
+      std::move(file), std::move(structure), topics, part(kWalk, 1.0 - kWalk), salvage);
 }
 
 }  // namespace
 
-McapRecording readMcap(const fs::path& path, const Progress& progress, std::size_t threads) {
-  return openMcap(path, progress, threads, false);
+McapRecording readMcap(const fs::path& path,
+                       const Progress& progress,
+                       std::size_t threads,
+                       const std::vector<std::string>& topics) {
+  return openMcap(path, topics, progress, threads, false);
 }
 
-McapRecording recoverMcap(const fs::path& path, const Progress& progress, std::size_t threads) {
-  return openMcap(path, progress, threads, true);
+McapRecording recoverMcap(const fs::path& path,
+                          const Progress& progress,
+                          std::size_t threads,
+                          const std::vector<std::string>& topics) {
+  return openMcap(path, topics, progress, threads, true);
 }
 
 std::string mcapEventsLeftOutText(std::size_t count) {

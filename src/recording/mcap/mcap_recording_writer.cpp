@@ -1,13 +1,12 @@
 #include "recording/mcap/mcap_recording_writer.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
-#include <numbers>
 #include <stdexcept>
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/active_taxels.h"
 #include "palpate/model/hand_file.h"
 
 #include "recording/mcap/mcap_format.h"
@@ -148,10 +147,9 @@ void McapRecordingWriter::beginAngles(std::size_t width) {
   cdr.time(0);
   const std::size_t begin = message.size();
   cdr.text("");
-  cdr.number(static_cast<std::uint32_t>(width));
-  for (std::size_t i = 0; i < width; ++i)
-    cdr.text(i < hand_.axes.size() ? mcapShownText(hand_.axes[i].name)
-                                   : "axis " + std::to_string(i));
+  joints_ = shownJoints(withSeriesOf(hand_, width, 0));
+  cdr.number(static_cast<std::uint32_t>(joints_.size()));
+  for (const HandJoint& joint : joints_) cdr.text(mcapShownText(joint.name));
   jointNames_ = message.substr(begin);
 }
 
@@ -229,14 +227,18 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
   cdr.number(frame.hostUs);
   cdr.number(frame.deviceMs.value_or(mcap_format::kNoDeviceTime));
   cdr.number(static_cast<std::uint8_t>(frame.filtered.empty() ? 0 : 1));
-  // Of a filtered frame: where `values` has what the filters gave, also where that is below zero;
-  // elsewhere it is +0.
   std::vector<std::uint8_t> active(frame.filtered.empty() ? 0 : (frame.values.size() + 7) / 8);
+  std::vector<std::uint8_t> kept(active.size());
+  const auto set = [](std::vector<std::uint8_t>& mask, std::size_t k, bool on) {
+    mask[k / 8] = static_cast<std::uint8_t>(mask[k / 8] | unsigned{on} << k % 8);
+  };
   if (!active.empty())
-    for (std::size_t k = 0; k < frame.values.size(); ++k)
-      if (std::bit_cast<std::uint32_t>(frame.values[k]) != 0)
-        active[k / 8] = static_cast<std::uint8_t>(active[k / 8] | 1u << k % 8);
+    for (std::size_t k = 0; k < frame.values.size(); ++k) {
+      set(active, k, isActive(frame, k));
+      set(kept, k, isKept(frame, k));
+    }
   cdr.sequence(std::span<const std::uint8_t>(active));
+  cdr.sequence(std::span<const std::uint8_t>(kept));
   file_.endMessage();
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) addImage(m, frame, isCounts);
   file_.endGroup();
@@ -251,11 +253,8 @@ void McapRecordingWriter::addAngles(const JointAngles& angles) {
   CdrWriter cdr(out);
   cdr.time(angles.hostUs);
   out += jointNames_;
-  std::vector<double> positions(numAngles_);
-  for (std::size_t i = 0; i < numAngles_; ++i) {
-    const bool slides = i < hand_.axes.size() && hand_.axes[i].isSliding;
-    positions[i] = slides ? angles.deg[i] / 1000.0 : angles.deg[i] * std::numbers::pi / 180.0;
-  }
+  std::vector<double> positions;
+  for (const HandJoint& joint : joints_) positions.push_back(joint.valueSi(angles.deg));
   cdr.sequence(std::span<const double>(positions));
   cdr.sequence(std::span<const double>());
   cdr.sequence(std::span<const double>());

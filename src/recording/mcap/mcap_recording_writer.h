@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "palpate/model/hand_joints.h"
 #include "palpate/recording/mcap_recording.h"
 
 #include "recording/mcap/mcap_file_writer.h"
@@ -58,6 +59,7 @@ class McapRecordingWriter {
   std::uint16_t log_ = 0;
   std::optional<std::uint16_t> angles_;
   std::uint16_t jointStates_ = 0;
+  std::vector<HandJoint> joints_;
   std::string jointNames_;  // of a JointState: from behind the stamp to before the positions
   std::optional<std::uint16_t> temperatures_;
   std::size_t numAngles_ = 0;

@@ -11,6 +11,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
 
 #include "recording/mcap/mcap_compression.h"
 #include "recording/mcap/mcap_format.h"
@@ -385,6 +386,19 @@ std::string readMcapPiece(const McapFile& file, const McapPiece& piece, std::siz
   if (piece.crc != 0 && piece.crc != mcap_format::addToCrc(0, raw))
     fail("is damaged: its checksum is wrong; 'palpate recover' saves the others");
   return raw;
+}
+
+std::string mcapFaultOf(const fs::path& path, const std::exception& error) {
+  const std::string text = error.what();
+  const std::string name = escapedLine(path.string()) + ": ";
+  return text.starts_with(name) ? text.substr(name.size()) : text;
+}
+
+std::string mcapDamagedChunksText(std::size_t count,
+                                  const std::string& firstFault,
+                                  const char* lost) {
+  return counted(count, "damaged chunk") + ", whose " + lost +
+         " are lost (the first: " + firstFault + ")";
 }
 
 bool areSmallMcapPieces(std::uint64_t rawBytes) noexcept {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -103,6 +104,13 @@ McapStructure readMcapStructure(const McapFile& file,
 // The records of a piece. Throws FormatError, which names the chunk by its number `index` and
 // place.
 std::string readMcapPiece(const McapFile& file, const McapPiece& piece, std::size_t index);
+
+// What an error says, without the name of the file that it begins with.
+std::string mcapFaultOf(const std::filesystem::path& path, const std::exception& error);
+// "2 damaged chunks, whose messages are lost (the first: ..)".
+std::string mcapDamagedChunksText(std::size_t count,
+                                  const std::string& firstFault,
+                                  const char* lost);
 
 // Returns whether unpacking some pieces at once takes little memory: of others one at a time is
 // read.

@@ -136,5 +136,28 @@ TEST(HandMesh, AnotherHandGetsBodiesToo) {
   for (const HandBody& body : bodies) expectClosed(body);
 }
 
+TEST(HandMesh, ALinkWhoseMeshCantBeReadIsABox) {
+  GeometryDescription pad;
+  pad.layout = SensorLayout({MatrixLayout::full(1, 1, 5.0)});
+  Finger finger;
+  finger.links = {denavitHartenbergLink(std::nullopt, 1.0, 0.0, 0.0, 60.0, 0.0)};
+  pad.fingers = {finger};
+  pad.surfaces.resize(1);
+  LinkShape shape;
+  shape.kind = LinkShape::Kind::kMesh;
+  shape.place = {0, 0};
+  shape.mesh = "/nowhere/link.dae";
+  pad.shapes = {shape, shape};
+  const auto bodies = handBodies(HandGeometry(pad));
+  ASSERT_EQ(bodies.size(), 1u);
+  expectClosed(bodies[0]);
+  Eigen::AlignedBox3f box;
+  for (const HandBody::Corner& corner : bodies[0].triangles) box.extend(corner.atMm);
+  // From the joint to the end of the link, where its frame is; 0.4 times as wide.
+  EXPECT_TRUE(box.min().isApprox(Eigen::Vector3f(-60.0F, -12.0F, -12.0F), 1e-5F));
+  EXPECT_NEAR(box.max().x(), 0.0F, 1e-4F);
+  EXPECT_NEAR(box.max().y(), 12.0F, 1e-4F);
+}
+
 }  // namespace
 }  // namespace palpate::gui::hand_mesh_test

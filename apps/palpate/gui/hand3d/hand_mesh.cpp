@@ -245,6 +245,37 @@ void appendSphere(HandBody& body, float radiusMm) {
     }
 }
 
+// A box from the joint of a link to its end, for a link whose mesh can't be read; a cube for the
+// base and for links without length.
+HandBody boxOf(const GeometryDescription& hand, const LinkPlace& place) {
+  constexpr double kCubeMm = 20.0;
+  constexpr double kThickness = 0.4;  // of its length
+  Vector3d joint = Vector3d::Zero();  // in the frame of the end
+  if (place.link)
+    joint = hand.fingers[place.finger]
+                .links[*place.link]
+                .jointFromEnd.inverse(Eigen::Isometry)
+                .translation();
+  const bool isLong = joint.norm() >= 1.0;
+  const double length = isLong ? joint.norm() : kCubeMm;
+  const double half = (isLong ? kThickness * length : kCubeMm) / 2.0;
+  HandBody body{.role = place.link ? HandBodyRole::kLink : HandBodyRole::kPalm,
+                .place = place,
+                .triangles = {},
+                .edges = {}};
+  const double begin = isLong ? 0.0 : -half;
+  appendExtrusion(body,
+                  {{-half, -half}, {half, -half}, {half, half}, {-half, half}},
+                  begin,
+                  begin + length,
+                  0.02 * length);
+  Eigen::Isometry3d to = Eigen::Isometry3d::Identity();
+  if (isLong)
+    to.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint).toRotationMatrix();
+  turn(body, 0, 0, to);
+  return body;
+}
+
 HandBody bodyOf(const LinkShape& shape) {
   HandBody body{.role = shape.place.link ? HandBodyRole::kLink : HandBodyRole::kPalm,
                 .place = shape.place,
@@ -363,10 +394,14 @@ void appendExtrusion(HandBody& body,
 std::vector<HandBody> handBodies(const HandGeometry& geometry) {
   const GeometryDescription& hand = geometry.description();
   std::vector<HandBody> bodies;
+  std::vector<LinkPlace> boxes;
   for (const LinkShape& shape : hand.shapes) {
     try {
       bodies.push_back(bodyOf(shape));
     } catch (const Error&) {
+      if (std::find(boxes.begin(), boxes.end(), shape.place) != boxes.end()) continue;
+      boxes.push_back(shape.place);
+      bodies.push_back(boxOf(hand, shape.place));
     }
   }
   if (!bodies.empty()) return bodies;

@@ -29,7 +29,7 @@ struct HandBody {
   std::vector<std::pair<Eigen::Vector3f, Eigen::Vector3f>> edges;
 };
 
-// A mesh that can't be read is left out; `palpate hands check` says why.
+// In the place of a mesh that can't be read the link is a box; `palpate hands check` says why.
 std::vector<HandBody> handBodies(const HandGeometry& geometry);
 
 // Appends a convex outline (counter-clockwise, x right, y up), extruded from zMin to zMax, its rims
