@@ -192,7 +192,7 @@ void TodayPage::showDay() {
     rows.push_back(
         {{.text = QString::fromStdString(utcText(grasp->timeUs)).mid(11, 8)},
          {.text = answer.name(), .tip = answer.accessibleText(), .warning = !answer.sure},
-         {.text = probabilityText(answer.best.front().p)},
+         {.text = answer.known ? probabilityText(answer.best.front().p) : QString("–")},
          {.text =
               grasp->labelledClass
                   ? QString::fromStdString(
