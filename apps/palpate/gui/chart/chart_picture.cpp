@@ -233,7 +233,7 @@ QColor inkOf(const QColor& color) {
 
 namespace {
 
-QFont fontOf(const PictureLook& look, const QCustomPlot& plot) {
+QFont chartPictureFont(const PictureLook& look, const QCustomPlot& plot) {
   QFont font = plot.font();
   font.setPixelSize(look.textUnits > 0 ? look.textUnits : QFontInfo(plot.font()).pixelSize());
   return font;
@@ -244,7 +244,7 @@ double paintHead(QPainter& painter,
                  const PictureLook& look,
                  const QCustomPlot& plot,
                  const ChartPictureOptions& options) {
-  const QFont font = fontOf(look, plot);
+  const QFont font = chartPictureFont(look, plot);
   const QFontMetricsF metrics(font);
   const QColor text = look.forPrint ? colorsOf(Theme::kLight).text : plot.xAxis->labelColor();
   double top = kChartPictureMargin * 0.6;
@@ -283,7 +283,7 @@ struct ChartBody {
   QSizeF least = {};
 };
 
-ChartBody bodyOf(QCustomPlot& plot, const PictureLook& look, double head) {
+ChartBody chartBodyOf(QCustomPlot& plot, const PictureLook& look, double head) {
   ChartBody body;
   // The layout of the picture exists only while it is painted.
   const QMetaObject::Connection laidOut =
@@ -294,7 +294,7 @@ ChartBody bodyOf(QCustomPlot& plot, const PictureLook& look, double head) {
           body.least = {std::min<double>(body.least.width(), rect->width()),
                         std::min<double>(body.least.height(), rect->height())};
       });
-  const Restyled restyled(plot, look, fontOf(look, plot));
+  const Restyled restyled(plot, look, chartPictureFont(look, plot));
   QCPPainter chart(&body.picture);
   chart.setMode(QCPPainter::pmVectorized);
   chart.setMode(QCPPainter::pmNoCaching);
@@ -302,6 +302,7 @@ ChartBody bodyOf(QCustomPlot& plot, const PictureLook& look, double head) {
   plot.toPainter(&chart,
                  std::max(1, static_cast<int>(look.size.width())),
                  std::max(1, static_cast<int>(look.size.height() - head)));
+  chart.end();
   QObject::disconnect(laidOut);
   return body;
 }
@@ -312,12 +313,12 @@ double enlargement(const PictureLook& look,
                    const QCustomPlot& plot,
                    double head,
                    const ChartBody& body) {
-  const double least = kLeastAxisLines * QFontMetricsF(fontOf(look, plot)).height();
-  const double above = std::max(look.size.height(), head + 1.0);
+  const double least = kLeastAxisLines * QFontMetricsF(chartPictureFont(look, plot)).height();
   // Axes that lie below each other share what is added.
   const auto numAxes = static_cast<double>(plot.axisRectCount());
   const double width = look.size.width() + least - body.least.width();
-  const double height = above + numAxes * (least - body.least.height());
+  const double height =
+      std::max(look.size.height(), head + 1.0) + numAxes * (least - body.least.height());
   return std::max({1.0, width / look.size.width(), height / look.size.height()});
 }
 
@@ -329,12 +330,18 @@ QRectF paintChart(QPainter& painter,
                   const ChartPictureOptions& options) {
   PictureLook inner = look;
   double head = heightOfHead(inner, plot, options);
-  ChartBody body = bodyOf(plot, inner, head);
-  const double larger = enlargement(look, plot, head, body);
-  if (larger > 1.0) {
+  ChartBody body = chartBodyOf(plot, inner, head);
+  double larger = 1.0;
+  // More than once where axes share what is added unevenly.
+  constexpr int kMostTries = 5;
+  constexpr double kEnough = 1.001;
+  for (int i = 0; i < kMostTries; ++i) {
+    const double factor = enlargement(inner, plot, head, body);
+    if (factor < kEnough) break;
+    larger *= factor;
     inner.size = look.size * larger;
     head = heightOfHead(inner, plot, options);
-    body = bodyOf(plot, inner, head);
+    body = chartBodyOf(plot, inner, head);
   }
   painter.save();
   painter.fillRect(QRectF(QPointF(), look.size),
