@@ -64,12 +64,15 @@ void EventEditing::connectRows() {
   connect(&windowState_.events, &EventController::changed, this, [this] {
     // While a live source is shown, the marks of the recording and the chosen one are kept.
     if (!windowState_.displayed.isLive()) rows_.setMarks(windowState_.events.marks());
+    if (!rows_.chosen()) walkedLane_.reset();
     showUndo();
     windowState_.actionEnabler.refresh();
   });
   connect(&rows_, &EventRows::markChosen, this, &EventEditing::show);
-  connect(
-      &rows_, &EventRows::chosenChanged, this, [this] { windowState_.actionEnabler.refresh(); });
+  connect(&rows_, &EventRows::chosenChanged, this, [this] {
+    if (!rows_.chosen()) walkedLane_.reset();
+    windowState_.actionEnabler.refresh();
+  });
   connect(&rows_, &EventRows::removeRequested, &windowState_.events, &EventController::remove);
   connect(&rows_, &EventRows::textChanged, this, [this](std::size_t mark, const QString& text) {
     std::optional<RecordingEvent> named;
@@ -201,9 +204,8 @@ void EventEditing::goToNext(int step) {
   if (rows_.marks().empty()) return;
   const double nowS = windowState_.playback.positionS();
   const auto chosen = rows_.chosen();
-  if (!chosen) walkedLane_.reset();
   const bool moved = !chosen || !shownAtS_ || *shownAtS_ != nowS;
-  const EventLane lane = walkedLane_.value_or(rows_.marks().front().lane);
+  const EventLane lane = walkedLane_.value_or(rows_.marks().at(chosen.value_or(0)).lane);
   if (!moved && rows_.marks()[*chosen].lane == lane) return rows_.chooseNext(step);
   // A label that was made at a grasp doesn't end the way from grasp to grasp.
   rows_.chooseNextFrom(nowS, step, lane, !moved);
