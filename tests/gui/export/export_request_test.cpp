@@ -72,6 +72,9 @@ TEST_F(ExportRequestTest, AChartIsHalfAsHighAsWideAndEachViewKeepsItsSize) {
   ExportedView other = chart;
   other.name = "Other";
   EXPECT_EQ(sizeFor(other, last).sizeMm, QSizeF(200.0, 100.0)) << "not exported before";
+  EXPECT_EQ(heightHintOf(last, matrices), "");
+  EXPECT_EQ(heightHintOf(last, chart),
+            "Below 40 mm the text of a chart may become smaller than typed.");
 }
 
 TEST_F(ExportRequestTest, NonsenseInTheSettingsIsReplacedByTheUsual) {

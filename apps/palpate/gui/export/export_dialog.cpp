@@ -371,7 +371,8 @@ void ExportDialog::showProblem() {
   // Offers to replace only when a file exists.
   replace_->setVisible(problemOf(keeping, view()) != problemOf(replacing, view()));
   const double needed = preview_->bytes() * static_cast<double>(preview_->numFiles());
-  const QString text = inTheWay.isEmpty() ? spaceProblemOf(now, needed) : inTheWay;
+  QString text = inTheWay.isEmpty() ? spaceProblemOf(now, needed) : inTheWay;
+  if (text.isEmpty()) text = heightHintOf(now, view());
   problem_->setText(text);
   problem_->setToolTip(text);
   ok_->setEnabled(inTheWay.isEmpty());

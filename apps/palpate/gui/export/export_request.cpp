@@ -279,6 +279,14 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
   return fileProblemOf(request);
 }
 
+QString heightHintOf(const ExportRequest& request, const ExportedView& view) {
+  const bool onPaper = request.form != ExportFormat::kCsv && request.preset != kScreenPreset &&
+                       view.leastHeight > 0.0;
+  if (!onPaper || request.sizeMm.height() >= kLeastChartMm) return {};
+  return QString("Below %1 mm the text of a chart may become smaller than typed.")
+      .arg(kLeastChartMm);
+}
+
 QString spaceProblemOf(const ExportRequest& request, double bytes) {
   const auto freeBytes = freeBytesOf(request.folder.toStdString());
   if (!freeBytes || bytes <= static_cast<double>(*freeBytes)) return {};

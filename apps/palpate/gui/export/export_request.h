@@ -150,6 +150,8 @@ QString movieProblem(const ExportedView& view);
 // What prevents the export, in one line that tells the user what to do; empty when nothing does.
 // Checks the disk.
 QString problemOf(const ExportRequest& request, const ExportedView& view);
+// What happens to a chart for which the typed height is small, in one line; empty: nothing.
+QString heightHintOf(const ExportRequest& request, const ExportedView& view);
 // Why that many bytes do not fit on the disk; empty when they do.
 QString spaceProblemOf(const ExportRequest& request, double bytes);
 
