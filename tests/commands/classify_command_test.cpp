@@ -51,6 +51,8 @@ TEST_F(ClassifyCommand, OnAnotherDayItIsNotSureWithoutAnOffset) {
   EXPECT_EQ(json.at("grasps").at(0).at("membership").asString(), "not_known_yet");
   EXPECT_NE(said.find("can't be known yet"), std::string::npos) << said;
   EXPECT_NE(said.find("label grasps of two objects"), std::string::npos) << said;
+  const auto text = palpate({"classify", model(), folder_ / "t.dsa"});
+  EXPECT_NE(text.out.find(": not known yet; most similar: "), std::string::npos) << text.out;
   const Json given = classify({folder_ / "t.dsa", "--session-offset", "0"});
   EXPECT_EQ(given.at("grasps").at(0).at("membership").asString(), "known");
   EXPECT_TRUE(given.at("grasps").at(0).at("sure").asBool()) << "the person's word";

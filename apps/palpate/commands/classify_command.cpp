@@ -13,6 +13,17 @@
 namespace palpate::commands {
 namespace {
 
+// While it isn't known whether the object is a trained one, probabilities among those say nothing.
+std::string classifiedText(const TrainedModel& model, const Prediction& prediction) {
+  if (prediction.membership == Membership::kNotKnownYet)
+    return "not known yet; most similar: " + labelOf(model, prediction.label);
+  std::string text = labelOf(model, prediction.label) + (prediction.sure ? " (sure)" : "") + ";";
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, prediction.ranking.size()); ++k)
+    text += (k == 0 ? " " : ", ") + labelOf(model, prediction.ranking[k]) + " " +
+            fixedText(prediction.p[k], 2);
+  return text;
+}
+
 void printTable(const TrainedModel& model,
                 const FeatureTable& table,
                 const std::vector<Prediction>& predictions,
@@ -20,14 +31,8 @@ void printTable(const TrainedModel& model,
   StandardOutput out;
   for (std::size_t i = 0; i < predictions.size(); ++i) {
     const FeatureRow& row = table.rows[i];
-    const Prediction& prediction = predictions[i];
-    std::string line = row.file.string() + " " + std::to_string(row.begin) + "-" +
-                       std::to_string(row.end) + ": " + labelOf(model, prediction.label) +
-                       (prediction.sure ? " (sure)" : "") + ";";
-    for (std::size_t k = 0; k < std::min<std::size_t>(3, prediction.ranking.size()); ++k)
-      line += (k == 0 ? " " : ", ") + labelOf(model, prediction.ranking[k]) + " " +
-              fixedText(prediction.p[k], 2);
-    out.write(line + "\n");
+    out.write(row.file.string() + " " + std::to_string(row.begin) + "-" + std::to_string(row.end) +
+              ": " + classifiedText(model, predictions[i]) + "\n");
   }
   if (model.adaptsToSession()) {
     const bool byZero = use.offset.origin == OffsetSource::kEmptyHand && model.sessionZero;

@@ -87,6 +87,39 @@ TEST_F(ChartPictureTest, TheCurveEndsAtTheAxes) {
       ASSERT_NE(printed.pixelColor(x, y), QColor("#c17d00")) << x << ", " << y;
 }
 
+// Title, legend and numbers would leave no room for the axes: a curve that rises on the screen
+// rises in the picture, too.
+TEST_F(ChartPictureTest, AxesWithoutRoomAreEnlargedNeverMirrored) {
+  plot_.graph(0)->setPen(QPen(QColor("#c17d00"), 1.0));
+  options_.title = "ball.dsa";
+  for (int i = 0; i < 4; ++i)
+    options_.legend.push_back({QString("finger %1 proximal").arg(i), QPen(Qt::black)});
+  for (const QSizeF& size : {QSizeF(480, 110), QSizeF(480, 40), QSizeF(90, 400), QSizeF(60, 30)}) {
+    look_.size = size;
+    QRectF axes;
+    const QImage picture =
+        pictureImage([&](QPainter& painter) { axes = paintChart(painter, look_, plot_, options_); },
+                     {.size = look_.size, .unitsPerInch = 144.0, .dpi = 1440.0});
+    EXPECT_GT(axes.height(), 0.0) << size.width() << " x " << size.height();
+    EXPECT_GT(axes.width(), 0.0);
+    EXPECT_TRUE(QRectF(QPointF(), size).contains(axes)) << size.width() << " x " << size.height();
+    // From (4, 4), cut at 4.5, to 5.5: it rises to the right.
+    const auto onCurve = [&](double share) {
+      const int x = static_cast<int>((axes.left() + share * axes.width()) * 10.0);
+      for (int y = 0; y < picture.height(); ++y)
+        if (const QColor found = picture.pixelColor(x, y); found.red() - found.blue() > 90)
+          return y / 10.0;
+      return -1.0;
+    };
+    const double first = onCurve(0.35), last = onCurve(0.65);
+    EXPECT_GT(first, 0.0);
+    EXPECT_GT(last, 0.0);
+    // (4.7, 4.7) and (5.3, 5.3) of 4.5 to 5.5 on the vertical axis: 0.6 of its height.
+    EXPECT_NEAR(first - last, 0.6 * axes.height(), 0.1 * axes.height() + 0.2)
+        << size.width() << " x " << size.height();
+  }
+}
+
 TEST_F(ChartPictureTest, TheChartIsAsBefore) {
   auto* word = wordAt(plot_, 5.0, "gap", Qt::AlignLeft, colorsOf(Theme::kDark).warning);
   auto* shade = shadeSpan(plot_, 4.5, 5.0, Theme::kDark);

@@ -321,13 +321,13 @@ TEST_F(ComparePanelTest, OverlaysGraspsAndTheirAverage) {
   ASSERT_EQ(overlaid().curves.size(), 3u);
   EXPECT_EQ(overlaid().curves[1].name, "three.dsa, grasp 2");
   EXPECT_NEAR(overlaid().curves[1].curve.zeroS, 45 * 0.05, 1e-9);
-  EXPECT_EQ(overlaid().average, nullptr);
+  EXPECT_TRUE(overlaid().averages.empty());
   EXPECT_EQ(compare().chart().graphCount(), 2 + 3);
   EXPECT_NEAR(overlaid().zeroS, 0.5, 1e-9) << "where A's first grasp begins";
   choose("compareBand", "mean ± sd");
-  ASSERT_TRUE(overlaid().average);
+  ASSERT_EQ(overlaid().averages.size(), 1u);
   // At the contact 500, 600 and 700: mean 600, standard deviation 100 (n - 1).
-  const auto& average = *overlaid().average;
+  const AverageCurve average = *overlaid().averages[0].curve;
   const auto zero = static_cast<std::size_t>(
       std::find(average.timeS.begin(), average.timeS.end(), 0.0) - average.timeS.begin());
   ASSERT_LT(zero, average.timeS.size());
@@ -339,18 +339,39 @@ TEST_F(ComparePanelTest, OverlaysGraspsAndTheirAverage) {
   choose("compareOverlay", "all grasps");
   EXPECT_EQ(overlaid().curves.size(), 5u);
   EXPECT_EQ(compare().notice(), "Left out: third.dsa has no grasp");
+  // One average for each object: 500, 600, 700 and 300, 400.
+  ASSERT_EQ(overlaid().averages.size(), 2u);
+  EXPECT_TRUE(compare().figures().startsWith("5 grasps, mean ± sd of each recording · "))
+      << compare().figures().toStdString();
   choose("compareBand", "median, 10–90 %");
-  // 300, 400, 500, 600, 700: ranks 0.4 and 3.6.
-  const auto& median = *overlaid().average;
-  const auto at = static_cast<std::size_t>(
-      std::find(median.timeS.begin(), median.timeS.end(), 0.0) - median.timeS.begin());
-  EXPECT_NEAR(median.middle[at], 500.0, 1e-9);
-  EXPECT_NEAR(median.low[at], 340.0, 1e-9);
-  EXPECT_NEAR(median.high[at], 660.0, 1e-9);
+  const auto atContact = [&](std::size_t which, const char* of) {
+    const OverlaidAverage& found = overlaid().averages.at(which);
+    EXPECT_EQ(found.of, of);
+    const auto& timeS = found.curve->timeS;
+    const auto at =
+        static_cast<std::size_t>(std::find(timeS.begin(), timeS.end(), 0.0) - timeS.begin());
+    return std::array{
+        found.curve->middle.at(at), found.curve->low.at(at), found.curve->high.at(at)};
+  };
+  // Ranks 0.2 and 1.8 of three, 0.1 and 0.9 of two.
+  const auto three = atContact(0, "three.dsa"), two = atContact(1, "two.dsa");
+  EXPECT_NEAR(three[0], 600.0, 1e-9);
+  EXPECT_NEAR(three[1], 520.0, 1e-9);
+  EXPECT_NEAR(three[2], 680.0, 1e-9);
+  EXPECT_NEAR(two[0], 350.0, 1e-9);
+  EXPECT_NEAR(two[1], 310.0, 1e-9);
+  EXPECT_NEAR(two[2], 390.0, 1e-9);
   const TextTable table = compare().averageTable();
-  EXPECT_EQ(table.header.at(3), "median [counts]");
-  EXPECT_EQ(table.header.size(), 6u + 5u);
-  EXPECT_EQ(table.row(at).at(3), "500");
+  EXPECT_EQ(table.header.at(3), "three.dsa median [counts]");
+  EXPECT_EQ(table.header.at(6), "two.dsa curves");
+  ASSERT_EQ(table.header.size(), 2u + 2u * 4u + 5u);
+  for (std::size_t i = 0; i < table.numRows; ++i)
+    if (table.row(i).at(1) == "0") {
+      EXPECT_EQ(table.row(i).at(2), "3");
+      EXPECT_EQ(table.row(i).at(3), "600");
+      EXPECT_EQ(table.row(i).at(6), "2");
+      EXPECT_EQ(table.row(i).at(7), "350");
+    }
 }
 
 TEST_F(ComparePanelTest, OverlaysAllOpenRecordings) {

@@ -11,6 +11,7 @@
 #include "gui/compare/compare_fixture.h"
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
+#include "gui/widgets/status_strip.h"
 
 namespace palpate::gui::compare_window_test {
 namespace {
@@ -31,6 +32,24 @@ TEST_F(CompareWindowTest, TakesThePlaceOfTheMatricesAndGivesItBack) {
   EXPECT_TRUE(window().feature<MatricesFeature>().panel().view().isVisible());
   EXPECT_TRUE(dock("Timeline")->isVisible());
   EXPECT_TRUE(dock("Inspect")->isVisible());
+}
+
+// The comparison is of the recordings as they are: the status line agrees.
+TEST_F(CompareWindowTest, TheStatusLineIsNotOfFilteredValues) {
+  open({"early.dsa", "late.dsa"});
+  ActiveFilters& filters = window().state().activeFilters;
+  filters.editor().setRecipe(parseRecipe(std::vector<std::string>{"gaussian:size=5"}));
+  filters.setOn(true);
+  filters.wait();
+  QCoreApplication::processEvents();
+  playback().seekFrame(12);  // the third one of 500, 501, ..
+  const auto status = [this] { return find<StatusStrip>("statusStrip")->status(); };
+  EXPECT_TRUE(status().state.contains("filtered"));
+  compareNow();
+  EXPECT_FALSE(status().state.contains("filtered")) << status().state.toStdString();
+  EXPECT_EQ(status().figures.at(1), "max 502");
+  compareNow();
+  EXPECT_TRUE(status().state.contains("filtered"));
 }
 
 // The comparison is wider than what is left beside this dock.

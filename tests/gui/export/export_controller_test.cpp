@@ -97,6 +97,36 @@ TEST_F(ExportControllerTest, EveryViewInEveryForm) {
   }
 }
 
+TEST_F(ExportControllerTest, TheViewThatWasExportedOrClickedLastComesFirst) {
+  std::vector<ExportRequest> suggested;
+  QString chosen = "Timeline";
+  exportController().ask = [&](const ExportRequest& suggestion) -> std::optional<ExportRequest> {
+    suggested.push_back(suggestion);
+    ExportRequest answer = suggestion;
+    answer.view = chosen;
+    answer.preset = 1;
+    answer.sizeMm = {85.0, 55.0};
+    answer.folder = QString::fromStdString(folder_.path().string());
+    answer.name = "a";
+    answer.replace = true;
+    return answer;
+  };
+  const auto exported = [&] {
+    exportController().exportNow();
+    exportController().waitForDone();
+    QCoreApplication::processEvents();
+    return suggested.back();
+  };
+  exported();
+  EXPECT_EQ(exported().view, "Timeline");
+  EXPECT_EQ(suggested.back().sizeMm, QSizeF(85.0, 55.0));
+  clickInto(&window().feature<MatricesFeature>().panel().view());
+  const ExportRequest ofMatrices = exported();
+  EXPECT_EQ(ofMatrices.view, "Matrices");
+  EXPECT_NE(ofMatrices.sizeMm, QSizeF(85.0, 55.0)) << "the height is that of the timeline";
+  EXPECT_EQ(exported().view, "Timeline");
+}
+
 TEST_F(ExportControllerTest, TheTimelineIsCurvesAndTextNotPixels) {
   const std::string svg = written(request("Timeline", ExportFormat::kSvg, "a"));
   EXPECT_EQ(svg.find("<image"), std::string::npos);

@@ -126,6 +126,23 @@ TEST_F(ExportDialogTest, AWidthOfOnesOwnIsAnOwnSize) {
   EXPECT_EQ(dialog_->request().sizeMm, QSizeF(100.0, 40.0));
 }
 
+TEST_F(ExportDialogTest, EachViewHasTheSizeOfItsLastExport) {
+  request_.preset = 1;
+  request_.sizeMm = {85.0, 42.5};
+  request_.sizes["Rows"] = {kOwnPreset, {60.0, 55.0}, 9.0};
+  open();
+  auto* view = find<QComboBox>("exportView");
+  view->setCurrentIndex(view->findText("Rows"));
+  EXPECT_EQ(dialog_->request().size(), request_.sizes["Rows"]);
+  view->setCurrentIndex(view->findText("Pictures"));
+  EXPECT_EQ(dialog_->request().size(), request_.size());
+  // What is chosen now is for whichever view is exported.
+  auto* preset = find<QComboBox>("exportPreset");
+  preset->setCurrentIndex(preset->findText("double column, 174 mm"));
+  view->setCurrentIndex(view->findText("Rows"));
+  EXPECT_EQ(dialog_->request().preset, 3);
+}
+
 TEST_F(ExportDialogTest, SaysPixelsMillimetresAndBytes) {
   request_.preset = kOwnPreset;
   request_.sizeMm = {127.0, 63.5};  // 5 x 2.5 inches

@@ -38,7 +38,43 @@ TEST_F(ExportRequestTest, IsRememberedButNotThatFilesMayBeReplaced) {
     saveExportRequest(request, to);
   }
   request.replace = false;
+  request.sizes = {{"Timeline", request.size()}};
   EXPECT_EQ(loadExportRequest(settings()), request);
+}
+
+// 85 mm wide for a journal: a low dock makes no flat curve, and each view has its own height.
+TEST_F(ExportRequestTest, AChartIsHalfAsHighAsWideAndEachViewKeepsItsSize) {
+  ExportedView chart, matrices;
+  chart.name = "Chart";
+  chart.leastHeight = kChartHeight;
+  chart.size = [] { return QSizeF(1350, 160); };
+  matrices.name = "Matrices";
+  matrices.size = [] { return QSizeF(800, 400); };
+  EXPECT_EQ(sizeOfPreset(1, chart), QSizeF(85.0, 42.5));
+  EXPECT_EQ(sizeOfPreset(3, chart), QSizeF(174.0, 87.0));
+  EXPECT_EQ(chart.sizeOnPaperMm(60.0), QSizeF(60.0, 40.0)) << "at least 40 mm";
+  EXPECT_EQ(sizeOfPreset(1, matrices), QSizeF(85.0, 42.5));
+  EXPECT_EQ(sizeOfPreset(kOwnPreset, chart), std::nullopt);
+  ExportRequest request;
+  request.view = "Chart";
+  request.preset = 1;
+  request.sizeMm = {85.0, 60.0};  // a height that was typed
+  request.textPt = 7.0;
+  QSettings to = settings();
+  saveExportRequest(request, to);
+  request.view = "Matrices";
+  request.preset = kOwnPreset;
+  request.sizeMm = {200.0, 30.0};
+  saveExportRequest(request, to);
+  const ExportRequest last = loadExportRequest(to);
+  EXPECT_EQ(sizeFor(chart, last), (ExportSize{1, {85.0, 60.0}, 7.0}));
+  EXPECT_EQ(sizeFor(matrices, last).sizeMm, QSizeF(200.0, 30.0));
+  ExportedView other = chart;
+  other.name = "Other";
+  EXPECT_EQ(sizeFor(other, last).sizeMm, QSizeF(200.0, 100.0)) << "not exported before";
+  EXPECT_EQ(heightHintOf(last, matrices), "");
+  EXPECT_EQ(heightHintOf(last, chart),
+            "Below 40 mm the text of a chart may become smaller than typed.");
 }
 
 TEST_F(ExportRequestTest, NonsenseInTheSettingsIsReplacedByTheUsual) {

@@ -56,6 +56,34 @@ TEST_F(MatricesViewTest, ShowsTheNextFrameAndForgetsTheLast) {
   EXPECT_EQ(middle(1, 7, 2), colorsOf(Theme::kDark).taxel);
 }
 
+// A view whose window can be moved to a screen with more pixels.
+class OnAnotherScreen : public MatricesView {
+ public:
+  double ratio = 1.0;
+
+ protected:
+  int metric(PaintDeviceMetric which) const override {
+    if (which == PdmDevicePixelRatio) return static_cast<int>(ratio);
+    if (which == PdmDevicePixelRatioScaled)
+      return static_cast<int>(ratio * devicePixelRatioFScale());
+    return MatricesView::metric(which);
+  }
+};
+
+TEST_F(MatricesViewTest, IsSharpOnAScreenWithMorePixels) {
+  OnAnotherScreen moved, there;
+  there.ratio = 2.0;
+  for (OnAnotherScreen* view : {&moved, &there}) {
+    view->resize(700, 600);
+    view->setLook({.range = {0.0, 255.0}});
+    view->setHand(sdh2());
+    view->setFrame(frame_);
+  }
+  moved.grab();
+  moved.ratio = 2.0;
+  EXPECT_EQ(moved.grab().toImage(), there.grab().toImage());
+}
+
 // Counts the pixels that a paint event covers.
 class PaintedArea : public QObject {
  public:

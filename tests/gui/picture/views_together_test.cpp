@@ -23,6 +23,15 @@ TEST(ViewsTogether, AreArrangedAsOnTheScreen) {
   EXPECT_TRUE(arrangementOf({}).places.empty());
 }
 
+// A chart in a low dock is higher on paper than on the screen.
+TEST(ViewsTogether, HeightsInThePictureMayDiffer) {
+  const Arrangement found =
+      arrangementOf({QRectF(0, 0, 1000, 400), QRectF(0, 430, 1000, 100)}, {400, 500});
+  EXPECT_EQ(found.size, QSizeF(1000, 900));
+  EXPECT_EQ(found.places[0], QRectF(0.0, 0.0, 1.0, 400.0 / 900.0));
+  EXPECT_EQ(found.places[1], QRectF(0.0, 400.0 / 900.0, 1.0, 500.0 / 900.0));
+}
+
 // A part that fills its place with a colour, and one row of it with black for each frame.
 FramePictures filled(const QColor& color, std::vector<PictureLook>* looks) {
   FramePictures pictures;

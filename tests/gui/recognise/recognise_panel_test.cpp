@@ -109,6 +109,28 @@ TEST_F(RecognisePanelTest, WithoutAnOffsetTheReasonNamesTheTouchThatWouldTell) {
   EXPECT_TRUE(reason.contains("label grasps of two objects")) << reason.toStdString();
 }
 
+// A probability among the trained objects would contradict it.
+TEST(RecognitionAnswerText, WhatIsNotKnownYetHasNoProbability) {
+  RecognitionAnswer answer;
+  answer.kind = Kind::kNamed;
+  answer.known = false;
+  answer.best = {{"tennis ball", 0.95}, {"orange", 0.04}};
+  EXPECT_EQ(answer.confidenceWord(), "not known yet");
+  EXPECT_EQ(answer.accessibleText(), "not known yet; most similar: tennis ball");
+  const auto painted = [&] {
+    QImage image(300, 300, QImage::Format_RGB32);
+    image.fill(Qt::white);
+    QPainter painter(&image);
+    paintAnswer(painter, QRectF(0, 0, 300, 300), answer, {}, Theme::kLight, 14.0);
+    return image;
+  };
+  const QImage before = painted();
+  answer.best[0].p = 0.5;
+  EXPECT_EQ(painted(), before);
+  answer.known = true;
+  EXPECT_NE(painted(), before);
+}
+
 TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
   panel_->controller().setEmulated(true);
   settle();
@@ -366,6 +388,40 @@ TEST_F(RecognisePanelTest, CapturedGraspsGoIntoTheFolderAndOutAgain) {
   panel_->teach().take(nothing.finish({}));
   EXPECT_EQ(panel_->teaching().clips()[1].state, TrainingClip::State::kWaiting);
   EXPECT_EQ(find<QPushButton>("teachAct")->text(), "Accept");
+}
+
+// A clip is being stored when another folder is chosen, and another one comes in its place.
+TEST_F(RecognisePanelTest, AClipOfAnotherFolderIsNotTakenForANewOne) {
+  for (const char* name : {"mine", "other"}) std::filesystem::create_directories(folder_ / name);
+  panel_->teaching().setFolder(folder_ / "mine");
+  settle();
+  panel_->teaching().capture("ball", graspsOf("ball", 1));
+  panel_->teaching().setFolder(folder_ / "other");
+  ProfileBuilder nothing(sdh2().layout);
+  nothing.addFrame(1'400'000'000'000'000, emptyFrame().values);
+  panel_->teaching().capture("pen", nothing.finish({}));
+  settle();
+  ASSERT_EQ(panel_->teaching().clips().size(), 1u);
+  EXPECT_EQ(panel_->teaching().clips()[0].object, "pen");
+  EXPECT_EQ(panel_->teaching().clips()[0].state, TrainingClip::State::kWaiting);
+  EXPECT_TRUE(panel_->teaching().clips()[0].path.empty());
+}
+
+TEST_F(RecognisePanelTest, AChosenClipStaysChosenWhenAnotherOneComes) {
+  std::filesystem::create_directories(folder_ / "mine");
+  panel_->teaching().setFolder(folder_ / "mine");
+  settle();
+  for (const char* object : {"ball", "cube"})
+    panel_->teaching().capture(object, graspsOf("ball", 1));
+  settle();
+  find<FiguresTable>("teachClips")->selectRow(1);  // the newest is at the top
+  ProfileBuilder nothing(sdh2().layout);
+  nothing.addFrame(1'400'000'000'000'000, emptyFrame().values);
+  panel_->teaching().capture("pen", nothing.finish({}));
+  find<QPushButton>("teachAct")->click();
+  EXPECT_EQ(panel_->teaching().clips()[0].state, TrainingClip::State::kTakenOut);
+  EXPECT_EQ(panel_->teaching().clips()[1].state, TrainingClip::State::kAccepted);
+  EXPECT_EQ(panel_->teaching().clips()[2].state, TrainingClip::State::kWaiting);
 }
 
 TEST_F(RecognisePanelTest, APhotoIsFoundByItsName) {

@@ -146,6 +146,42 @@ TEST_F(PlanControllerTest, ARecordingThatIsNotOfThePlanIsNotCounted) {
   EXPECT_EQ(controller_.progressText(), "0 of 3") << "the planned one was never begun";
 }
 
+// During the countdown of a take of "cup" an earlier take is rejected, so that "ball" would be
+// next.
+TEST_F(PlanControllerTest, AHeldTakeIsBookedOnItsRowWhateverIsEditedMeanwhile) {
+  controller_.setFollowed(true);
+  for (const char* name : {"a.palpate", "b.palpate"}) {
+    controller_.begin(0.0);
+    controller_.end(recorded(name));
+    controller_.settle();
+    controller_.keep(folder_ / name);
+  }
+  controller_.hold();
+  EXPECT_EQ(controller_.nextText(), "now: cup");
+  controller_.reject(folder_ / "a.palpate");
+  controller_.setRow(1, {.object = "mug"});
+  EXPECT_EQ(controller_.nextSettings({})->object, "mug");
+  controller_.removeRow(0);
+  controller_.begin(0.0);
+  controller_.end(recorded("c.palpate"));
+  ASSERT_EQ(controller_.plan().rows().size(), 1u);
+  ASSERT_EQ(controller_.plan().rows()[0].takes.size(), 1u);
+  EXPECT_EQ(controller_.plan().rows()[0].takes[0].file, folder_ / "c.palpate");
+  controller_.settle();
+}
+
+TEST_F(PlanControllerTest, ATakeThatWasNotBegunIsHeldNoLonger) {
+  controller_.hold();
+  EXPECT_TRUE(controller_.holds());
+  controller_.release();
+  EXPECT_FALSE(controller_.holds());
+  controller_.hold();
+  controller_.removeRow(0);
+  EXPECT_FALSE(controller_.holds()) << "its row is gone";
+  controller_.end(recorded("a.palpate"));
+  EXPECT_EQ(controller_.progressText(), "0 of 1");
+}
+
 TEST_F(PlanControllerTest, LostFramesAreAProblem) {
   controller_.begin(0.0);
   RecordingReport report = recorded("a.palpate");

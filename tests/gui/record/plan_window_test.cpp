@@ -7,6 +7,7 @@
 
 #include "gui/record/countdown_strip.h"
 #include "gui/record/record_feature.h"
+#include "gui/record/recording_countdown.h"
 #include "gui/source/recording_settings.h"
 #include "gui/testing/window_fixture.h"
 #include "recording/palpate_samples.h"
@@ -84,6 +85,38 @@ TEST_F(PlanWindowTest, TheButtonAndTheCountdownNameTheTake) {
   plan().setFollowed(false);
   EXPECT_EQ(record()->iconText(), " Record");
   EXPECT_FALSE(record()->toolTip().contains("pen"));
+}
+
+// The take that is counted down is booked on its row, under the name that the row has when the
+// recording begins.
+TEST_F(PlanWindowTest, ThePlanMayBeEditedDuringTheCountdown) {
+  connectScene();
+  plan().addRow({.object = "cup"});
+  plan().addRow({.object = "bottle"});
+  plan().setFollowed(true);
+  record()->trigger();
+  plan().setRow(0, {.object = "mug"});
+  EXPECT_TRUE(find<QLabel>("countdownText")->text().startsWith("mug: recording begins"));
+  auto* countdown = window().feature<RecordFeature>().findChild<RecordingCountdown*>();
+  ASSERT_TRUE(countdown);
+  for (int s = 0; s < 3; ++s) countdown->tick();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window().state().live.recording(); }, 20'000));
+  plan().removeRow(1);
+  record()->trigger();
+  ASSERT_EQ(plan().plan().rows().size(), 1u);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !plan().plan().rows()[0].takes.empty(); }, 20'000));
+  plan().settle();
+  const std::string name = plan().plan().rows()[0].takes[0].file.filename().string();
+  EXPECT_NE(name.find("mug"), std::string::npos) << name;
+}
+
+TEST_F(PlanWindowTest, ACancelledCountdownHoldsNothing) {
+  connectScene();
+  planPen();
+  record()->trigger();
+  EXPECT_TRUE(plan().holds());
+  record()->trigger();
+  EXPECT_FALSE(plan().holds());
 }
 
 TEST_F(PlanWindowTest, ThatThePlanIsDoneIsOnTheButton) {

@@ -23,7 +23,7 @@ class RecordedTakeTest : public WindowStateTest {
       return agreed_;
     };
     take_.moveToTrash = [this](const QString& path) {
-      if (!trash_) return false;
+      if (!trash_ || path.endsWith(fails_)) return false;
       trashed_ << path.section('/', -1);
       return QFile::remove(path);
     };
@@ -39,6 +39,7 @@ class RecordedTakeTest : public WindowStateTest {
   QStringList titles_, offered_, failed_, trashed_, answers_;
   bool agreed_ = true;
   bool trash_ = true;
+  QString fails_ = "none";  // the end of the name that the trash doesn't take
 };
 
 TEST_F(RecordedTakeTest, GetsANewNameWithWhatBelongsToIt) {
@@ -95,6 +96,26 @@ TEST_F(RecordedTakeTest, WithoutATrashItSaysThatItDeletes) {
   EXPECT_TRUE(titles_[1].endsWith("for good?"));
   EXPECT_FALSE(there("run_001.palpate"));
   EXPECT_FALSE(there("run_001.mcap"));
+}
+
+TEST_F(RecordedTakeTest, OfATakeThatIsHalfInTheTrashTheRestIsNamedAndKept) {
+  testing::writeFile(folder_ / "run_001_2.palpate", "");
+  take_.set({folder_ / "run_001.palpate", folder_ / "run_001_2.palpate"});
+  fails_ = "run_001_2.palpate";
+  int asked = 0;
+  windowState_->prompts.confirmed = [&](const QString& text, const QString&) {
+    titles_ << text;
+    return ++asked == 1;  // discard it, but delete nothing
+  };
+  take_.discard();
+  ASSERT_EQ(titles_.size(), 2);
+  EXPECT_EQ(titles_[1],
+            "Only run_001.palpate, run_001.mcap could be moved to the trash. Delete the rest of "
+            "run_001.palpate and 1 more part for good?");
+  EXPECT_EQ(failed_,
+            QStringList("Discarded in part: in the trash: run_001.palpate, run_001.mcap; kept: "
+                        "run_001_2.palpate"));
+  EXPECT_EQ(take_.paths(), std::vector<fs::path>{folder_ / "run_001_2.palpate"});
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST_F(EventRowsTest, BarsLieWhereTheirTimeIs) {
 TEST_F(EventRowsTest, TextsOfOneMomentAreNotPaintedOverEachOther) {
   const auto rightOfTheBar = [&](std::vector<EventMark> marks) {
     rows_.setMarks(std::move(marks));
-    const QRectF bar = rows_.barOf(0);
+    const QRectF bar = rows_.barOf(rows_.marks().size() - 1);
     return rows_.grab().toImage().copy(
         QRectF(bar.right() + 2, bar.top(), 300, bar.height()).toRect());
   };
@@ -76,6 +76,35 @@ TEST_F(EventRowsTest, TextsOfOneMomentAreNotPaintedOverEachOther) {
   const QImage alone = rightOfTheBar({later});
   EXPECT_EQ(rightOfTheBar({mark(EventLane::kLabels, 3.0, 3.0, "motion began"), later}), alone);
   EXPECT_NE(rightOfTheBar({mark(EventLane::kLabels, 3.0, 3.0, "motion began")}), alone);
+}
+
+// Two labels of one grasp, and a longer and a shorter one that begin with it.
+TEST_F(EventRowsTest, LabelsOfOneSpanLieSideBySideAndEachCanBeClicked) {
+  rows_.setMarks({mark(EventLane::kLabels, 1.0, 2.0, "g1"),
+                  mark(EventLane::kLabels, 1.0, 2.0, "g2"),
+                  mark(EventLane::kLabels, 1.0, 4.0, "long"),
+                  mark(EventLane::kLabels, 7.0, 7.0, "a"),
+                  mark(EventLane::kLabels, 7.0, 7.0, "b")});
+  EXPECT_NEAR(rows_.barOf(0).left(), 200.0, 0.5);
+  EXPECT_NEAR(rows_.barOf(1).left(), 250.0, 0.5);
+  EXPECT_NEAR(rows_.barOf(1).right(), 300.0, 1.5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    rows_.choose(std::nullopt);
+    const QPoint at = i == 2 ? QPoint(450, middleOf(2).y()) : middleOf(i);
+    QTest::mouseClick(&rows_, Qt::LeftButton, {}, at);
+    EXPECT_EQ(rows_.chosen(), i);
+  }
+}
+
+TEST_F(EventRowsTest, OfTwoOfOneSpanTheChosenOneStaysChosen) {
+  const EventMark first = mark(EventLane::kLabels, 1.0, 2.0, "g1");
+  const EventMark second = mark(EventLane::kLabels, 1.0, 2.0, "g2");
+  rows_.setMarks({first, second});
+  rows_.choose(0);
+  rows_.setMarks({first, second});
+  EXPECT_EQ(rows_.chosen(), 0u);
+  rows_.setMarks({second});
+  EXPECT_FALSE(rows_.chosen()) << "it was removed: Del would remove the other one";
 }
 
 TEST_F(EventRowsTest, AClickChooses) {
@@ -134,6 +163,23 @@ TEST_F(EventRowsTest, ADoubleClickNamesEnterTakesEscapeLeaves) {
   EXPECT_FALSE(field->isVisible());
   rows_.editText(2);
   EXPECT_FALSE(field->isVisible()) << "a gap has no name of a person's";
+}
+
+// Marks that are found meanwhile change the numbers of the others.
+TEST_F(EventRowsTest, TheTextThatIsTypedIsForTheMarkThatWasClicked) {
+  QSignalSpy named(&rows_, &EventRows::textChanged);
+  rows_.editText(3);
+  auto* field = rows_.findChild<QLineEdit*>("eventText");
+  rows_.setMarks(
+      {mark(EventLane::kLabels, 2.0, 2.0, "found"), mark(EventLane::kLabels, 3.0, 3.0, "touch")});
+  ASSERT_TRUE(field->isVisible());
+  field->setText("first touch");
+  QTest::keyClick(field, Qt::Key_Return);
+  ASSERT_EQ(named.size(), 1);
+  EXPECT_EQ(named[0][0].toULongLong(), 1u);
+  rows_.editText(1);
+  rows_.setMarks({mark(EventLane::kLabels, 2.0, 2.0, "found")});
+  EXPECT_FALSE(field->isVisible()) << "it is gone";
 }
 
 // The press of a double click has chosen the mark, whose input Return begins.

@@ -128,6 +128,29 @@ TEST_F(EventsWindowTest, NGoesOnFromTheCursor) {
   EXPECT_EQ(rows().chosen(), 0u) << "there is none before";
 }
 
+// N, label, N, label: the way of who labels all grasps.
+TEST_F(EventsWindowTest, ALabelDoesNotEndTheWayFromGraspToGrasp) {
+  for (int grasp = 0; grasp < 3; ++grasp) {
+    press(Qt::Key_N);
+    answer_ = QString("g%1").arg(grasp);
+    press(Qt::Key_B, Qt::ControlModifier);
+    ASSERT_TRUE(rows().chosen());
+    EXPECT_EQ(rows().marks()[*rows().chosen()].text, *answer_) << "what was made is chosen";
+  }
+  const auto& events = window().state().events.editor()->events();
+  ASSERT_EQ(events.size(), 3u);
+  const Profile profile = openRecording(path_);
+  for (std::size_t grasp = 0; grasp < 3; ++grasp)
+    EXPECT_NEAR(static_cast<double>(events[grasp].tUs),
+                static_cast<double>(profile.frameTimeUs(truth_.grasps[grasp].begin)),
+                150e3)
+        << grasp;
+  press(Qt::Key_N, Qt::ShiftModifier);
+  ASSERT_TRUE(rows().chosen());
+  EXPECT_EQ(rows().marks()[*rows().chosen()].lane, EventLane::kGrasps);
+  EXPECT_EQ(rows().marks()[*rows().chosen()].text, "2");
+}
+
 TEST_F(EventsWindowTest, AfterAClickOnAnEventTheArrowsStepFrames) {
   const QRectF bar = rows().barOf(0);
   ASSERT_FALSE(bar.isEmpty());

@@ -81,6 +81,23 @@ TEST_F(ActiveFiltersTest, IsRememberedWithItsSwitch) {
   EXPECT_TRUE(later.recipe().sameSteps(activeFilters_.recipe()));
 }
 
+TEST_F(ActiveFiltersTest, FiltersOfTheLastSessionAreNamedOnce) {
+  setRecipe("gaussian:size=5");
+  activeFilters_.setOn(true);
+  ActiveFilters later(windowState_->displayed,
+                      windowState_->events,
+                      windowState_->live,
+                      windowState_->messages,
+                      windowState_->settings);
+  later.restore(std::nullopt);
+  windowState_->displayed.show(recording("a"));
+  EXPECT_EQ(windowState_->messages.flashed(),
+            "filtered as in the last session: gaussian:size=5; A switches the filters off");
+  windowState_->messages.flash("");
+  windowState_->displayed.show(recording("b"));
+  EXPECT_EQ(windowState_->messages.flashed(), "");
+}
+
 TEST_F(ActiveFiltersTest, ARecipeGivenForOneDayIsNotRememberedForTheNext) {
   setRecipe("gaussian:size=5");
   ActiveFilters today(windowState_->displayed,
@@ -96,6 +113,36 @@ TEST_F(ActiveFiltersTest, ARecipeGivenForOneDayIsNotRememberedForTheNext) {
                          windowState_->settings);
   tomorrow.restore(std::nullopt);
   EXPECT_TRUE(tomorrow.recipe().sameSteps(activeFilters_.recipe()));
+}
+
+// The sensitivity test lends its filters; the program may end before it gives the others back.
+TEST_F(ActiveFiltersTest, LentFiltersAreNotRemembered) {
+  setRecipe("gaussian:size=5");
+  const Recipe own = activeFilters_.recipe();
+  const Recipe lent = parseRecipe(std::vector<std::string>{"median:size=3"});
+  const auto remembered = [this](const Recipe& recipe, bool on) {
+    ActiveFilters later(windowState_->displayed,
+                        windowState_->events,
+                        windowState_->live,
+                        windowState_->messages,
+                        windowState_->settings);
+    later.restore(std::nullopt);
+    EXPECT_TRUE(later.recipe().sameSteps(recipe)) << later.text().toStdString();
+    EXPECT_EQ(later.on(), on);
+  };
+  activeFilters_.lend(lent);
+  EXPECT_TRUE(activeFilters_.recipe().sameSteps(lent));
+  EXPECT_TRUE(activeFilters_.on());
+  remembered(own, false);
+  activeFilters_.giveBack();
+  EXPECT_TRUE(activeFilters_.recipe().sameSteps(own));
+  EXPECT_FALSE(activeFilters_.on());
+  remembered(own, false);
+  activeFilters_.lend(lent);
+  setRecipe("gaussian:size=7");  // by the user
+  activeFilters_.giveBack();
+  EXPECT_EQ(activeFilters_.text(), "gaussian:size=7");
+  remembered(activeFilters_.recipe(), true);
 }
 
 TEST_F(ActiveFiltersTest, ARecipeKeptWithTheRecordingIsTakenWhenItIsShown) {

@@ -89,6 +89,8 @@ TEST_F(DisplayedSourceTest, AClosedOneIsForgotten) {
   displayed_.show(first);
   windowState_->playback.seekFrame(7);
   displayed_.replace(first, nullptr);
+  EXPECT_EQ(displayed_.kind(), Kind::kNothing) << "also until show() is called";
+  EXPECT_EQ(displayed_.recorded(), nullptr);
   displayed_.show(nullptr);
   EXPECT_EQ(displayed_.kind(), Kind::kNothing);
   displayed_.show(recording("a"));

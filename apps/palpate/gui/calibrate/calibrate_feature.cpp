@@ -212,17 +212,10 @@ void CalibrateFeature::apply(const QString& path) {
 // While thresholds are at the noise level, ghosts pass them; a filter removes them for that time.
 void CalibrateFeature::filterGhosts(bool on) {
   ActiveFilters& activeFilters = state().activeFilters;
-  if (on) {
-    filtersBefore_ = Filters{activeFilters.recipe(), activeFilters.on()};
-    activeFilters.editor().setRecipe(highSensitivityRecipe());
-    activeFilters.setOn(true);
-    return;
-  }
-  const auto before = std::exchange(filtersBefore_, std::nullopt);
-  // The user chose other filters meanwhile; these are kept.
-  if (!before || !activeFilters.recipe().sameSteps(highSensitivityRecipe())) return;
-  activeFilters.editor().setRecipe(before->recipe);
-  activeFilters.setOn(before->on);
+  if (on)
+    activeFilters.lend(highSensitivityRecipe());
+  else
+    activeFilters.giveBack();
 }
 
 void CalibrateFeature::zoomTo(double fromS, double toS) {
@@ -243,6 +236,7 @@ std::vector<DockSpec> CalibrateFeature::docks() {
 std::vector<ExportedView> CalibrateFeature::views() {
   ExportedView view;
   view.name = "Calibrate";
+  view.leastHeight = kChartHeight;
   view.widget = panel_;
   view.isThere = [this] { return panel_->page().shown(); };
   view.fileName = [this] { return state().recordingStem() + "_" + panel_->pageName().toLower(); };

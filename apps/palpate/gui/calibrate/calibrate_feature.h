@@ -42,12 +42,6 @@ class CalibrateFeature : public Feature {
   bool stepsHidden_ = false;
   CalibrationCache* calibrations_;
   std::unique_ptr<Pressures> pressures_;
-  struct Filters {
-    Recipe recipe;
-    bool on = false;
-  };
-  // The filters from before the high-sensitivity mode was switched on; nothing when it is off.
-  std::optional<Filters> filtersBefore_;
 };
 
 }  // namespace palpate::gui

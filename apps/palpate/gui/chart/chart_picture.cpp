@@ -20,6 +20,7 @@ constexpr double kEntryGap = 18.0;            // [units] between entries
 // Line spacing of the legend.
 constexpr double kLineSpacing = 1.3;
 constexpr double kLeastContrast = 3.0;
+constexpr double kLeastAxisLines = 3.0;  // shortest axis [lines of text]
 
 double luminance(const QColor& color) {
   const auto linear = [](double channel) {
@@ -230,18 +231,22 @@ QColor inkOf(const QColor& color) {
   return ink;
 }
 
-QRectF paintChart(QPainter& painter,
-                  const PictureLook& look,
-                  QCustomPlot& plot,
-                  const ChartPictureOptions& options) {
-  const ThemeColors& paper = colorsOf(Theme::kLight);
+namespace {
+
+QFont chartPictureFont(const PictureLook& look, const QCustomPlot& plot) {
   QFont font = plot.font();
   font.setPixelSize(look.textUnits > 0 ? look.textUnits : QFontInfo(plot.font()).pixelSize());
+  return font;
+}
+
+// Title and legend. Returns their lower end.
+double paintHead(QPainter& painter,
+                 const PictureLook& look,
+                 const QCustomPlot& plot,
+                 const ChartPictureOptions& options) {
+  const QFont font = chartPictureFont(look, plot);
   const QFontMetricsF metrics(font);
-  const QBrush background = look.forPrint ? QBrush(Qt::white) : groundOf(plot);
-  const QColor text = look.forPrint ? paper.text : plot.xAxis->labelColor();
-  painter.save();
-  painter.fillRect(QRectF(QPointF(), look.size), background);
+  const QColor text = look.forPrint ? colorsOf(Theme::kLight).text : plot.xAxis->labelColor();
   double top = kChartPictureMargin * 0.6;
   if (look.titled && !(options.title.isEmpty() && options.caption.isEmpty())) {
     const QRectF line(
@@ -258,30 +263,97 @@ QRectF paintChart(QPainter& painter,
     painter.drawText(line, Qt::AlignRight | Qt::AlignVCenter, options.caption);
     top = line.bottom() + kChartPictureGap / 2;
   }
-  top = paintLegend(
+  return paintLegend(
       painter, options.legend.empty() ? ownNames(plot) : options.legend, look, font, top, text);
+}
+
+double heightOfHead(const PictureLook& look,
+                    const QCustomPlot& plot,
+                    const ChartPictureOptions& options) {
+  QPicture nowhere;
+  QPainter painter(&nowhere);
+  return paintHead(painter, look, plot, options);
+}
+
+// The axes and what lies in them, below the head.
+struct ChartBody {
   QPicture picture;
-  QRectF axes;
-  {
-    // The layout of the picture exists only while it is painted.
-    const QMetaObject::Connection laidOut = QObject::connect(
-        &plot, &QCustomPlot::afterLayout, &plot, [&] { axes = plot.axisRect()->rect(); });
-    const Restyled restyled(plot, look, font);
-    QCPPainter chart(&picture);
-    chart.setMode(QCPPainter::pmVectorized);
-    chart.setMode(QCPPainter::pmNoCaching);
-    chart.setMode(QCPPainter::pmNonCosmetic);
-    plot.toPainter(&chart,
-                   std::max(1, static_cast<int>(look.size.width())),
-                   std::max(1, static_cast<int>(look.size.height() - top)));
-    QObject::disconnect(laidOut);
+  QRectF axes = {};  // place of the first ones
+  // Of the axes with the least room; below 0 where there is none.
+  QSizeF least = {};
+};
+
+ChartBody chartBodyOf(QCustomPlot& plot, const PictureLook& look, double head) {
+  ChartBody body;
+  // The layout of the picture exists only while it is painted.
+  const QMetaObject::Connection laidOut =
+      QObject::connect(&plot, &QCustomPlot::afterLayout, &plot, [&] {
+        body.axes = plot.axisRect()->rect();
+        body.least = body.axes.size();
+        for (const QCPAxisRect* rect : plot.axisRects())
+          body.least = {std::min<double>(body.least.width(), rect->width()),
+                        std::min<double>(body.least.height(), rect->height())};
+      });
+  const Restyled restyled(plot, look, chartPictureFont(look, plot));
+  QCPPainter chart(&body.picture);
+  chart.setMode(QCPPainter::pmVectorized);
+  chart.setMode(QCPPainter::pmNoCaching);
+  chart.setMode(QCPPainter::pmNonCosmetic);
+  plot.toPainter(&chart,
+                 std::max(1, static_cast<int>(look.size.width())),
+                 std::max(1, static_cast<int>(look.size.height() - head)));
+  chart.end();
+  QObject::disconnect(laidOut);
+  return body;
+}
+
+// How many times larger the picture must be for axes of a length that can be read; 1: it is large
+// enough.
+double enlargement(const PictureLook& look,
+                   const QCustomPlot& plot,
+                   double head,
+                   const ChartBody& body) {
+  const double least = kLeastAxisLines * QFontMetricsF(chartPictureFont(look, plot)).height();
+  // Axes that lie below each other share what is added.
+  const auto numAxes = static_cast<double>(plot.axisRectCount());
+  const double width = look.size.width() + least - body.least.width();
+  const double height =
+      std::max(look.size.height(), head + 1.0) + numAxes * (least - body.least.height());
+  return std::max({1.0, width / look.size.width(), height / look.size.height()});
+}
+
+}  // namespace
+
+QRectF paintChart(QPainter& painter,
+                  const PictureLook& look,
+                  QCustomPlot& plot,
+                  const ChartPictureOptions& options) {
+  PictureLook inner = look;
+  double head = heightOfHead(inner, plot, options);
+  ChartBody body = chartBodyOf(plot, inner, head);
+  double larger = 1.0;
+  // More than once where axes share what is added unevenly.
+  constexpr int kMostTries = 5;
+  constexpr double kEnough = 1.001;
+  for (int i = 0; i < kMostTries; ++i) {
+    const double factor = enlargement(inner, plot, head, body);
+    if (factor < kEnough) break;
+    larger *= factor;
+    inner.size = look.size * larger;
+    head = heightOfHead(inner, plot, options);
+    body = chartBodyOf(plot, inner, head);
   }
-  painter.translate(0.0, top);
-  replay(painter, picture);
+  painter.save();
+  painter.fillRect(QRectF(QPointF(), look.size),
+                   look.forPrint ? QBrush(Qt::white) : groundOf(plot));
+  painter.scale(1.0 / larger, 1.0 / larger);
+  paintHead(painter, inner, plot, options);
+  painter.translate(0.0, head);
+  replay(painter, body.picture);
   painter.restore();
   // Restores the layout of the screen.
   plot.replot(QCustomPlot::rpQueuedReplot);
-  return axes.translated(0.0, top);
+  return {(body.axes.topLeft() + QPointF(0.0, head)) / larger, body.axes.size() / larger};
 }
 
 }  // namespace palpate::gui

@@ -37,7 +37,8 @@ struct ChartPictureOptions {
 QColor inkOf(const QColor& color);
 
 // Paints the chart, which looks as before afterwards. To be called in the thread of the window.
-// Returns the place of its axes in the picture, in units.
+// Where the look leaves the axes no room beside their numbers and the legend, the whole picture is
+// painted smaller, texts and lines too. Returns the place of its axes in the picture, in units.
 QRectF paintChart(QPainter& painter,
                   const PictureLook& look,
                   QCustomPlot& plot,

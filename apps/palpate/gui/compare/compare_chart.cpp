@@ -118,8 +118,8 @@ void CompareChart::rebuild() {
       std::max(compareChartLargestOf(curves_.curveA), compareChartLargestOf(curves_.curveB));
   for (const OverlaidCurve& each : curves_.overlaid.curves)
     largest = std::max(largest, compareChartLargestOf(each.curve.series));
-  if (curves_.overlaid.average)
-    for (const double high : curves_.overlaid.average->high)
+  for (const OverlaidAverage& each : curves_.overlaid.averages)
+    for (const double high : each.curve->high)
       if (high > largest) largest = high;
   const UnitConversion to = shown().conversion;
   yAxis->setRange(0.0, to.of(largest > 0.0 ? largest * kCompareChartHeadroom : 1.0));
@@ -136,7 +136,7 @@ void CompareChart::rebuild() {
 
 void CompareChart::addOverlaid() {
   overlaidGraphs_.clear();
-  averageGraphs_ = {};
+  averageGraphs_.clear();
   const ComparedCurves& overlaid = curves_.overlaid;
   for (std::size_t i = 0; i < overlaid.curves.size(); ++i) {
     if (!overlaid.curves[i].drawn) continue;
@@ -145,26 +145,34 @@ void CompareChart::addOverlaid() {
     graph->setAdaptiveSampling(false);
     overlaidGraphs_.emplace_back(i, graph);
   }
-  if (!overlaid.average) return;
-  const QColor ink = colorsOf(theme_).text;
+  for (const OverlaidAverage& each : overlaid.averages) addAverage(each);
+}
+
+void CompareChart::addAverage(const OverlaidAverage& of) {
+  // Averages of several recordings have the colours of their curves.
+  QColor ink = colorsOf(theme_).text;
+  if (curves_.overlaid.averages.size() > 1) ink = overlaidPen(of.recording, theme_).color();
+  ink.setAlpha(255);
   QColor shade = ink;
   shade.setAlpha(kBandOpacity);
-  for (QCPGraph*& graph : averageGraphs_) {
+  std::array<QCPGraph*, 3> graphs = {};
+  for (QCPGraph*& graph : graphs) {
     graph = addGraph();
     graph->setPen(Qt::NoPen);
   }
-  averageGraphs_[1]->setBrush(shade);
-  averageGraphs_[1]->setChannelFillGraph(averageGraphs_[0]);
-  averageGraphs_[2]->setPen(QPen(ink, kAverageWidth));
-  const AverageCurve& average = *overlaid.average;
+  graphs[1]->setBrush(shade);
+  graphs[1]->setChannelFillGraph(graphs[0]);
+  graphs[2]->setPen(QPen(ink, kAverageWidth));
+  const AverageCurve& average = *of.curve;
   const UnitConversion to = shown().conversion;
   const std::array columns = {&average.low, &average.high, &average.middle};
   for (std::size_t which = 0; which < columns.size(); ++which) {
     QVector<QCPGraphData> samples;
     for (std::size_t i = 0; i < average.timeS.size(); ++i)
-      samples.append({average.timeS[i] + overlaid.zeroS, to.of((*columns[which])[i])});
-    averageGraphs_[which]->data()->set(samples, true);
+      samples.append({average.timeS[i] + curves_.overlaid.zeroS, to.of((*columns[which])[i])});
+    graphs[which]->data()->set(samples, true);
   }
+  averageGraphs_.push_back(graphs);
 }
 
 void CompareChart::fillOverlaid() {
@@ -204,10 +212,12 @@ std::vector<ChartLegendEntry> CompareChart::legendOf(const QString& nameA,
     entries.push_back(
         {grasps ? "grasps of " + each.name.section(", grasp ", 0, 0) : each.name, graph->pen()});
   }
-  if (averageGraphs_[2])
-    entries.push_back(
-        {gui::nameOf(overlaid.band) + " of " + QString::number(overlaid.curves.size()),
-         averageGraphs_[2]->pen()});
+  for (std::size_t i = 0; i < averageGraphs_.size(); ++i) {
+    const OverlaidAverage& of = overlaid.averages[i];
+    entries.push_back({gui::nameOf(overlaid.band) + " of " + QString::number(of.numCurves) +
+                           (averageGraphs_.size() > 1 ? ", " + of.of : QString()),
+                       averageGraphs_[i][2]->pen()});
+  }
   return entries;
 }
 
@@ -379,14 +389,14 @@ QString CompareChart::valuesAt(double seconds) const {
   }
   if (overlaidGraphs_.size() > kMostInTip)
     text += "\n… " + QString::number(overlaidGraphs_.size()) + " curves";
-  if (overlaid.average && overlaid.average->stepS > 0.0 && !overlaid.average->timeS.empty()) {
-    const AverageCurve& average = *overlaid.average;
-    const double step = std::round((now.front() - average.timeS.front()) / average.stepS);
-    const auto at = static_cast<std::size_t>(std::max(0.0, step));
-    if (step >= 0.0 && at < average.middle.size() && std::isfinite(average.middle[at]))
-      text += "\n" + gui::nameOf(overlaid.band) + "  " + unit.number(average.middle[at], 1) + " (" +
-              unit.number(average.low[at], 1) + " … " + unit.number(average.high[at], 1) + ") " +
-              unit.symbol + " of " + QString::number(average.count[at]);
+  for (const OverlaidAverage& of : overlaid.averages) {
+    const AverageCurve& average = *of.curve;
+    const auto at = placeIn(average, now.front());
+    if (at && std::isfinite(average.middle[*at]))
+      text += "\n" + gui::nameOf(overlaid.band) + "  " + unit.number(average.middle[*at], 1) +
+              " (" + unit.number(average.low[*at], 1) + " … " + unit.number(average.high[*at], 1) +
+              ") " + unit.symbol + " of " + QString::number(average.count[*at]) +
+              (overlaid.averages.size() > 1 ? ", " + of.of : QString());
   }
   return text;
 }

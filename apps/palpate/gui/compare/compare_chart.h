@@ -4,8 +4,10 @@
 // a drag with Ctrl shifts B.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <palpate/signals/alignment.h>
 #include <palpate/signals/profile_series.h>
@@ -84,6 +86,7 @@ class CompareChart : public ReadingChart {
   enum class Drag { kNone, kSeek, kPan, kShift };
   void rebuild();
   void addOverlaid();
+  void addAverage(const OverlaidAverage& of);
   void fillOverlaid();
   void refill();
   void setVisibleRange(double from, double to);
@@ -99,7 +102,7 @@ class CompareChart : public ReadingChart {
   // The graphs of the overlaid curves that are drawn, and of the average: its low and high end, and
   // its middle.
   std::vector<std::pair<std::size_t, QCPGraph*>> overlaidGraphs_;
-  std::array<QCPGraph*, 3> averageGraphs_ = {};
+  std::vector<std::array<QCPGraph*, 3>> averageGraphs_;
   // Everything is visible, and stays so when B moves.
   bool fitted_ = true;
   Drag drag_ = Drag::kNone;

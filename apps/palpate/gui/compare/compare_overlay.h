@@ -43,20 +43,32 @@ struct OverlaidCurve {
   bool drawn = true;
 };
 
+// The average of the curves of one recording, or of all curves.
+struct OverlaidAverage {
+  QString of;                 // name of the recording; empty: all curves
+  std::size_t recording = 0;  // as in OverlaidCurve
+  std::size_t numCurves = 0;
+  std::shared_ptr<const AverageCurve> curve = {};  // never null
+};
+
 struct ComparedCurves {
   std::vector<OverlaidCurve> curves = {};
   // The moment that all have in common, on A's time axis [s].
   double zeroS = 0.0;
   // The span to show on A's time axis; empty: everything.
   std::optional<TimeSpan> span = {};
-  // Null: none was asked for.
-  std::shared_ptr<const AverageCurve> average = {};
+  // Empty: none was asked for. Grasps of different recordings are not averaged together: they have
+  // an average for each recording, all with the same step.
+  std::vector<OverlaidAverage> averages = {};
   CompareBand band = CompareBand::kNone;
-  // Recordings that were left out, and why; one line, empty: none.
+  // What was left out, and why; one line, empty: nothing.
   QString leftOut = {};
 };
 
-// The average and every curve of it, a row per time; no row without an average.
+// The index of the time of an average that is next to `timeS`; nothing: outside of it.
+std::optional<std::size_t> placeIn(const AverageCurve& average, double timeS);
+
+// The averages and every curve of them, a row per time; no row without an average.
 TextTable averageTable(const ComparedCurves& compared, const QString& unit);
 
 }  // namespace palpate::gui

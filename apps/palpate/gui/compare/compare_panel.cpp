@@ -406,7 +406,7 @@ void ComparePanel::take(const CompareAnswer& answer) {
     answer_.largestDifference = largest;
     answer_.largestValue = largestValue;
   }
-  if (!answer_.complete && !answer_.overlaid.average && answer_.overlaid.curves.empty())
+  if (!answer_.complete && answer_.overlaid.averages.empty() && answer_.overlaid.curves.empty())
     answer_.overlaid = overlaid;
   if (answer_.a && answer_.b) {
     header_->setOffset(answer_.offsetS);
@@ -717,7 +717,8 @@ QString ComparePanel::overlaidText() const {
       overlay_ == CompareOverlay::kGraspsOfA || overlay_ == CompareOverlay::kAllGrasps;
   const std::size_t count = overlaid.curves.size();
   return QString::fromStdString(counted(count, ofGrasps ? "grasp" : "curve")) +
-         (band_ == CompareBand::kNone ? QString() : ", " + gui::nameOf(band_)) + " · ";
+         (band_ == CompareBand::kNone ? QString() : ", " + gui::nameOf(band_)) +
+         (overlaid.averages.size() > 1 ? " of each recording · " : " · ");
 }
 
 QString ComparePanel::figures() const {
@@ -794,11 +795,16 @@ void ComparePanel::paint(QPainter& painter, const PictureLook& look) const {
   if (look.forPrint) options.look.theme = Theme::kLight;
   if (look.textUnits > 0) options.look.font.setPixelSize(look.textUnits);
   options.look.pixelRatio = look.pixelRatio;
-  const double split = std::floor(look.size.height() * kHeatMapShare);
+  // A low chart takes up to half of the height.
+  const double height = look.size.height();
+  const double chart =
+      std::max((1.0 - kHeatMapShare) * height,
+               look.onPaper() ? std::min(kChartHeight * look.size.width(), height / 2) : 0.0);
+  const double split = std::floor(height - chart);
   paintComparison(
       painter, QRectF(0, 0, look.size.width(), split), *view_->hands(), view_->frames(), options);
   PictureLook below = look;
-  below.size.setHeight(look.size.height() - split);
+  below.size.setHeight(height - split);
   below.titled = false;
   painter.save();
   painter.translate(0.0, split);

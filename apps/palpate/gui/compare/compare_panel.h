@@ -89,7 +89,7 @@ class ComparePanel : public QWidget {
   void paint(QPainter& painter, const PictureLook& look) const;
   TextTable differenceTable() const;
   TextTable curveTable() const;
-  bool hasAverage() const noexcept { return answer_.overlaid.average != nullptr; }
+  bool hasAverage() const noexcept { return !answer_.overlaid.averages.empty(); }
   TextTable averageTable() const;
 
  signals:

@@ -72,6 +72,8 @@ void CompareView::renew() {
 void CompareView::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
   if (!hands_) return painter.fillRect(event->rect(), colorsOf(options_.look.theme).window);
+  // The window may have moved to another screen.
+  if (background_.devicePixelRatio() != devicePixelRatioF()) renew();
   if (background_.isNull()) {
     background_ = QPixmap(size() * devicePixelRatioF());
     background_.setDevicePixelRatio(devicePixelRatioF());

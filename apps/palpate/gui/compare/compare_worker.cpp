@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
@@ -175,6 +176,46 @@ std::vector<GraspFrames> CompareWorker::grasps(const ComparedRecording& of,
   return found;
 }
 
+namespace {
+
+// `ofEach`: an average for each recording, of its grasps.
+void addAverages(bool ofEach, ComparedCurves& compared, const Progress& progress) {
+  std::map<std::size_t, std::vector<AlignedCurve>> groups;
+  std::map<std::size_t, QString> names;
+  for (const OverlaidCurve& each : compared.curves) {
+    groups[ofEach ? each.recording : 0].push_back(each.curve);
+    if (ofEach) names[each.recording] = each.name.section(", grasp ", 0, 0);
+  }
+  AverageOptions options{.band = compared.band == CompareBand::kPercentiles
+                                     ? AverageBand::kPercentiles
+                                     : AverageBand::kStandardDeviation};
+  const auto average = [&] {
+    compared.averages.clear();
+    double longestS = 0.0;
+    for (const auto& [recording, curves] : groups) {
+      if (ofEach && curves.size() < options.least) continue;
+      auto made = std::make_shared<const AverageCurve>(averageCurve(curves, options, progress));
+      longestS = std::max(longestS, made->stepS);
+      compared.averages.push_back({names[recording], recording, curves.size(), made});
+    }
+    return longestS;
+  };
+  options.stepS = average();
+  // Once more where the steps differ.
+  if (std::any_of(compared.averages.begin(), compared.averages.end(), [&](const auto& each) {
+        return each.curve->stepS != options.stepS;
+      }))
+    average();
+  QStringList single;
+  for (const auto& [recording, curves] : groups)
+    if (ofEach && curves.size() < options.least) single.append(names[recording]);
+  if (single.isEmpty()) return;
+  if (!compared.leftOut.isEmpty()) compared.leftOut += ". ";
+  compared.leftOut += "No average of one grasp: " + single.join(", ");
+}
+
+}  // namespace
+
 ComparedCurves CompareWorker::overlaid(const CompareQuestion& question,
                                        const CompareAnswer& answer,
                                        const Progress& progress) {
@@ -251,14 +292,8 @@ ComparedCurves CompareWorker::overlaid(const CompareQuestion& question,
                                false});
   if (ofGrasps) compared.span = drawnSpanOf(compared);
   if (!without.isEmpty()) compared.leftOut = "Left out: " + without.join(", ");
-  if (question.band == CompareBand::kNone) return compared;
-  std::vector<AlignedCurve> curves;
-  for (const OverlaidCurve& each : compared.curves) curves.push_back(each.curve);
-  compared.average = std::make_shared<const AverageCurve>(averageCurve(
-      curves,
-      {.band = question.band == CompareBand::kPercentiles ? AverageBand::kPercentiles
-                                                          : AverageBand::kStandardDeviation},
-      progress));
+  if (question.band != CompareBand::kNone)
+    addAverages(question.overlay == CompareOverlay::kAllGrasps, compared, progress);
   return compared;
 }
 

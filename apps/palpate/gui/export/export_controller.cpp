@@ -4,6 +4,7 @@
 #include <QClipboard>
 #include <QEvent>
 #include <QFileInfo>
+#include <QFocusEvent>
 #include <QMimeData>
 #include <QPainter>
 #include <memory>
@@ -29,6 +30,11 @@ std::unique_ptr<QMimeData> dataOf(const ExportedTable& table, std::size_t& rows)
   data->setData("text/csv", QByteArray::fromStdString(csvText(text, kMostCopiedRows)));
   rows = text.numRows;
   return data;
+}
+
+// Several views together have no widget.
+bool isVisible(const ExportedView* view) {
+  return view && (!view->widget || view->widget->isVisible());
 }
 
 QString rowsText(std::size_t rows) {
@@ -83,7 +89,7 @@ const ExportedView* ExportController::viewNamed(const QString& name) const {
 
 const ExportedView* ExportController::active() const {
   const ExportedView* view = viewNamed(touched_);
-  if (view && view->widget && view->widget->isVisible()) return view;
+  if (isVisible(view)) return view;
   const auto there = present();
   return there.empty() ? nullptr : there.front();
 }
@@ -91,20 +97,29 @@ const ExportedView* ExportController::active() const {
 void ExportController::touch(const QWidget* widget) {
   for (const ExportedView& view : views_)
     if (view.widget && view.isThere() &&
-        (view.widget == widget || view.widget->isAncestorOf(widget)))
+        (view.widget == widget || view.widget->isAncestorOf(widget))) {
       touched_ = view.name;
+      isTouchedSinceExport_ = true;
+    }
 }
 
 bool ExportController::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::MouseButtonPress || event->type() == QEvent::FocusIn)
+  // When the window becomes active again, the focus comes back by itself.
+  const bool comesByItself =
+      event->type() == QEvent::FocusIn &&
+      static_cast<QFocusEvent*>(event)->reason() == Qt::ActiveWindowFocusReason;
+  if (event->type() == QEvent::MouseButtonPress ||
+      (event->type() == QEvent::FocusIn && !comesByItself))
     if (const auto* widget = qobject_cast<QWidget*>(watched)) touch(widget);
   return QObject::eventFilter(watched, event);
 }
 
 ExportRequest ExportController::suggestion() const {
   ExportRequest request = loadExportRequest(settings_);
-  const ExportedView* view = active();
+  const ExportedView* exported = viewNamed(request.view);
+  const ExportedView* view = !isTouchedSinceExport_ && isVisible(exported) ? exported : active();
   if (!view) return request;
+  request.setSize(sizeFor(*view, request));
   if (request.view != view->name || request.source != source()) request.nameIsOwn = false;
   request.view = view->name;
   request.source = source();
@@ -122,6 +137,7 @@ void ExportController::exportNow() {
   const auto request = ask(suggestion());
   if (!request) return;
   saveExportRequest(*request, settings_);
+  isTouchedSinceExport_ = false;
   settings_.setValue(kHasExported, true);
   write(*request);
 }

@@ -88,6 +88,8 @@ class ExportController : public QObject {
   std::vector<ExportedView> views_;
   // The name of the view that was used last.
   QString touched_;
+  // A view was used since the last export. Until then the view of that export is suggested.
+  bool isTouchedSinceExport_ = false;
   // The first job is running.
   std::deque<Job> waiting_;
   std::atomic<bool> cancelled_ = false;

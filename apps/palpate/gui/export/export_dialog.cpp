@@ -11,6 +11,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "gui/export/export_forms.h"
 #include "gui/export/export_movie_fields.h"
@@ -204,15 +205,12 @@ void ExportDialog::fill(const ExportRequest& suggestion) {
   form_->choose(suggestion.form);
   movie_->fill(suggestion);
   wanted_ = suggestion.frames;
-  width_->setValue(suggestion.sizeMm.width());
-  height_->setValue(suggestion.sizeMm.height());
-  text_->setValue(suggestion.textPt);
-  preset_->setCurrentIndex(suggestion.preset);
   dpi_->setCurrentIndex(std::max(0, dpi_->findData(suggestion.dpi)));
   colors_->setCurrentIndex(suggestion.forPrint ? 0 : 1);
   titled_->setChecked(suggestion.titled);
   place_->setName(suggestion.name, suggestion.nameIsOwn);
   place_->setFolder(suggestion.folder);
+  showSize(suggestion.size());
   filling_ = false;
   useView();
   table_->setCurrentIndex(std::max(0, table_->findText(suggestion.table)));
@@ -225,7 +223,9 @@ void ExportDialog::connectFields() {
     // now is for this export.
     if (first_.nameIsOwn && place_->name() == first_.name) place_->setName({}, false);
     useView();
-    usePreset();
+    if (sizeIsChosen_) return usePreset();
+    showSize(sizeFor(view(), first_));
+    refresh();
   });
   connect(form_, &ExportForms::changed, this, [this] {
     fillFrames();
@@ -238,15 +238,23 @@ void ExportDialog::connectFields() {
     suggestName();
     refresh();
   });
-  connect(preset_, &QComboBox::currentIndexChanged, this, &ExportDialog::usePreset);
+  connect(preset_, &QComboBox::currentIndexChanged, this, [this] {
+    if (filling_) return;
+    sizeIsChosen_ = true;
+    usePreset();
+  });
   connect(width_, &QDoubleSpinBox::valueChanged, this, [this] {
     if (filling_) return;
+    sizeIsChosen_ = true;
     const QSignalBlocker blocked(preset_);
     preset_->setCurrentIndex(kOwnPreset);
     refresh();
   });
   for (QDoubleSpinBox* box : {height_, text_})
-    connect(box, &QDoubleSpinBox::valueChanged, this, &ExportDialog::refresh);
+    connect(box, &QDoubleSpinBox::valueChanged, this, [this] {
+      sizeIsChosen_ = sizeIsChosen_ || !filling_;
+      refresh();
+    });
   for (QComboBox* box : {table_, dpi_, colors_})
     connect(box, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
   connect(titled_, &QCheckBox::toggled, this, &ExportDialog::refresh);
@@ -291,17 +299,19 @@ void ExportDialog::fillFrames() {
 }
 
 void ExportDialog::usePreset() {
-  const PaperPreset& preset = kPaperPresets[static_cast<std::size_t>(preset_->currentIndex())];
-  if (preset.widthMm > 0.0 && preset_->currentIndex() != kOwnPreset) {
-    filling_ = true;
-    const QSizeF shown = view().sizeOnScreen();
-    width_->setValue(preset.widthMm);
-    height_->setValue(preset.heightMm > 0.0 ? preset.heightMm
-                                            : preset.widthMm * shown.height() / shown.width());
-    text_->setValue(preset.textPt);
-    filling_ = false;
-  }
+  const int preset = preset_->currentIndex();
+  if (const auto sizeMm = sizeOfPreset(preset, view()))
+    showSize({preset, *sizeMm, kPaperPresets[static_cast<std::size_t>(preset)].textPt});
   refresh();
+}
+
+void ExportDialog::showSize(const ExportSize& size) {
+  const bool before = std::exchange(filling_, true);
+  width_->setValue(size.sizeMm.width());
+  height_->setValue(size.sizeMm.height());
+  text_->setValue(size.textPt);
+  preset_->setCurrentIndex(size.preset);
+  filling_ = before;
 }
 
 void ExportDialog::suggestName() { place_->suggestName(suggestedName(request(), view())); }
@@ -361,7 +371,8 @@ void ExportDialog::showProblem() {
   // Offers to replace only when a file exists.
   replace_->setVisible(problemOf(keeping, view()) != problemOf(replacing, view()));
   const double needed = preview_->bytes() * static_cast<double>(preview_->numFiles());
-  const QString text = inTheWay.isEmpty() ? spaceProblemOf(now, needed) : inTheWay;
+  QString text = inTheWay.isEmpty() ? spaceProblemOf(now, needed) : inTheWay;
+  if (text.isEmpty()) text = heightHintOf(now, view());
   problem_->setText(text);
   problem_->setToolTip(text);
   ok_->setEnabled(inTheWay.isEmpty());

@@ -53,6 +53,7 @@ class ExportDialog : public QDialog {
   void useView();
   void fillFrames();
   void usePreset();
+  void showSize(const ExportSize& size);
   void suggestName();
   void refresh();
   void showProblem();
@@ -64,6 +65,8 @@ class ExportDialog : public QDialog {
   ExportFrames wanted_ = ExportFrames::kShown;
   // The dialog itself changes the fields, so that their signals are ignored.
   bool filling_ = false;
+  // The user has chosen a size in this dialog; it holds for all views.
+  bool sizeIsChosen_ = false;
   QFormLayout* fields_ = nullptr;
   QComboBox* view_ = nullptr;
   ExportForms* form_ = nullptr;

@@ -26,6 +26,32 @@ constexpr double kLeastPt = 4.0, kMostPt = 40.0;
 constexpr int kMostPixels = 16384;  // largest side
 
 const QString kExportRequestGroup = "export/";
+const QString kExportSizesGroup = "export/sizes/";  // and the name of the view
+
+ExportSize loadExportSize(const QSettings& settings,
+                          const QString& group,
+                          const ExportSize& usual) {
+  const auto number = [&](const char* key, double otherwise, double least, double most) {
+    bool good = false;
+    const double read = settings.value(group + key, otherwise).toDouble(&good);
+    return good && read >= least && read <= most ? read : otherwise;
+  };
+  ExportSize size = usual;
+  const QString preset = settings.value(group + "size").toString();
+  for (std::size_t i = 0; i < kPaperPresets.size(); ++i)
+    if (kPaperPresets[i].name == preset) size.preset = static_cast<int>(i);
+  size.sizeMm = {number("width_mm", usual.sizeMm.width(), kExportRequestLeastMm, kMostMm),
+                 number("height_mm", usual.sizeMm.height(), kExportRequestLeastMm, kMostMm)};
+  size.textPt = number("text_pt", usual.textPt, kLeastPt, kMostPt);
+  return size;
+}
+
+void saveExportSize(const ExportSize& size, const QString& group, QSettings& settings) {
+  settings.setValue(group + "size", kPaperPresets[static_cast<std::size_t>(size.preset)].name);
+  settings.setValue(group + "width_mm", size.sizeMm.width());
+  settings.setValue(group + "height_mm", size.sizeMm.height());
+  settings.setValue(group + "text_pt", size.textPt);
+}
 
 // The problem with the file of a request that has a name.
 QString fileProblemOf(const ExportRequest& request) {
@@ -77,21 +103,11 @@ ExportRequest loadExportRequest(const QSettings& settings) {
   const auto value = [&](const char* key, const QVariant& usual) {
     return settings.value(kExportRequestGroup + key, usual);
   };
-  const auto number = [&](const char* key, double usual, double least, double most) {
-    bool good = false;
-    const double read = value(key, usual).toDouble(&good);
-    return good && read >= least && read <= most ? read : usual;
-  };
   request.view = value("view", "").toString();
   const QString form = value("form", "").toString();
   for (const ExportFormat each : kAllExportForms)
     if (nameOf(each) == form) request.form = each;
-  const QString preset = value("size", "").toString();
-  for (std::size_t i = 0; i < kPaperPresets.size(); ++i)
-    if (kPaperPresets[i].name == preset) request.preset = static_cast<int>(i);
-  request.sizeMm = {number("width_mm", request.sizeMm.width(), kExportRequestLeastMm, kMostMm),
-                    number("height_mm", request.sizeMm.height(), kExportRequestLeastMm, kMostMm)};
-  request.textPt = number("text_pt", request.textPt, kLeastPt, kMostPt);
+  request.setSize(loadExportSize(settings, kExportRequestGroup, request.size()));
   const int dpi = value("dpi", request.dpi).toInt();
   if (std::find(kExportDpi.begin(), kExportDpi.end(), dpi) != kExportDpi.end()) request.dpi = dpi;
   request.forPrint = value("for_print", request.forPrint).toBool();
@@ -118,6 +134,12 @@ ExportRequest loadExportRequest(const QSettings& settings) {
   if (request.nameIsOwn) request.name = value("name", "").toString();
   if (request.name.isEmpty()) request.nameIsOwn = false;
   request.source = value("source", "").toString();
+  for (const QString& key : settings.allKeys()) {
+    const QString view = key.section('/', 2, -2);
+    if (key == kExportSizesGroup + view + "/size" && !view.isEmpty())
+      request.sizes[view] =
+          loadExportSize(settings, kExportSizesGroup + view + "/", request.size());
+  }
   return request;
 }
 
@@ -127,10 +149,8 @@ void saveExportRequest(const ExportRequest& request, QSettings& settings) {
   };
   set("view", request.view);
   set("form", nameOf(request.form));
-  set("size", kPaperPresets[static_cast<std::size_t>(request.preset)].name);
-  set("width_mm", request.sizeMm.width());
-  set("height_mm", request.sizeMm.height());
-  set("text_pt", request.textPt);
+  saveExportSize(request.size(), kExportRequestGroup, settings);
+  saveExportSize(request.size(), kExportSizesGroup + request.view + "/", settings);
   set("dpi", request.dpi);
   set("for_print", request.forPrint);
   set("titled", request.titled);
@@ -143,6 +163,23 @@ void saveExportRequest(const ExportRequest& request, QSettings& settings) {
   set("name", request.name);
   set("name_is_own", request.nameIsOwn);
   set("source", request.source);
+}
+
+std::optional<QSizeF> sizeOfPreset(int preset, const ExportedView& view) {
+  const PaperPreset& chosen = kPaperPresets[static_cast<std::size_t>(preset)];
+  if (preset == kOwnPreset || chosen.widthMm <= 0.0) return std::nullopt;
+  if (chosen.heightMm > 0.0) return QSizeF(chosen.widthMm, chosen.heightMm);
+  return view.sizeOnPaperMm(chosen.widthMm);
+}
+
+ExportSize sizeFor(const ExportedView& view, const ExportRequest& request) {
+  const auto known = request.sizes.find(view.name);
+  if (known != request.sizes.end()) return known->second;
+  ExportSize size = request.size();
+  if (request.view == view.name) return size;
+  if (size.preset == kOwnPreset) size.sizeMm = view.sizeOnPaperMm(size.sizeMm.width());
+  if (const auto ofPreset = sizeOfPreset(size.preset, view)) size.sizeMm = *ofPreset;
+  return size;
 }
 
 PicturePaper paperOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
@@ -240,6 +277,14 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
     return {};
   }
   return fileProblemOf(request);
+}
+
+QString heightHintOf(const ExportRequest& request, const ExportedView& view) {
+  const bool onPaper = request.form != ExportFormat::kCsv && request.preset != kScreenPreset &&
+                       view.leastHeight > 0.0;
+  if (!onPaper || request.sizeMm.height() >= kLeastChartMm) return {};
+  return QString("Below %1 mm the text of a chart may become smaller than typed.")
+      .arg(kLeastChartMm);
 }
 
 QString spaceProblemOf(const ExportRequest& request, double bytes) {

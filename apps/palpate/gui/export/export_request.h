@@ -7,6 +7,8 @@
 #include <QString>
 #include <array>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include <palpate/capture/movie_timing.h>
 #include <palpate/core/file_series.h>
@@ -53,6 +55,14 @@ inline constexpr std::array kMovieSpeeds = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
 inline constexpr std::array kMovieRates = {24, 25, 30, 50, 60};            // [pictures/s]
 inline constexpr std::array kMovieHeights = {480, 720, 1080, 1440, 2160};  // [px]
 
+// A size on paper, as it was exported last.
+struct ExportSize {
+  int preset = kScreenPreset;  // index into kPaperPresets
+  QSizeF sizeMm{120.0, 90.0};
+  double textPt = 8.0;
+  bool operator==(const ExportSize&) const = default;
+};
+
 // All choices of an export.
 struct ExportRequest {
   // The name of the view, ExportedView::name.
@@ -86,9 +96,17 @@ struct ExportRequest {
   bool nameIsOwn = false;
   // The recording that is exported from; empty: a connected hand.
   QString source = {};
+  // Of each view that was exported before, by its name.
+  std::map<QString, ExportSize> sizes = {};
   // Overwrites existing files; never stored.
   bool replace = false;
 
+  ExportSize size() const { return {preset, sizeMm, textPt}; }
+  void setSize(const ExportSize& size) {
+    preset = size.preset;
+    sizeMm = size.sizeMm;
+    textPt = size.textPt;
+  }
   bool isSeries() const noexcept {
     return form == ExportFormat::kPng && frames != ExportFrames::kShown;
   }
@@ -102,6 +120,12 @@ struct ExportRequest {
 // file never stops the program.
 ExportRequest loadExportRequest(const QSettings& settings);
 void saveExportRequest(const ExportRequest& request, QSettings& settings);
+
+// The size of the last export of `view`; of a view that was not exported yet, preset and text of
+// `request` with a height that suits the view.
+ExportSize sizeFor(const ExportedView& view, const ExportRequest& request);
+// The size of a preset for a view [mm]; nothing for the presets that leave it open.
+std::optional<QSizeF> sizeOfPreset(int preset, const ExportedView& view);
 
 // The paper and the appearance for the picture of a view whose size on screen is `sizeOnScreen`
 // [px].
@@ -126,6 +150,8 @@ QString movieProblem(const ExportedView& view);
 // What prevents the export, in one line that tells the user what to do; empty when nothing does.
 // Checks the disk.
 QString problemOf(const ExportRequest& request, const ExportedView& view);
+// What happens to a chart for which the typed height is small, in one line; empty: nothing.
+QString heightHintOf(const ExportRequest& request, const ExportedView& view);
 // Why that many bytes do not fit on the disk; empty when they do.
 QString spaceProblemOf(const ExportRequest& request, double bytes);
 

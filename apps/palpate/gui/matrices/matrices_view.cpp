@@ -97,6 +97,8 @@ void MatricesView::paintEvent(QPaintEvent* event) {
     painter.fillRect(event->rect(), colorsOf(look_.theme).window);
     return;
   }
+  // The window may have moved to another screen.
+  if (background_.devicePixelRatio() != devicePixelRatioF()) renew();
   const MatricesPictureOptions options = pictureOptions();
   if (background_.isNull()) {
     background_ = QPixmap(size() * devicePixelRatioF());

@@ -1,5 +1,7 @@
 #include "gui/picture/exported_view.h"
 
+#include <algorithm>
+
 namespace palpate::gui {
 
 QSizeF ExportedView::sizeOnScreen() const {
@@ -7,6 +9,18 @@ QSizeF ExportedView::sizeOnScreen() const {
   constexpr QSizeF kLeast(160.0, 120.0);
   const QSizeF shown = size ? size() : widget ? QSizeF(widget->size()) : QSizeF(900, 720);
   return shown.expandedTo(kLeast);
+}
+
+QSizeF ExportedView::proportionsNow() const {
+  if (proportions) return proportions();
+  const QSizeF shown = sizeOnScreen();
+  return {shown.width(), std::max(shown.height(), leastHeight * shown.width())};
+}
+
+QSizeF ExportedView::sizeOnPaperMm(double widthMm) const {
+  const QSizeF shown = proportionsNow();
+  const double heightMm = widthMm * shown.height() / shown.width();
+  return {widthMm, leastHeight > 0.0 ? std::max(heightMm, kLeastChartMm) : heightMm};
 }
 
 std::vector<ExportedTable> ExportedView::tablesNow() const {

@@ -19,6 +19,11 @@ class QPainter;
 
 namespace palpate::gui {
 
+// Height of a chart on paper, of its width: curves in a low dock would be flat lines.
+inline constexpr double kChartHeight = 0.5;
+// Smallest height of a chart on paper [mm].
+inline constexpr double kLeastChartMm = 40.0;
+
 // How a picture looks. The painter works in units; their size on paper is set by PicturePaper.
 struct PictureLook {
   QSizeF size{900, 720};  // [units]
@@ -32,6 +37,9 @@ struct PictureLook {
   bool colorBar = true;
   // Device pixels per unit; 0: a vector graphic, which has none.
   double pixelRatio = 0.0;
+
+  // For paper, whose proportions need not be those of the screen.
+  bool onPaper() const noexcept { return textUnits > 0; }
 };
 
 // Frames from first to last, both inclusive.
@@ -83,6 +91,10 @@ struct ExportedView {
   std::function<QString()> fileName;
   // Size of the picture as on screen [px]; empty: that of the widget.
   std::function<QSizeF()> size = {};
+  // Of a chart on paper: its smallest height, of its width (kChartHeight); 0: it has no chart.
+  double leastHeight = 0.0;
+  // Size whose proportions a picture on paper has [px]; empty: that on screen, with leastHeight.
+  std::function<QSizeF()> proportions = {};
   // Empty: the view has no picture.
   std::function<void(QPainter&, const PictureLook&)> paint = {};
   // As that of FramePictures.
@@ -96,6 +108,9 @@ struct ExportedView {
   std::function<std::optional<FramePictures>()> framePictures = {};
 
   QSizeF sizeOnScreen() const;
+  // The size of a picture on paper of this width [mm], unless the user types another height.
+  QSizeF sizeOnPaperMm(double widthMm) const;
+  QSizeF proportionsNow() const;
   std::vector<ExportedTable> tablesNow() const;
   std::optional<FramePictures> framePicturesNow() const;
 };

@@ -46,17 +46,21 @@ std::vector<const ExportedView*> together(const std::vector<const ExportedView*>
   return parts;
 }
 
-Arrangement arrangedOnScreen(const std::vector<const ExportedView*>& parts) {
+// Where the parts lie on the screen, with their proportions there or on paper.
+Arrangement arranged(const std::vector<const ExportedView*>& parts, bool onPaper) {
   std::vector<QRectF> onScreen;
-  onScreen.reserve(parts.size());
-  for (const ExportedView* part : parts)
+  std::vector<double> heights;
+  for (const ExportedView* part : parts) {
     onScreen.emplace_back(part->widget->mapToGlobal(QPoint()), part->sizeOnScreen());
-  return arrangementOf(onScreen);
+    heights.push_back((onPaper ? part->proportionsNow() : part->sizeOnScreen()).height());
+  }
+  return arrangementOf(onScreen, heights);
 }
 
 }  // namespace
 
-Arrangement arrangementOf(const std::vector<QRectF>& onScreen) {
+Arrangement arrangementOf(const std::vector<QRectF>& onScreen,
+                          const std::vector<double>& heightsInPicture) {
   std::vector<std::size_t> order(onScreen.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -83,7 +87,8 @@ Arrangement arrangementOf(const std::vector<QRectF>& onScreen) {
     double width = 0.0, height = 0.0;
     for (const std::size_t each : row) {
       width += onScreen[each].width();
-      height = std::max(height, onScreen[each].height());
+      height = std::max(
+          height, heightsInPicture.empty() ? onScreen[each].height() : heightsInPicture.at(each));
     }
     heights.push_back(height);
     arranged.size.setWidth(std::max(arranged.size.width(), width));
@@ -132,20 +137,20 @@ ExportedView viewsTogether(std::function<std::vector<const ExportedView*>()> par
     const auto shown = together(parts());
     return (shown.empty() ? QString("views") : shown.front()->fileName() + "_views");
   };
-  view.size = [parts] { return arrangedOnScreen(together(parts())).size; };
+  view.size = [parts] { return arranged(together(parts()), false).size; };
+  view.proportions = [parts] { return arranged(together(parts()), true).size; };
   const auto groundOf = [](const ExportedView& part) {
     return part.widget->window()->palette().color(QPalette::Window);
   };
   view.paint = [parts, groundOf](QPainter& painter, const PictureLook& look) {
     const auto shown = together(parts());
     if (shown.empty()) return;
-    const Arrangement arranged = arrangedOnScreen(shown);
+    const std::vector<QRectF> places = arranged(shown, look.onPaper()).places;
     painter.fillRect(QRectF(QPointF(), look.size),
                      look.forPrint ? QColor(Qt::white) : groundOf(*shown.front()));
     for (std::size_t i = 0; i < shown.size(); ++i)
-      paintPart(painter, look.size, arranged.places[i], [&] {
-        shown[i]->paint(painter,
-                        partLook(look, arranged.places[i], shown, i, [](const ExportedView* each) {
+      paintPart(painter, look.size, places[i], [&] {
+        shown[i]->paint(painter, partLook(look, places[i], shown, i, [](const ExportedView* each) {
                           return each->hasColorBar;
                         }));
       });
@@ -159,8 +164,13 @@ ExportedView viewsTogether(std::function<std::vector<const ExportedView*>()> par
       pictures.push_back(std::move(*own));
     }
     if (pictures.size() < 2) return std::nullopt;
-    FramePictures all = framesTogether(
-        std::move(pictures), arrangedOnScreen(shown).places, groundOf(*shown.front()));
+    const QColor ground = groundOf(*shown.front());
+    FramePictures all = framesTogether(pictures, arranged(shown, false).places, ground);
+    all.painter = [screen = all.painter,
+                   paper = framesTogether(pictures, arranged(shown, true).places, ground).painter](
+                      const PictureLook& look) {
+      return look.onPaper() ? paper(look) : screen(look);
+    };
     all.fileName += "_views";
     return all;
   };

@@ -18,8 +18,10 @@ struct Arrangement {
   std::vector<QRectF> places;
 };
 // Arranges views as their places on the screen [px] tell: those beside each other make a row, rows
-// lie below each other; what is between them on the screen is left out.
-Arrangement arrangementOf(const std::vector<QRectF>& onScreen);
+// lie below each other; what is between them on the screen is left out. `heightsInPicture`: heights
+// that differ from those on the screen [px]; empty: none.
+Arrangement arrangementOf(const std::vector<QRectF>& onScreen,
+                          const std::vector<double>& heightsInPicture = {});
 
 // The frames of several views painted in their places. All are of the same recording; times and the
 // selected frames are those of the first. `ground` is what shows between them.

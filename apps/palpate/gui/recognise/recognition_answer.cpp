@@ -86,13 +86,13 @@ QString RecognitionAnswer::name() const {
 QString RecognitionAnswer::confidenceWord() const {
   if (kind == Kind::kUnknown) return "unknown";
   if (kind != Kind::kNamed) return {};
-  return sure ? "sure" : "not sure";
+  return !known ? "not known yet" : sure ? "sure" : "not sure";
 }
 
 QString RecognitionAnswer::accessibleText() const {
   if (kind == Kind::kNothing || kind == Kind::kProblem) return text;
-  if (kind == Kind::kUnknown)
-    return "unknown" + (best.empty() ? QString() : "; most similar: " + best.front().name);
+  if (kind == Kind::kUnknown || !known)
+    return confidenceWord() + (best.empty() ? QString() : "; most similar: " + best.front().name);
   return name() + ", " + probabilityText(best.front().p) + ", " + confidenceWord();
 }
 
@@ -101,6 +101,7 @@ RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& predicti
   answer.kind = prediction.label == Prediction::kUnknown ? RecognitionAnswer::Kind::kUnknown
                                                          : RecognitionAnswer::Kind::kNamed;
   answer.sure = prediction.sure;
+  answer.known = prediction.membership != Membership::kNotKnownYet;
   for (std::size_t k = 0; k < std::min(kBest, prediction.ranking.size()); ++k)
     answer.best.push_back(
         {QString::fromStdString(model.classes[static_cast<std::size_t>(prediction.ranking[k])]),
@@ -146,7 +147,7 @@ double paintAnswer(QPainter& painter,
   QRectF room = area;
   double photoEnd = area.top();
   const bool answered = answer.kind == Kind::kNamed || answer.kind == Kind::kUnknown;
-  if (answered && !photo.isNull() && answer.kind == Kind::kNamed) {
+  if (answered && !photo.isNull() && answer.kind == Kind::kNamed && answer.known) {
     const double side = std::min(kPhotoShare * room.width(), 12.0 * unit);
     photoEnd = paintPhoto(
         painter, QRectF(room.right() - side, room.top(), side, side), photo, colors.border);
@@ -171,24 +172,25 @@ double paintAnswer(QPainter& painter,
     return end;
   }
   const QColor color = recognitionAnswerColorOf(answer, colors);
+  const bool named = answer.kind == Kind::kNamed && answer.known;
+  const QString headline = named ? answer.name() : answer.confidenceWord();
   // The name is as large as fits.
   double size = kNameUnits * unit;
   while (size > kLeastNameUnits * unit &&
-         QFontMetricsF(fontOf(painter, size, true)).horizontalAdvance(answer.name()) > room.width())
+         QFontMetricsF(fontOf(painter, size, true)).horizontalAdvance(headline) > room.width())
     size *= 0.94;
   const QFont large = fontOf(painter, size, true);
   const QFontMetricsF metrics(large);
   double y = room.top();
   painter.setFont(large);
-  painter.setPen(answer.kind == Kind::kUnknown ? colors.muted : colors.text);
+  painter.setPen(named ? colors.text : colors.muted);
   painter.drawText(QRectF(room.left(), y, room.width(), metrics.height()),
                    Qt::AlignLeft | Qt::AlignVCenter,
-                   metrics.elidedText(answer.name(), Qt::ElideRight, room.width()));
+                   metrics.elidedText(headline, Qt::ElideRight, room.width()));
   y += metrics.height() + 0.25 * unit;
   const QFont plain = fontOf(painter, unit), bold = fontOf(painter, unit, true);
   const double figureWidth = QFontMetricsF(bold).horizontalAdvance("99 %") + 0.4 * unit;
   const auto right = Qt::AlignRight | Qt::AlignVCenter, left = Qt::AlignLeft | Qt::AlignVCenter;
-  const bool named = answer.kind == Kind::kNamed;
   if (named) {
     const QRectF bar(room.left(), y, room.width() - figureWidth, 0.9 * unit);
     paintBar(painter, bar, answer.best.front().p, color, theme);
@@ -207,7 +209,8 @@ double paintAnswer(QPainter& painter,
     // The probabilities are those among the trained objects only, so they say nothing here.
     y = paintWords(painter,
                    QRectF(room.left(), y, room.width(), 4 * unit),
-                   "Not one of the trained objects" +
+                   (answer.known ? QString("Not one of the trained objects")
+                                 : QString("Perhaps not one of the trained objects")) +
                        (answer.best.empty() ? QString(".")
                                             : "; most similar: " + answer.best.front().name),
                    plain,

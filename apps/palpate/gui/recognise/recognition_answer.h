@@ -34,6 +34,9 @@ struct RecognitionAnswer {
   QString text;
   // Answers marked as sure are right in 95 of 100 cases.
   bool sure = false;
+  // Of kNamed: whether it is known that the object is one of the trained ones. If not, the name is
+  // only that of the most similar one, and its probability says nothing.
+  bool known = true;
   // For kNamed and kUnknown: up to three classes, the most probable first.
   std::vector<Place> best;
   // Which grasp the answer is about: "foam_ball.dsa, 12.40 – 14.10 s".
@@ -47,7 +50,7 @@ struct RecognitionAnswer {
 
   // "foam ball", "unknown"; empty without an answer
   QString name() const;
-  // "sure", "not sure", "unknown"; empty without an answer
+  // "sure", "not sure", "not known yet", "unknown"; empty without an answer
   QString confidenceWord() const;
   // Text for screen readers: "foam ball, 97 %, sure".
   QString accessibleText() const;

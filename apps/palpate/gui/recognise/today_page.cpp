@@ -191,8 +191,10 @@ void TodayPage::showDay() {
         answerOf(session->model(), session->predict(grasp->values, grasp->timeUs));
     rows.push_back(
         {{.text = QString::fromStdString(utcText(grasp->timeUs)).mid(11, 8)},
-         {.text = answer.name(), .tip = answer.accessibleText(), .warning = !answer.sure},
-         {.text = probabilityText(answer.best.front().p)},
+         {.text = answer.known ? answer.name() : answer.confidenceWord(),
+          .tip = answer.accessibleText(),
+          .warning = !answer.sure},
+         {.text = answer.known ? probabilityText(answer.best.front().p) : QString("–")},
          {.text =
               grasp->labelledClass
                   ? QString::fromStdString(

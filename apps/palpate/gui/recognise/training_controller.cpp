@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <QEventLoop>
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -232,7 +233,8 @@ std::map<QString, int> TrainingController::counts() const {
 
 void TrainingController::capture(const QString& object, const Profile& clip) {
   const ChosenGrasp grasp = graspOf(clip, defaultFeatureSet(clip.hand()));
-  TrainingClip taught{.object = object, .path = {}, .profile = clip, .problem = {}};
+  TrainingClip taught{
+      .id = ++lastClipId_, .object = object, .path = {}, .profile = clip, .problem = {}};
   taught.quality = grasp.quality;
   taught.seconds = static_cast<double>(clip.durationUs()) / kUsPerS;
   if (!grasp.features.problem.empty())
@@ -279,13 +281,19 @@ void TrainingController::save(std::size_t index) {
           written->problem = QString::fromUtf8(error.what());
         }
       },
-      [this, written, index] {
-        if (index >= clips_.size()) return;
-        TrainingClip& saved = clips_[index];
-        saved.problem = written->problem;
-        saved.state = written->problem.isEmpty() ? TrainingClip::State::kAccepted
-                                                 : TrainingClip::State::kFailed;
-        if (written->problem.isEmpty()) saved.path = written->path;
+      [this, written, id = clip.id, object = clip.object] {
+        const auto saved = std::find_if(
+            clips_.begin(), clips_.end(), [id](const auto& each) { return each.id == id; });
+        if (saved == clips_.end()) {
+          // Another folder was chosen meanwhile.
+          if (!written->problem.isEmpty())
+            emit failed("a grasp of " + object + " was not stored: " + written->problem);
+          return;
+        }
+        saved->problem = written->problem;
+        saved->state = written->problem.isEmpty() ? TrainingClip::State::kAccepted
+                                                  : TrainingClip::State::kFailed;
+        if (written->problem.isEmpty()) saved->path = written->path;
         emit clipsChanged();
         emit folderChanged();
       });

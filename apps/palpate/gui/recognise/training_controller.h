@@ -40,6 +40,8 @@ struct TrainingClip {
     kFailed
   };
   State state = State::kWaiting;
+  // Tells it from all other clips of the controller, also after the list has changed.
+  int id = 0;
   QString object;
   // Path of the file; empty when there is none yet.
   std::filesystem::path path;
@@ -142,6 +144,7 @@ class TrainingController : public QObject {
   std::shared_ptr<const FeatureTable> table_;
   QString problem_;
   std::vector<TrainingClip> clips_;
+  int lastClipId_ = 0;
   std::shared_ptr<const TrainingValidation> checked_;
   BackgroundJob job_;
   BackgroundJob saving_;

@@ -303,6 +303,10 @@ void TrainingPage::showFolder() {
 }
 
 void TrainingPage::showClips() {
+  const int row = clips_->chosenRow();
+  const int chosen =
+      row >= 0 && row < static_cast<int>(shownClips_.size()) ? shownClips_.at(row) : 0;
+  shownClips_.clear();
   std::vector<std::vector<FigureCell>> rows;
   const auto& clips = controller_.clips();
   for (auto clip = clips.rbegin(); clip != clips.rend(); ++clip) {
@@ -314,8 +318,12 @@ void TrainingPage::showClips() {
                     {.text = stateText(*clip),
                      .tip = QString::fromStdString(clip->path.string()),
                      .warning = odd}});
+    shownClips_.append(clip->id);
   }
   clips_->setRows(rows);
+  // The chosen clip stays chosen when others come above it.
+  if (const auto now = shownClips_.indexOf(chosen); now >= 0)
+    clips_->selectRow(static_cast<int>(now));
   showState();
 }
 

@@ -2,6 +2,7 @@
 // series of labelled grasps, and trains a model.
 #pragma once
 
+#include <QList>
 #include <QWidget>
 #include <filesystem>
 #include <functional>
@@ -60,6 +61,8 @@ class TrainingPage : public QWidget {
   QPushButton* capture_;
   QLabel* state_;
   FiguresTable* clips_;
+  // The clip of each row (TrainingClip::id).
+  QList<int> shownClips_;
   QPushButton* act_;
   QPushButton* train_;
 };

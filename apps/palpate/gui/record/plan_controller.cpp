@@ -193,7 +193,7 @@ void PlanController::beginAnew() {
 }
 
 std::optional<RecordingSettings> PlanController::nextSettings(const RecordingSettings& last) const {
-  const auto next = plan_.next();
+  const auto next = step();
   if (!followed_ || !next) return std::nullopt;
   const PlanRow& row = plan_.rows()[next->row];
   RecordingSettings settings = last;
@@ -204,9 +204,25 @@ std::optional<RecordingSettings> PlanController::nextSettings(const RecordingSet
   return settings;
 }
 
+std::optional<PlanStep> PlanController::step() const {
+  if (!row_) return plan_.next();
+  const PlanRow& row = plan_.rows()[*row_];
+  return PlanStep{*row_, row.numDone() + row.numUndecided() + 1};
+}
+
+void PlanController::hold() {
+  if (const auto next = step()) row_ = next->row;
+  emit changed();
+}
+
+void PlanController::release() {
+  if (!row_) return;
+  row_.reset();
+  emit changed();
+}
+
 void PlanController::begin(std::optional<double> leastS) {
-  const auto next = plan_.next();
-  if (next) row_ = next->row;
+  if (const auto next = step()) row_ = next->row;
   leastS_ = leastS;
   emit changed();
 }
@@ -284,20 +300,19 @@ QString PlanController::progressText() const {
 
 QString PlanController::nextText() const {
   if (plan_.rows().empty()) return {};
-  const auto next = plan_.next();
+  const auto next = step();
   const int undecided = plan_.numUndecided();
   const QString open = undecided == 0
                            ? QString()
                            : QString::number(undecided) +
                                  (undecided == 1 ? " take is" : " takes are") + " to be decided";
   if (!next) return open.isEmpty() ? "the plan is done" : open;
-  // A take that is being recorded isn't counted yet, so it is still the next one of the plan.
-  const QString text = (row_ == next->row ? "now: " : "next: ") + nextTake();
+  const QString text = (row_ ? "now: " : "next: ") + nextTake();
   return open.isEmpty() ? text : text + "; " + open;
 }
 
 QString PlanController::nextTake() const {
-  const auto next = plan_.next();
+  const auto next = step();
   if (!next) return {};
   const PlanRow& row = plan_.rows()[next->row];
   QString text = QString::fromStdString(row.object);

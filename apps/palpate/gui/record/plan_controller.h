@@ -52,6 +52,12 @@ class PlanController : public QObject {
 
   // `last` with object, run and notes of the next take; nothing: the plan isn't followed, or done.
   std::optional<RecordingSettings> nextSettings(const RecordingSettings& last) const;
+  // From hold() to release() or end(), the next take is one of the row that is next now: editing
+  // the row changes the take, editing other rows doesn't make another row the next one.
+  void hold();
+  void release();
+  // False also when the row was removed meanwhile.
+  bool holds() const noexcept { return row_.has_value(); }
   // The recording that begins is that take; it must not be shorter than `leastS` [s], where this is
   // given, else than the limits say.
   void begin(std::optional<double> leastS);
@@ -70,7 +76,7 @@ class PlanController : public QObject {
   void forget(const std::filesystem::path& file);
 
   // "3 of 12", "next: ball, left, 2 of 3; 1 take is to be decided" ("now: ..", while that take is
-  // recorded) or "the plan is done"; empty: the plan has no row.
+  // counted down or recorded) or "the plan is done"; empty: the plan has no row.
   QString progressText() const;
   QString nextText() const;
 
@@ -90,6 +96,8 @@ class PlanController : public QObject {
 
  private:
   void save();
+  // The take that is held, else the next one of the plan.
+  std::optional<PlanStep> step() const;
 
   QSettings& settings_;
   RecordingPlan plan_;

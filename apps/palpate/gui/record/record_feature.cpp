@@ -345,6 +345,10 @@ void RecordFeature::settle() { plan_.settle(); }
 
 void RecordFeature::connectCountdown() {
   connect(&countdown_, &RecordingCountdown::changed, this, &RecordFeature::showCountdown);
+  connect(&countdown_, &RecordingCountdown::cancelled, &plan_, &PlanController::release);
+  connect(&plan_, &PlanController::changed, this, [this] {
+    if (countdown_.running()) showCountdown();
+  });
   connect(
       countdownStrip_, &CountdownStrip::cancelRequested, &countdown_, &RecordingCountdown::cancel);
   // One press of Escape stops the hand and cancels the countdown, whatever the hand does.
@@ -487,6 +491,7 @@ void RecordFeature::toggle() {
   }
   const RecordingSettings next = planned.value_or(settings_);
   const bool isPlanned = planned.has_value();
+  if (isPlanned) plan_.hold();
   countedTake_ = isPlanned ? plan_.nextTake() : QString();
   if (next.countdownS > 0)
     countdown_.start(next.countdownS, [this, next, isPlanned] { begin(next, isPlanned); });
@@ -540,16 +545,24 @@ bool RecordFeature::mayStop() {
   return may;
 }
 
-void RecordFeature::begin(const RecordingSettings& settings, bool planned) {
+void RecordFeature::begin(const RecordingSettings& counted, bool planned) {
   LiveController& live = state().live;
-  if (!live.source() || live.recording()) return;
+  if (!live.source() || live.recording()) {
+    if (planned) plan_.release();
+    return;
+  }
+  // The row of the plan may have been edited during the countdown.
+  const auto held = plan_.holds() ? plan_.nextSettings(settings_) : std::nullopt;
+  if (!held) plan_.release();
+  const RecordingSettings settings = held.value_or(counted);
+  isPlanned_ = planned;
   offer_->dismiss();
   doubted_.reset();
   // A take may be a little shorter than it was to be: by the interval of two frames.
   constexpr double kNearlyWhole = 0.95;
   std::optional<double> leastS;
   if (settings.limits.stopAfterS) leastS = kNearlyWhole * *settings.limits.stopAfterS;
-  if (planned) plan_.begin(leastS);
+  if (held) plan_.begin(leastS);
   live.startRecording([settings] {
     RecordingOptions options =
         recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
@@ -574,6 +587,7 @@ void RecordFeature::mark(const QString& label, std::optional<int> digit) {
 }
 
 void RecordFeature::showCountdown() {
+  if (plan_.holds()) countedTake_ = plan_.nextTake();
   countdownStrip_->setLeft(countdown_.leftS(), countedTake_);
   if (countdown_.running()) offer_->dismiss();
   showState();
@@ -616,6 +630,7 @@ void RecordFeature::showState() {
 void RecordFeature::offer(const RecordingReport& report) {
   Messages& messages = state().messages;
   plan_.end(report);
+  const bool isPlanned = std::exchange(isPlanned_, false);
   showState();
   // It may have been continued in another folder than that of the next one.
   takeFolder();
@@ -644,9 +659,13 @@ void RecordFeature::offer(const RecordingReport& report) {
     messages.fail((why.startsWith(name) ? "" : name + ": ") +
                   (report.lost > 0 ? "something is missing: " : "") + why);
   }
-  const QString plan = plan_.plan().find(report.paths.front()) && plan_.followed()
-                           ? " · " + plan_.progressText() + ", " + plan_.nextText()
-                           : QString();
+  const bool counts = plan_.plan().find(report.paths.front()) != nullptr;
+  const QString plan =
+      counts && plan_.followed() ? " · " + plan_.progressText() + ", " + plan_.nextText()
+      : !counts && isPlanned     ? QString(
+                                   " · not counted in the plan: its row was removed, or the plan "
+                                       "is followed no longer")
+                             : QString();
   offerTake("Recorded " + summary + plan);
   if (offering_ && missesSomething(report)) offer_->warn(true);
 }

@@ -79,7 +79,8 @@ class RecordFeature : public Feature {
   bool isPlanSure();
   bool mayStop();
   void offerAnotherFolder();
-  void begin(const RecordingSettings& settings, bool planned);
+  // `counted`: the settings when the countdown began; `planned`: they were those of a planned take.
+  void begin(const RecordingSettings& counted, bool planned);
   void mark(const QString& label, std::optional<int> digit);
   void showState();
   void showCountdown();
@@ -104,10 +105,12 @@ class RecordFeature : public Feature {
   RecordedTake take_;
   // What the line about it says.
   QString takeText_;
-  RecordingCountdown countdown_;
+  RecordingCountdown countdown_{this};
   CountdownStrip* countdownStrip_;
   // The take of the plan that it counts down to; empty: of no plan.
   QString countedTake_;
+  // The recording that runs was begun as a take of the plan.
+  bool isPlanned_ = false;
   // When Escape cancelled the countdown; it then does nothing else.
   QElapsedTimer escaped_;
   RecoveryFinder unfinished_;

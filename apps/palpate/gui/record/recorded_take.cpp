@@ -92,22 +92,41 @@ void RecordedTake::rename() {
   }
 }
 
+QStringList RecordedTake::keepWhatIsThere() {
+  std::erase_if(paths_, [](const fs::path& part) { return filesOfRecording(part).empty(); });
+  QStringList names;
+  for (const fs::path& part : paths_)
+    for (const fs::path& file : filesOfRecording(part)) names << pathText(file.filename());
+  emit changed();
+  return names;
+}
+
 bool RecordedTake::discardFiles() {
   requireNotBeingWritten(paths_);
   bool trashed = true;
+  QStringList moved;
   for (const fs::path& path : paths_)
-    for (const fs::path& file : filesOfRecording(path))
+    for (const fs::path& file : filesOfRecording(path)) {
       trashed = trashed && moveToTrash(pathText(file));
+      if (trashed) moved << pathText(file.filename());
+    }
   if (trashed) {
     removeFreeLocks(paths_);
     windowState_.messages.flash("moved to the trash: " + nameOfTake(paths_));
     return true;
   }
-  if (!windowState_.prompts.confirmed("The desktop has no trash for " +
-                                          pathText(paths_.front().parent_path()) + ". Delete " +
-                                          nameOfTake(paths_) + " for good?",
-                                      "Delete"))
+  const QString why =
+      moved.isEmpty()
+          ? "The desktop has no trash for " + pathText(paths_.front().parent_path()) + ". Delete " +
+                nameOfTake(paths_)
+          : "Only " + moved.join(", ") + " could be moved to the trash. Delete the rest of " +
+                nameOfTake(paths_);
+  if (!windowState_.prompts.confirmed(why + " for good?", "Delete")) {
+    if (!moved.isEmpty())
+      windowState_.messages.fail("Discarded in part: in the trash: " + moved.join(", ") +
+                                 "; kept: " + keepWhatIsThere().join(", "));
     return false;
+  }
   deleteRecording(paths_);
   windowState_.messages.flash("deleted: " + nameOfTake(paths_));
   return true;
@@ -127,7 +146,8 @@ void RecordedTake::discard() {
     emit discarded(gone);
     emit changed();
   } catch (const Error& error) {
-    windowState_.messages.fail("Not discarded: " + QString::fromUtf8(error.what()));
+    windowState_.messages.fail("Not discarded: " + QString::fromUtf8(error.what()) +
+                               "; kept: " + keepWhatIsThere().join(", "));
   }
 }
 

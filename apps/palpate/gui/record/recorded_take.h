@@ -5,6 +5,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <filesystem>
 #include <functional>
 #include <vector>
@@ -39,7 +40,10 @@ class RecordedTake : public QObject {
   // The opened ones among the parts.
   std::vector<OpenedRecordingPtr> opened() const;
   void close(const std::vector<OpenedRecordingPtr>& recordings);
+  // False: not all of it was discarded; paths() are what is left.
   bool discardFiles();
+  // Drops the parts of which no file is left; returns the names of the files that are.
+  QStringList keepWhatIsThere();
 
   WindowState& windowState_;
   std::vector<std::filesystem::path> paths_;

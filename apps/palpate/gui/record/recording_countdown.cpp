@@ -27,6 +27,7 @@ bool RecordingCountdown::cancel() {
   timer_.stop();
   leftS_ = 0;
   begin_ = {};
+  emit cancelled();
   emit changed();
   return true;
 }

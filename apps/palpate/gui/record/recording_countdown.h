@@ -25,6 +25,8 @@ class RecordingCountdown : public QObject {
   void tick();
 
  signals:
+  // Emitted before changed(); `begin` isn't called any more.
+  void cancelled();
   // leftS() has changed: a second has passed, or the countdown begins, ends or is cancelled.
   void changed();
 

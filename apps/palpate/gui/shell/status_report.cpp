@@ -30,6 +30,7 @@ StatusReport::StatusReport(WindowState& windowState, StatusStrip& strip, WindowM
   connect(&windowState.selection, &Selection::taxelsChanged, this, report);
   connect(&windowState.currentFrame, &CurrentFrame::heldChanged, this, report);
   connect(&windowState.activeFilters, &ActiveFilters::onChanged, this, report);
+  connect(&windowState.comparison, &ComparisonMode::changed, this, report);
   connect(&windowState.live, &LiveController::stateChanged, this, [this] {
     reportLink();
     this->report();
@@ -83,13 +84,15 @@ void StatusReport::report() {
   }
   const bool playing = playback.playing();
   const bool inGap = recording->gapAt(playback.positionS()) != nullptr;
+  // Recordings are compared as they were recorded.
+  const bool isFiltered = windowState_.activeFilters.applied() && !windowState_.comparison.on();
   now.lamp = inGap ? Status::Lamp::kWarning : playing ? Status::Lamp::kGood : Status::Lamp::kIdle;
   now.state = "playback · " + QString(playing ? "playing " : "paused ") +
-              QString::number(playback.speed()) + "×" +
-              (windowState_.activeFilters.applied() ? " · filtered" : "") +
+              QString::number(playback.speed()) + "×" + (isFiltered ? " · filtered" : "") +
               (opening ? " · opening another" : "");
   if (playback.hasFrames()) {
-    const OpenedRecordingPtr& seen = windowState_.displayed.filteredRecording();
+    const OpenedRecordingPtr& seen =
+        isFiltered ? windowState_.displayed.filteredRecording() : recording;
     try {
       const CharacteristicSignals all = seen->at(playback.frame(), seen->numMatrices());
       now.figures = {"active " + QString::number(all.active),

@@ -64,18 +64,26 @@ void EventEditing::connectRows() {
   connect(&windowState_.events, &EventController::changed, this, [this] {
     // While a live source is shown, the marks of the recording and the chosen one are kept.
     if (!windowState_.displayed.isLive()) rows_.setMarks(windowState_.events.marks());
+    if (!rows_.chosen()) walkedLane_.reset();
     showUndo();
     windowState_.actionEnabler.refresh();
   });
   connect(&rows_, &EventRows::markChosen, this, &EventEditing::show);
-  connect(
-      &rows_, &EventRows::chosenChanged, this, [this] { windowState_.actionEnabler.refresh(); });
+  connect(&rows_, &EventRows::chosenChanged, this, [this] {
+    if (!rows_.chosen()) walkedLane_.reset();
+    windowState_.actionEnabler.refresh();
+  });
   connect(&rows_, &EventRows::removeRequested, &windowState_.events, &EventController::remove);
   connect(&rows_, &EventRows::textChanged, this, [this](std::size_t mark, const QString& text) {
+    std::optional<RecordingEvent> named;
     windowState_.events.change(
         mark,
-        [text](RecordingEvent& event) { event.text = text.toStdString(); },
+        [&](RecordingEvent& event) {
+          event.text = text.toStdString();
+          named = event;
+        },
         "naming an event");
+    if (named) chooseEvent(*named);
   });
   connect(&rows_, &EventRows::spanChanged, this, [this](std::size_t mark, double from, double to) {
     const OpenedRecordingPtr recording = windowState_.displayed.recorded();
@@ -180,23 +188,33 @@ void EventEditing::rename() {
 
 // Chooses the event that was made just now, so that the keys for events act on it.
 void EventEditing::choose(const RecordingEvent& made) {
+  chooseEvent(made);
+  shownAtS_ = windowState_.playback.positionS();
+}
+
+void EventEditing::chooseEvent(const RecordingEvent& event) {
   const EventEditor* editor = windowState_.events.editor();
   if (!editor) return;
   const auto& marks = rows_.marks();
   for (std::size_t i = 0; i < marks.size(); ++i)
-    if (marks[i].event && editor->events().at(*marks[i].event) == made) rows_.choose(i);
-  shownAtS_ = windowState_.playback.positionS();
+    if (marks[i].event && editor->events().at(*marks[i].event) == event) rows_.choose(i);
 }
 
 void EventEditing::goToNext(int step) {
+  if (rows_.marks().empty()) return;
   const double nowS = windowState_.playback.positionS();
-  if (rows_.chosen() && shownAtS_ && *shownAtS_ == nowS) return rows_.chooseNext(step);
-  rows_.chooseNextFrom(nowS, step);
+  const auto chosen = rows_.chosen();
+  const bool moved = !chosen || !shownAtS_ || *shownAtS_ != nowS;
+  const EventLane lane = walkedLane_.value_or(rows_.marks().at(chosen.value_or(0)).lane);
+  if (!moved && rows_.marks()[*chosen].lane == lane) return rows_.chooseNext(step);
+  // A label that was made at a grasp doesn't end the way from grasp to grasp.
+  rows_.chooseNextFrom(nowS, step, lane, !moved);
 }
 
 // Moves the cursor to the begin of the mark, selects its span, and scrolls it into view.
 void EventEditing::show(std::size_t index) {
   const EventMark mark = rows_.marks().at(index);
+  walkedLane_ = mark.lane;
   Selection& selection = windowState_.selection;
   const TimeSpan seen = selection.visibleSpan();
   const double spanS = seen.toS - seen.fromS;

@@ -30,9 +30,11 @@ class EventEditing : public QObject {
   void addGrasp();
   void rename();
   void choose(const RecordingEvent& made);
+  void chooseEvent(const RecordingEvent& event);
   void show(std::size_t mark);
   void showUndo();
-  // Goes on from the chosen event as long as the cursor stands on it, else from the cursor.
+  // Goes on from the chosen event as long as the cursor stands on it, else from the cursor; in the
+  // row of the event that was shown last.
   void goToNext(int step);
 
   WindowState& windowState_;
@@ -40,6 +42,8 @@ class EventEditing : public QObject {
   EventRows& rows_;
   // Where show() left the cursor [s]; nothing: no event was shown.
   std::optional<double> shownAtS_;
+  // The row of the event that show() showed last; nothing: none since none was chosen.
+  std::optional<EventLane> walkedLane_;
 };
 
 }  // namespace palpate::gui

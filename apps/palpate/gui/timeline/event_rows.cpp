@@ -10,8 +10,12 @@
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
+
+#include <palpate/core/time.h>
 
 namespace palpate::gui {
 namespace {
@@ -61,24 +65,61 @@ QSize EventRows::sizeHint() const {
 int EventRows::heightOfOne() const { return rowHeight() + kAboveText; }
 
 void EventRows::setMarks(std::vector<EventMark> marks) {
-  const bool had = chosen_ && *chosen_ < marks_.size();
-  const auto before = had ? std::optional(marks_[*chosen_]) : std::nullopt;
-  marks_ = std::move(marks);
+  const std::vector<EventMark> before = std::exchange(marks_, std::move(marks));
+  const std::vector<Share> shares = shares_;
   lanes_.clear();
   for (const EventLane lane : kAllEventLanes)
     if (std::any_of(marks_.begin(), marks_.end(), [&](const auto& m) { return m.lane == lane; }))
       lanes_.push_back(lane);
-  chosen_.reset();
   drag_ = Part::kNone;
-  // Chooses the same mark again, or the one that replaced it.
-  for (std::size_t i = 0; before && i < marks_.size(); ++i)
-    if (marks_[i].lane == before->lane &&
-        std::abs(marks_[i].fromS - before->fromS) + std::abs(marks_[i].toS - before->toS) < 1e-3)
-      chosen_ = i;
+  arrange();
+  const auto again = [&](std::optional<std::size_t> index) {
+    return index && *index < before.size() ? indexOf(before[*index], shares[*index].count)
+                                           : std::nullopt;
+  };
+  chosen_ = again(chosen_);
+  edited_ = again(edited_);
+  if (field_ && !edited_) field_->hide();
   setVisible(!lanes_.empty());
   updateGeometry();
   update();
   emit marksChanged();
+}
+
+std::optional<std::size_t> EventRows::indexOf(const EventMark& before,
+                                              std::size_t numOfSpan) const {
+  std::optional<std::size_t> other;
+  std::size_t numNow = 0;
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    const EventMark& mark = marks_[i];
+    if (mark.lane != before.lane ||
+        std::abs(mark.fromS - before.fromS) + std::abs(mark.toS - before.toS) >= 1e-3)
+      continue;
+    if (mark.text == before.text) return i;
+    other = i;
+    ++numNow;
+  }
+  // Another text: it was renamed. One that was removed isn't replaced by another of its span.
+  return numNow >= numOfSpan ? other : std::nullopt;
+}
+
+void EventRows::arrange() {
+  // Of marks with the same span; to the microsecond, as they are stored.
+  const auto spanOf = [this](std::size_t i) {
+    const EventMark& mark = marks_[i];
+    return std::tuple(
+        mark.lane, std::llround(mark.fromS * kUsPerS), std::llround(mark.toS * kUsPerS));
+  };
+  std::map<decltype(spanOf(0)), std::vector<std::size_t>> spans;
+  for (std::size_t i = 0; i < marks_.size(); ++i) spans[spanOf(i)].push_back(i);
+  shares_.assign(marks_.size(), {});
+  for (const auto& [span, same] : spans)
+    for (std::size_t i = 0; i < same.size(); ++i) shares_[same[i]] = {i, same.size()};
+  order_.resize(marks_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::stable_sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
+    return marks_[a].toS - marks_[a].fromS > marks_[b].toS - marks_[b].fromS;
+  });
 }
 
 void EventRows::setScale(double fromS, double toS, int leftPixel, int rightPixel) {
@@ -105,8 +146,16 @@ double EventRows::secondsAt(double pixel) const {
 QRectF EventRows::barOf(std::size_t index) const {
   const EventMark& mark = marks_[index];
   const bool dragged = drag_ != Part::kNone && chosen_ == index && dragged_;
-  const double from = pixelOf(dragged ? dragFromS_ : mark.fromS);
-  const double to = std::max(pixelOf(dragged ? dragToS_ : mark.toS), from + kLeastBar);
+  double from = pixelOf(dragged ? dragFromS_ : mark.fromS);
+  double to = std::max(pixelOf(dragged ? dragToS_ : mark.toS), from + kLeastBar);
+  if (const auto [place, count] = shares_[index]; count > 1 && !dragged) {
+    const double width = std::max((to - from) / static_cast<double>(count), kLeastBar + 1.0);
+    const double all = static_cast<double>(count) * width;
+    // Moments at the right border lie before it.
+    if (all > to - from && from <= right_) from = std::min(from, right_ - all);
+    from += static_cast<double>(place) * width;
+    to = from + width - 1.0;
+  }
   if (to < left_ || from > right_) return {};
   const auto row = std::find(lanes_.begin(), lanes_.end(), mark.lane) - lanes_.begin();
   // A mark at the end is as wide as one elsewhere.
@@ -214,7 +263,7 @@ void EventRows::paintEvent(QPaintEvent*) {
   }
   painter.setClipRect(QRect(left_, 0, right_ - left_, height()));
   const std::vector<Neighbours> beside = neighbours();
-  for (std::size_t i = 0; i < marks_.size(); ++i) paintMark(painter, i, beside[i]);
+  for (const std::size_t i : order_) paintMark(painter, i, beside[i]);
   if (!hasFocus()) return;
   painter.setClipping(false);
   painter.setPen(QPen(colors.accent, 1.0));
@@ -223,12 +272,15 @@ void EventRows::paintEvent(QPaintEvent*) {
 }
 
 std::optional<std::size_t> EventRows::markAt(const QPointF& at) const {
-  // The mark painted last is on top; the ends of the chosen one take precedence over all others.
+  // The mark painted last is on top, but the ends of the chosen one take precedence over all
+  // others.
   if (chosen_ && *chosen_ < marks_.size() &&
       barOf(*chosen_).adjusted(-kReach, 0, kReach, 0).contains(at))
     return chosen_;
-  for (std::size_t i = marks_.size(); i-- > 0;)
-    if (barOf(i).adjusted(-1, 0, 1, 0).contains(at)) return i;
+  // Bars beside each other are told exactly; around them there is a pixel more.
+  for (const double around : {0.0, 1.0})
+    for (auto i = order_.rbegin(); i != order_.rend(); ++i)
+      if (barOf(*i).adjusted(-around, 0, around, 0).contains(at)) return *i;
   return std::nullopt;
 }
 
@@ -261,12 +313,15 @@ void EventRows::chooseNext(int step) {
   emit markChosen(*chosen_);
 }
 
-void EventRows::chooseNextFrom(double seconds, int step) {
-  // A mark that begins here comes next: goToNext() goes on from one that is chosen.
+void EventRows::chooseNextFrom(double seconds,
+                               int step,
+                               std::optional<EventLane> lane,
+                               bool beyond) {
   constexpr double kSameS = 0.001;
+  const double afterS = beyond ? seconds + kSameS : seconds - kSameS;
   std::optional<std::size_t> next;
-  for (const std::size_t i : rowOfChosen()) {
-    if (step > 0 && !next && marks_[i].fromS > seconds - kSameS) next = i;
+  for (const std::size_t i : rowOf(lane)) {
+    if (step > 0 && !next && marks_[i].fromS > afterS) next = i;
     if (step < 0 && marks_[i].fromS < seconds - kSameS) next = i;
   }
   if (!next) return;
@@ -275,12 +330,17 @@ void EventRows::chooseNextFrom(double seconds, int step) {
 }
 
 std::vector<std::size_t> EventRows::rowOfChosen() const {
+  const bool any = chosen_ && *chosen_ < marks_.size();
+  return rowOf(any ? std::optional(marks_[*chosen_].lane) : std::nullopt);
+}
+
+std::vector<std::size_t> EventRows::rowOf(std::optional<EventLane> lane) const {
   std::vector<std::size_t> row;
   if (marks_.empty()) return row;
-  const EventLane lane =
-      chosen_ && *chosen_ < marks_.size() ? marks_[*chosen_].lane : marks_.front().lane;
+  const bool there = lane && std::find(lanes_.begin(), lanes_.end(), *lane) != lanes_.end();
+  const EventLane of = there ? *lane : marks_.front().lane;
   for (std::size_t i = 0; i < marks_.size(); ++i)
-    if (marks_[i].lane == lane) row.push_back(i);
+    if (marks_[i].lane == of) row.push_back(i);
   return row;
 }
 
@@ -344,7 +404,7 @@ void EventRows::editText(std::size_t index) {
       const QString text = field_->text().simplified();
       field_->hide();
       setFocus();
-      if (edited_ < marks_.size() && text != marks_[edited_].text) emit textChanged(edited_, text);
+      if (edited_ && text != marks_[*edited_].text) emit textChanged(*edited_, text);
     });
     connect(field_, &QLineEdit::editingFinished, field_, &QWidget::hide);
   }

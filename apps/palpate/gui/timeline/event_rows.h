@@ -31,12 +31,14 @@ class EventRows : public QWidget {
   // Chooses the next (step 1) or previous (step -1) mark in the row of the chosen one; in the first
   // row if none is chosen.
   void chooseNext(int step);
-  // The same from a time [s]: the next mark that begins after it, or the previous one that begins
-  // before; none is left as it is.
-  void chooseNextFrom(double seconds, int step);
+  // In the row of `lane` (the first row where that has no mark), from a time [s]: the next mark
+  // that begins there or later, or the previous one that begins before; none is left as it is. With
+  // `beyond` a mark that begins there is passed over.
+  void chooseNextFrom(double seconds, int step, std::optional<EventLane> lane, bool beyond = false);
   // Opens an input field over the bar; textChanged() follows when the user presses Enter.
   void editText(std::size_t mark);
-  // Rectangle of the bar [px]; empty: not visible.
+  // Rectangle of the bar [px]; empty: not visible. Bars of the same span and row lie beside each
+  // other.
   QRectF barOf(std::size_t mark) const;
 
   QSize sizeHint() const override;
@@ -74,6 +76,11 @@ class EventRows : public QWidget {
   double secondsAt(double pixel) const;
   // The marks in the row of the chosen one, or in the first row; in order of time.
   std::vector<std::size_t> rowOfChosen() const;
+  std::vector<std::size_t> rowOf(std::optional<EventLane> lane) const;
+  // The mark of `before`, which was among the marks before they were replaced, or the one that
+  // replaced it; `numOfSpan`: how many marks had its span.
+  std::optional<std::size_t> indexOf(const EventMark& before, std::size_t numOfSpan) const;
+  void arrange();
   std::optional<std::size_t> markAt(const QPointF& at) const;
   Part partAt(std::size_t mark, const QPointF& at) const;
   // What limits the name of a mark that is painted beside its bar.
@@ -86,6 +93,14 @@ class EventRows : public QWidget {
   QColor colorOf(const EventMark& mark) const;
 
   std::vector<EventMark> marks_;
+  // Of each mark: its place among those of the same span in its row.
+  struct Share {
+    std::size_t index = 0;
+    std::size_t count = 1;
+  };
+  std::vector<Share> shares_;
+  // The marks in the order in which they are painted: short ones above long ones.
+  std::vector<std::size_t> order_;
   // Lanes that have a mark.
   std::vector<EventLane> lanes_;
   double fromS_ = 0.0;
@@ -100,7 +115,8 @@ class EventRows : public QWidget {
   bool dragged_ = false;
   double pressedPixel_ = 0.0;
   QLineEdit* field_ = nullptr;
-  std::size_t edited_ = 0;
+  // The mark whose text field_ edits.
+  std::optional<std::size_t> edited_;
 };
 
 }  // namespace palpate::gui

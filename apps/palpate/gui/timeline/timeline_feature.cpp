@@ -660,6 +660,7 @@ std::vector<ExportedView> TimelineFeature::views() {
   ExportedView view;
   view.name = "Timeline";
   view.widget = charts_;
+  view.leastHeight = kChartHeight;
   view.isThere = [&windowState] { return windowState.currentFrame.hasFrame(); };
   view.fileName = [&windowState] {
     return windowState.recordingStem() + "_" +

@@ -50,11 +50,20 @@ ActiveFilters::ActiveFilters(DisplayedSource& displayed,
   });
   connect(&displayed_, &DisplayedSource::shown, this, [this] {
     if (!std::exchange(sourceIsNew_, false)) return;
+    // Said once, and not of what the user has chosen in this session.
+    const bool ofLastSession = displayed_.isRecording() && std::exchange(ofLastSession_, false);
+    if (ofLastSession && on_ && !recipe().empty())
+      messages_.flash("filtered as in the last session: " + text() +
+                      "; A switches the filters off");
     takeKeptRecipe();
     apply();
   });
   connect(&editor_, &RecipeEditor::changed, this, [this] {
-    settings_.setValue(kRecipeKey, QString::fromStdString(recipeJson(recipe()).text(-1)));
+    if (!isLent()) {
+      settings_.setValue(kRecipeKey, QString::fromStdString(recipeJson(recipe()).text(-1)));
+      settings_.setValue(kOnKey, on_);
+    }
+    ofLastSession_ = false;
     emit measured(std::nullopt);
     apply();
     noteInLiveRecording();
@@ -89,12 +98,31 @@ void ActiveFilters::restore(const std::optional<Recipe>& recipe) {
   const QSignalBlocker quiet(editor_);
   if (last) editor_.restore(*last);
   on_ = recipe || settings_.value(kOnKey, false).toBool();
+  ofLastSession_ = !recipe;
+}
+
+bool ActiveFilters::isLent() const { return lent_ && recipe().sameSteps(lent_->recipe); }
+
+void ActiveFilters::lend(const Recipe& recipe) {
+  if (isLent()) return;
+  lent_ = Lent{recipe, this->recipe(), on_};
+  editor_.setRecipe(recipe);
+  setOn(true);
+}
+
+void ActiveFilters::giveBack() {
+  const bool unchanged = isLent();
+  const auto lent = std::exchange(lent_, std::nullopt);
+  if (!unchanged) return;
+  editor_.setRecipe(lent->own);
+  setOn(lent->ownOn);
 }
 
 void ActiveFilters::setOn(bool on) {
   if (on == on_) return;
   on_ = on;
-  settings_.setValue(kOnKey, on);
+  ofLastSession_ = false;
+  if (!isLent()) settings_.setValue(kOnKey, on);
   apply();
   emit onChanged(on);
   messages_.flash(!on ? QString("filters are off: values as recorded")

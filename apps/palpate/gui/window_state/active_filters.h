@@ -34,6 +34,10 @@ class ActiveFilters : public QObject {
   // True: the filtered values are shown; false: the values as recorded.
   bool on() const noexcept { return on_; }
   void setOn(bool on);
+  // Shows `recipe` until giveBack(), and then the user's filters again. The settings keep those of
+  // the user. If the user has edited the chain meanwhile, it stays.
+  void lend(const Recipe& recipe);
+  void giveBack();
   // Takes `recipe` and switches it on; without one, takes recipe and switch from the settings of
   // the last session.
   void restore(const std::optional<Recipe>& recipe);
@@ -62,6 +66,8 @@ class ActiveFilters : public QObject {
   void failed(const QString& message);
 
  private:
+  // What is applied was lent, and not edited since.
+  bool isLent() const;
   void apply();
   void takeKeptRecipe();
   void noteInLiveRecording();
@@ -74,6 +80,15 @@ class ActiveFilters : public QObject {
   RecipeEditor editor_;
   FilterWorker worker_;
   bool on_ = false;
+  // Chain and switch are those of the last session, and no recording was shown yet.
+  bool ofLastSession_ = false;
+  struct Lent {
+    Recipe recipe;
+    // The user's filters.
+    Recipe own;
+    bool ownOn = false;
+  };
+  std::optional<Lent> lent_;
   bool sourceIsNew_ = false;
   // The recording madeOf_ filtered by the recipe madeBy_; null: not made yet.
   OpenedRecordingPtr made_;

@@ -91,6 +91,7 @@ void DisplayedSource::replace(const OpenedRecordingPtr& recording, const OpenedR
   leftAt_.erase(recording->path);
   if (unfiltered_ != recording) return;
   unfiltered_ = filtered_ = isLive() ? now : nullptr;
+  if (isRecording()) kind_ = Kind::kNothing;
 }
 
 // Called four times a second.

@@ -60,7 +60,7 @@ class DisplayedSource : public QObject {
   // known now.
   void notifyMoreKnown();
   // To be called when `recording` was closed (`now` null) or read again as `now`: it isn't shown
-  // any more. A call of show() must follow.
+  // any more, and until show() is called, nothing is.
   void replace(const OpenedRecordingPtr& recording, const OpenedRecordingPtr& now);
 
   // The position at which the user left a recording and at which it opens again; null: not shown
