@@ -11,6 +11,7 @@
 
 #include "palpate/core/json.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/recording/recording_losses.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -54,8 +55,21 @@ std::map<std::string, std::int64_t> countersOf(const DeviceStatus& status) {
     counters[prefix + "retries"] = static_cast<std::int64_t>(port.retries);
   };
   add("", status.tactile);
+  if (status.tactile.estimatedLost > 0)
+    counters["lost_estimated"] = static_cast<std::int64_t>(status.tactile.estimatedLost);
+  if (status.tactile.outOfRange > 0)
+    counters["out_of_range"] = static_cast<std::int64_t>(status.tactile.outOfRange);
   if (status.motion) add("motion_", *status.motion);
   return counters;
+}
+
+RecordingEvent recordingEventOf(DeviceEvent&& event) {
+  return {event.tUs,
+          event.t1Us,
+          std::move(event.kind),
+          event.matrix,
+          std::move(event.text),
+          std::move(event.json)};
 }
 
 }  // namespace
@@ -120,8 +134,18 @@ void CaptureSession::startRecording(RecordingOptions options) {
       std::make_shared<std::map<std::string, std::int64_t>>(countersOf(device_->status()));
   const auto waits = std::make_shared<bool>(options.startOnContact);
   const auto given = options.counters;
-  options.counters = [this, before, given] {
+  const auto missingAtEnd = std::make_shared<std::int64_t>(0);
+  options.openGaps = [this, missingAtEnd](std::int64_t untilUs) {
+    std::vector<RecordingEvent> gaps;
+    if (auto gap = device_->openGap(untilUs)) gaps.push_back(recordingEventOf(std::move(*gap)));
+    for (const RecordingLoss& loss : lossesOf(gaps))
+      *missingAtEnd += static_cast<std::int64_t>(loss.lost);
+    return gaps;
+  };
+  options.counters = [this, before, given, missingAtEnd] {
     auto counters = countersOf(device_->status());
+    if (*missingAtEnd > 0)
+      for (const char* name : {"lost", "lost_estimated"}) counters[name] += *missingAtEnd;
     for (auto& [name, value] : counters) {
       const auto earlier = before->find(name);
       if (earlier != before->end() && earlier->second <= value) value -= earlier->second;
@@ -186,10 +210,9 @@ void CaptureSession::onTemperatures(Temperatures&& temperatures) {
 }
 
 void CaptureSession::onEvent(DeviceEvent&& event) {
-  const RecordingEvent recorded{
-      event.tUs, event.t1Us, event.kind, event.matrix, event.text, event.json};
-  show(recorded);
-  pass(recorded);
+  const RecordingEvent item = recordingEventOf(std::move(event));
+  show(item);
+  pass(item);
 }
 
 void CaptureSession::pass(const CaptureItem& item) {

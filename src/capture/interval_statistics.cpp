@@ -30,7 +30,17 @@ double IntervalStatistics::meanRateHz() const noexcept {
   return frames_ < 2 ? 0.0 : static_cast<double>(frames_ - 1) / durationS();
 }
 
-double IntervalStatistics::rateHz() const noexcept { return frames_ < 2 ? 0.0 : 1e6 / medianUs(); }
+double IntervalStatistics::rateHz() const noexcept {
+  if (frames_ < 2) return 0.0;
+  const double median = medianUs();
+  const double gapUs = gapThresholdUs(median);
+  double between = static_cast<double>(lastUs_ - firstUs_);
+  for (const std::int64_t interval : longOnes_)
+    if (static_cast<double>(interval) > gapUs) between -= static_cast<double>(interval);
+  const double mean =
+      between / static_cast<double>(std::max<std::int64_t>(frames_ - 1 - gaps(), 1));
+  return 1e6 / (isInBursts(median, mean) ? mean : median);
+}
 
 std::int64_t IntervalStatistics::gaps() const noexcept {
   if (frames_ < 2) return 0;

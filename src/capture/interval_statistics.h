@@ -19,7 +19,7 @@ class IntervalStatistics {
   std::int64_t lastUs() const noexcept { return lastUs_; }
   double durationS() const noexcept;   // first to last
   double meanRateHz() const noexcept;  // (frames - 1) / duration
-  double rateHz() const noexcept;      // 1 / median interval; 0 with fewer than two frames
+  double rateHz() const noexcept;      // as in TimingReport
   std::int64_t gaps() const noexcept;  // intervals longer than max(1 s, 5 median intervals)
 
  private:

@@ -30,6 +30,8 @@ std::string portFault(const PortStatus& port, const std::string& name) {
     case PortState::kSilent:
       return port.items == 0 && port.suspect > 0 && !why.empty()
                  ? where + " sends nothing that fits the hand" + why
+             : port.suspect > 0 && !why.empty()
+                 ? where + " sends no frames" + why
                  : where + " is silent" +
                        (why.empty() ? ": check the hand's power and cable" : why);
     case PortState::kLost:

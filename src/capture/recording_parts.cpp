@@ -585,6 +585,13 @@ void RecordingParts::addOwn(RecordingEvent event) {
   unwrittenEvents_.push_back(std::move(event));
 }
 
+// What is missing at the end has no end that the device would tell in time.
+void RecordingParts::addOpenGaps(RoundTime time) {
+  if (!options_.openGaps || std::exchange(gapsTaken_, true)) return;
+  for (RecordingEvent& gap : options_.openGaps(std::min(time.nowUs, endUs_.value_or(time.nowUs))))
+    unwrittenEvents_.push_back(std::move(gap));
+}
+
 void RecordingParts::writePendingEvents() {
   while (!unwrittenEvents_.empty()) {
     // Throws while the disk is full; the event then stays pending.
@@ -700,6 +707,7 @@ bool RecordingParts::finish(RoundTime time) {
     return !frameHeld_;
   }
   if (!closeOldPart(time)) return !(unfinished_ = true);
+  addOpenGaps(time);
   const bool done = succeeds(writer_, time, [&] {
     commitWriter();
     onCommitSucceeded(time);

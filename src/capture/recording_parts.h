@@ -114,6 +114,7 @@ class RecordingParts {
   void endLossIntervals();
   void endLossInterval(std::size_t stream);
   void addOwn(RecordingEvent event);
+  void addOpenGaps(RoundTime time);
   void writePendingEvents();
   void updateCounters(RoundTime time);
   void commit(RoundTime time);
@@ -176,6 +177,7 @@ class RecordingParts {
   int relocationsHere_ = 0;        // in a row into the folder in which it was
   bool relocationFailed_ = false;  // the last one
   bool finishing_ = false;
+  bool gapsTaken_ = false;  // RecordingOptions::openGaps
   // Parts that were left unfinished in another folder.
   std::vector<std::filesystem::path> abandoned_;
 

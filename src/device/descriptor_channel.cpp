@@ -48,8 +48,12 @@ void DescriptorChannel::gone(int error) const {
   throw DeviceError(DeviceFault::kDisconnected, name_, "connection lost (" + reason + ")");
 }
 
+ssize_t DescriptorChannel::receive(std::span<std::byte> into) {
+  return ::read(fd_, into.data(), into.size());
+}
+
 std::size_t DescriptorChannel::take(std::span<std::byte> into, short events) {
-  const ssize_t got = ::read(fd_, into.data(), into.size());
+  const ssize_t got = receive(into);
   if (got > 0) return static_cast<std::size_t>(got);
   if (got < 0) {
     if (wouldBlock(errno) || errno == EINTR) {

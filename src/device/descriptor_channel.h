@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include <sys/types.h>
+
 #include "palpate/core/file_descriptor.h"
 #include "palpate/device/byte_channel.h"
 
@@ -21,6 +23,8 @@ class DescriptorChannel : public ByteChannel {
  protected:
   // Throws DeviceError when the system has no descriptor left.
   DescriptorChannel(std::string name, int fd, bool isSocket);
+  // Reads what is there, as ::read() does.
+  virtual ssize_t receive(std::span<std::byte> into);
 
  private:
   std::size_t take(std::span<std::byte> into, short events);

@@ -9,6 +9,8 @@ namespace {
 
 // Frames that arrive this many numbers late were overtaken; further back the sender restarted.
 constexpr std::int32_t kMaxLate = 64;
+// More frames with the same number are those of a sender that does not count any more.
+constexpr int kMostRepeated = 2;
 // Frames that may be missing beyond what the time could have held.
 constexpr double kSpareFrames = 64.0;
 constexpr double kTimeMargin = 2.0;
@@ -32,7 +34,13 @@ FrameNumbers::Step FrameNumbers::next(std::uint32_t number,
     return {};
   }
   const auto step = static_cast<std::int32_t>(number - *last_);
-  if (step == 0) return {};  // a sender that does not count
+  // A sender that does not count, or no longer.
+  if (step == 0) return {.repeated = counts_ && ++numRepeated_ <= kMostRepeated};
+  numRepeated_ = 0;
+  if (isMissing(step)) {
+    came_ |= std::uint64_t{1} << -step;
+    return {.late = true};
+  }
   if (mayBeLate && step < 0 && step >= -kMaxLate && late_ != number - 1) {
     late_ = number;
     return {.late = true};
@@ -45,9 +53,23 @@ FrameNumbers::Step FrameNumbers::next(std::uint32_t number,
   timeUs_ = timeUs;
   if (step < 0 || !couldBeMissing(step - 1, passedUs)) {
     outstanding_ = std::min(outstanding_, 0.0);
+    came_ = 1;
+    numKnown_ = 1;
+    counts_ = false;
     return {.renumbered = true};
   }
+  noteStep(step);
   return {.missing = static_cast<std::uint64_t>(step - 1)};
+}
+
+bool FrameNumbers::isMissing(std::int32_t step) const {
+  return step < 0 && step > -numKnown_ && (came_ >> -step & 1) == 0;
+}
+
+void FrameNumbers::noteStep(std::int32_t step) {
+  counts_ = true;
+  came_ = (step < kMaxLate ? came_ << step : 0) | 1;
+  numKnown_ = std::min(kMaxLate, numKnown_ + std::min(step, kMaxLate));
 }
 
 bool FrameNumbers::couldBeMissing(std::int32_t missing, std::optional<double> passedUs) {

@@ -24,11 +24,13 @@ struct StreamDevice::Impl {
   Impl(const StreamDeviceOptions& given, const Clock& clock)
       : options(given),
         time(clock),
-        source(options.open ? "test" : options.source, options.baud),
+        source(options.open ? "test" : options.source, options.baud, clock),
         link(
             options,
             options.open ? options.open : [this](const std::string&) { return source.open(); },
-            {.startsInside = !options.open && source.startsInside(), .isInput = source.isInput()},
+            {.startsInside = !options.open && source.startsInside(),
+             .isInput = source.isInput(),
+             .source = &source},
             time,
             clock) {}
 
@@ -93,6 +95,14 @@ bool StreamDevice::finished() const { return impl_->source.ended(); }
 std::optional<std::uint16_t> StreamDevice::localPort() const { return impl_->source.localPort(); }
 
 std::string StreamDevice::lastFault() const { return impl_->link.lastFault(); }
+
+std::string StreamDevice::lastOutOfRange() const { return impl_->link.lastOutOfRange(); }
+
+std::vector<std::string> StreamDevice::remarks() const { return impl_->link.remarks(); }
+
+std::optional<DeviceEvent> StreamDevice::openGap(std::int64_t untilUs) const {
+  return impl_->link.openGap(untilUs);
+}
 
 std::string StreamDevice::notice() const {
   const std::string place = impl_->source.placeText();

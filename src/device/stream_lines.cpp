@@ -12,60 +12,30 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 
+#include "device/line_tokens.h"
+
 namespace palpate {
 namespace {
+
+using namespace line_tokens;
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+// Equal times in a row of a clock in milliseconds: 10,000 frames/s.
+constexpr int kMostEqualTimes = 10;
+// A clock goes back where it wraps or its sender starts anew; a taxel does so all the time.
+constexpr int kMostTimesBack = 3;
+constexpr int kTimesForgetting = 50;
 
 constexpr std::size_t kShortestLimit = 4096;
 constexpr std::size_t kBytesPerNumber = 25;
 // Times are exact in a double up to here: 285 years.
 constexpr double kMostDeviceUs = 9.0e15;
 
-bool isBlank(char c) { return c == ' ' || c == '\t'; }
-bool isSeparator(char c) { return c == ',' || c == ';' || isBlank(c); }
-bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-
-const char* skipBlanks(const char* at, const char* end) {
-  while (at != end && isBlank(*at)) ++at;
-  return at;
-}
-
-std::string_view tokenAt(const char* at, const char* end) {
-  const char* stop = at;
-  while (stop != end && !isSeparator(*stop)) ++stop;
-  return {at, static_cast<std::size_t>(stop - at)};
-}
-
 // True for the words that stand for values that are no finite number: they are not names.
 bool isNonFinite(std::string_view word) {
   double value = 0.0;
   const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
   return failure == std::errc() && end == word.data() + word.size();
-}
-
-// Reads a number at `at`; returns its end, or null when there is none.
-const char* readNumber(const char* at, const char* end, double& value) {
-  // Most values are whole numbers of few digits.
-  const char* digit = at;
-  std::uint32_t whole = 0;
-  while (digit != end && digit - at < 9 && *digit >= '0' && *digit <= '9')
-    whole = whole * 10 + static_cast<std::uint32_t>(*digit++ - '0');
-  if (digit != at && (digit == end || isSeparator(*digit))) {
-    value = whole;
-    return digit;
-  }
-  if (at != end && *at == '+' && end - at > 1 && at[1] != '-') ++at;
-  const auto [stop, failure] = std::from_chars(at, end, value);
-  if (failure == std::errc::result_out_of_range) {
-    // Too small is 0, too large is infinite, which is refused by the range of values.
-    const std::string_view text(at, static_cast<std::size_t>(stop - at));
-    const std::size_t exponent = text.find_first_of("eE");
-    const bool tiny = exponent != std::string_view::npos && exponent + 1 < text.size() &&
-                      text[exponent + 1] == '-';
-    value = tiny ? 0.0 : std::numeric_limits<double>::infinity();
-  } else if (failure != std::errc()) {
-    return nullptr;
-  }
-  return stop == end || isSeparator(*stop) ? stop : nullptr;
 }
 
 std::string separatorName(char separator) {
@@ -130,13 +100,17 @@ void readTactileMatrices(const Json& matrices,
   }
 }
 
-}  // namespace
+// The next end of a line; null when there is none.
+const char* nextLineEnd(const char* at, const char* end) {
+  const auto find = [&](char c, const char* until) {
+    return static_cast<const char*>(std::memchr(at, c, static_cast<std::size_t>(until - at)));
+  };
+  const char* const feed = find('\n', end);
+  const char* const carriage = find('\r', feed != nullptr ? feed : end);
+  return carriage != nullptr ? carriage : feed;
+}
 
-struct StreamLineParser::Head {
-  StreamItemKind kind = StreamItemKind::kFrame;
-  std::optional<std::uint32_t> sequence;
-  const char* values = nullptr;  // where the numbers begin
-};
+}  // namespace
 
 StreamLineParser::StreamLineParser(StreamShape shape, const StreamLineOptions& options)
     : shape_(std::move(shape)),
@@ -145,17 +119,25 @@ StreamLineParser::StreamLineParser(StreamShape shape, const StreamLineOptions& o
                                                        shape_.numTemperatures())),
       skipping_(options.startsInside),
       numbers_(std::max({shape_.numPlaces(), shape_.numAxes(), shape_.numTemperatures()}) + 1),
-      values_(shape_.numPlaces()) {}
+      values_(shape_.numPlaces()),
+      rowsBegin_(!options.startsInside) {}
 
 void StreamLineParser::push(std::span<const std::byte> bytes, const Sink& sink) {
   const char* at = reinterpret_cast<const char*>(bytes.data());
   const char* const end = at + bytes.size();
   while (at != end) {
-    const auto* stop =
-        static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(end - at)));
+    // "\r\n" and "\n\r" end one line.
+    if (lastEnd_ != '\0' && *at != lastEnd_ && (*at == '\n' || *at == '\r')) {
+      lastEnd_ = '\0';
+      ++stats_.lineBytes;
+      ++at;
+      continue;
+    }
+    const char* const stop = nextLineEnd(at, end);
     const char* const pieceEnd = stop != nullptr ? stop : end;
     const auto piece = static_cast<std::size_t>(pieceEnd - at);
     const std::size_t withEnd = piece + (stop != nullptr ? 1 : 0);
+    lastEnd_ = stop != nullptr ? *stop : '\0';
     if (!skipping_ && pending_.size() + piece > longestLine_) {
       refuse(stats_.lines + 1,
              "longer than " + std::to_string(longestLine_) + " bytes: no line of this hand is");
@@ -185,6 +167,7 @@ void StreamLineParser::push(std::span<const std::byte> bytes, const Sink& sink) 
 }
 
 void StreamLineParser::endLine(const Sink& sink) {
+  lastEnd_ = '\0';
   if (skipping_) {
     ++stats_.lines;
     skipping_ = false;
@@ -197,18 +180,39 @@ void StreamLineParser::endLine(const Sink& sink) {
 
 void StreamLineParser::takeLine(std::string_view line, const Sink& sink) {
   ++stats_.lines;
-  line = trimmed(line, " \t\r");
-  if (line.empty() || line.front() == '#') return;
+  if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+  line = trimmed(line, " \t");
+  if (line.empty()) return separateRows();
+  if (line.front() == '#') return;
   if (line.front() == '{') {
     if (options_.acceptJson)
       readJson(line, sink);
     else
       refuse("this is JSON, and lines of numbers are expected");
   } else if (options_.acceptNumbers) {
-    readNumbers(line, sink);
+    takeText(line, sink);
   } else {
     refuse(inQuotes(line) + " is not a JSON object");
   }
+}
+
+// Lists in brackets are numbers; a line of more than one label has labelled values.
+void StreamLineParser::takeText(std::string_view line, const Sink& sink) {
+  constexpr std::string_view kBrackets = "[]()";
+  const std::size_t last = line.find_last_not_of(",; \t");
+  if (kBrackets.find(line.front()) != std::string_view::npos ||
+      (last != std::string_view::npos && kBrackets.find(line[last]) != std::string_view::npos)) {
+    plain_.assign(line);
+    for (char& c : plain_)
+      if (kBrackets.find(c) != std::string_view::npos) c = ' ';
+    line = trimmed(plain_, " \t");
+    if (line.empty()) return refuse("an empty list");
+  }
+  if (line.front() == '>') line = trimmed(line.substr(1), " \t");
+  if (!line.empty() && isLetter(line.front()) && std::ranges::count(line, ':') > 1)
+    readLabelled(line, sink);
+  else
+    readNumbers(line, sink);
 }
 
 void StreamLineParser::refuse(std::uint64_t line, const std::string& why) {
@@ -222,8 +226,10 @@ bool StreamLineParser::readHead(std::string_view line, Head& head) {
   std::string_view name = tokenAt(at, end);
   head.values = at;
   if (!isLetter(*at) || isNonFinite(name)) return true;
-  // "name:value" is no name: it is refused as a value.
-  if (name.find(':') < name.size() - 1) return true;
+  if (const std::size_t colon = name.find(':'); colon != std::string_view::npos) {
+    name = name.substr(0, colon + 1);
+    head.hasColon = true;
+  }
   at = skipBlanks(at + name.size(), end);
   if (at != end && (*at == ',' || *at == ';')) at = skipBlanks(at + 1, end);
   head.values = at;
@@ -237,6 +243,7 @@ bool StreamLineParser::readHead(std::string_view line, Head& head) {
     head.sequence = static_cast<std::uint32_t>(static_cast<std::uint64_t>(*number));
     name = name.substr(0, mark);
   }
+  head.name = name;
   if (name == "angles") head.kind = StreamItemKind::kAngles;
   if (name == "temperatures") head.kind = StreamItemKind::kTemperatures;
   return true;
@@ -283,45 +290,115 @@ void StreamLineParser::readNumbers(std::string_view line, const Sink& sink) {
   if (!readHead(line, head)) return;
   bool failed = false;
   const std::size_t count = readValues(head.values, line.data() + line.size(), failed);
-  if (!failed) deliver(head, count, sink);
+  if (!failed)
+    deliver(head, count, sink);
+  else if (head.name.empty())
+    skipRow();
+}
+
+bool StreamLineParser::hasTime(bool fits, bool fitsWithout) const noexcept {
+  if (options_.time == StreamTime::kAuto) return !fits && fitsWithout;
+  return options_.time != StreamTime::kNone;
+}
+
+// Whether guessed times ascend, as those of a clock do.
+bool StreamLineParser::ascends(double us) {
+  if (lastTimeUs_ && !isNoTime_) {
+    timesEqual_ = us == *lastTimeUs_ ? timesEqual_ + 1 : 0;
+    if (us < *lastTimeUs_) ++timesBack_;
+    if (us > *lastTimeUs_ && ++timesForward_ % kTimesForgetting == 0 && timesBack_ > 0)
+      --timesBack_;
+    isNoTime_ = timesEqual_ > kMostEqualTimes || timesBack_ >= kMostTimesBack;
+  }
+  lastTimeUs_ = us;
+  return !isNoTime_;
+}
+
+// Reads the time, which is the first of `count` numbers. Returns false when it was refused.
+bool StreamLineParser::readTime(StreamItemKind kind,
+                                StreamTime unit,
+                                std::size_t count,
+                                StreamItem& item) {
+  const double perUnit = unitUs(unit, firstNumber_);
+  const double us = numbers_[0] * perUnit;
+  if (!(std::abs(us) <= kMostDeviceUs)) {
+    refuse("the time " + inQuotes(firstNumber_) + " is out of range");
+    return false;
+  }
+  item.deviceUs = std::llround(us);
+  if (unit != StreamTime::kAuto || kind != StreamItemKind::kFrame) return true;
+  const std::string first = "the first of " + std::to_string(count) + " numbers";
+  if (!ascends(us)) {
+    refuse(first + " does not ascend (" + shortened(firstNumber_) +
+           "), so it is not the time for which it was taken in " + counted(numGuessed_, "frame") +
+           ": name the unit of the time (--time s), or send " + std::to_string(count - 1) +
+           " numbers without a time (--time none)");
+    return false;
+  }
+  if (numGuessed_++ == 0)
+    guess_ = first + " of a frame is taken for its time in " +
+             (perUnit > 1e3 ? "seconds" : "milliseconds") +
+             "; if it is not, name its unit (--time s, ms or us) or --time none";
+  return true;
 }
 
 void StreamLineParser::deliver(const Head& head, std::size_t count, const Sink& sink) {
-  const bool mustHaveTime =
-      options_.time != StreamTime::kAuto && options_.time != StreamTime::kNone;
-  bool hasTime = mustHaveTime;
-  if (options_.time == StreamTime::kAuto)
-    hasTime = !shape_.fits(head.kind, count) && count > 0 && shape_.fits(head.kind, count - 1);
-  const std::size_t given = count - (hasTime && count > 0 ? 1 : 0);
-  if (!shape_.fits(head.kind, given) || (mustHaveTime && count == 0)) {
-    std::string why = counted(count, "number") + " instead of " + shape_.expected(head.kind);
-    if (mustHaveTime) why += " and a time";
-    if (shape_.fits(head.kind, count / 2) && count % 2 == 0)
-      why += "; if the values have decimal commas, send decimal points";
-    return refuse(why);
+  if (takePad(head, count, sink) || takeWord(head, count) || takeRow(head, count, sink)) return;
+  const bool withTime =
+      hasTime(shape_.fits(head.kind, count), count > 0 && shape_.fits(head.kind, count - 1));
+  const std::size_t given = count - (withTime && count > 0 ? 1 : 0);
+  if (!shape_.fits(head.kind, given) || (withTime && count == 0)) {
+    if (count == 1 && head.hasColon && head.kind == StreamItemKind::kFrame && !hasWholeFrames_)
+      return takeLabel(head.name, numbers_[0], sink);
+    return refuse(countFault(head, count));
   }
   StreamItem item;
   item.kind = head.kind;
   item.sequence = head.sequence;
-  if (hasTime) {
-    const double us = numbers_[0] * unitUs(options_.time, firstNumber_);
-    if (!(std::abs(us) <= kMostDeviceUs))
-      return refuse("the time " + inQuotes(firstNumber_) + " is out of range");
-    item.deviceUs = std::llround(us);
-  }
-  const std::span<const double> numbers = std::span(numbers_).subspan(hasTime ? 1 : 0, given);
-  std::string fault;
+  if (withTime && !readTime(head.kind, options_.time, count, item)) return;
+  const std::span<const double> numbers = std::span(numbers_).subspan(withTime ? 1 : 0, given);
   if (head.kind == StreamItemKind::kFrame) {
-    std::transform(numbers.begin(), numbers.end(), values_.begin(), [](double value) {
-      return static_cast<float>(value);
-    });
-    fault = shape_.arrange(values_, given);
-    item.values = values_;
-  } else {
-    fault = shape_.check(numbers);
-    item.numbers = numbers;
+    endParts();
+    std::ranges::transform(
+        numbers, values_.begin(), [](double value) { return static_cast<float>(value); });
+    return deliverFrame(item, given, sink);
   }
-  if (!fault.empty()) return refuse(fault);
+  if (const std::string fault = shape_.check(numbers); !fault.empty()) return refuse(fault);
+  item.numbers = numbers;
+  ++stats_.items;
+  sink(item);
+}
+
+// Why a line of `count` numbers is no item.
+std::string StreamLineParser::countFault(const Head& head, std::size_t count) const {
+  std::string why = counted(count, "number") + " instead of " + shape_.expected(head.kind);
+  if (options_.time != StreamTime::kAuto && options_.time != StreamTime::kNone)
+    why += " and a time";
+  if (shape_.fits(head.kind, count / 2) && count % 2 == 0)
+    return why + "; if the values have decimal commas, send decimal points";
+  const auto& matrices = shape_.layout().matrices();
+  if (head.kind == StreamItemKind::kFrame && !head.name.empty() && matrices.size() > 1 &&
+      std::ranges::any_of(matrices, [&](const auto& m) { return m.numCells() == count; }))
+    why += "; a line per matrix begins with the name of its matrix, as the hand has it";
+  return why;
+}
+
+// A whole frame in a line: the parts of frames before it are none.
+void StreamLineParser::endParts() {
+  hasWholeFrames_ = true;
+  dropLabels();
+  if (hasRows_) separateRows();
+  hasRows_ = false;
+}
+
+// Delivers a frame of the first `count` ones of values_.
+void StreamLineParser::deliverFrame(StreamItem& item, std::size_t count, const Sink& sink) {
+  if (std::string outside = shape_.arrange(values_, count); !outside.empty()) {
+    ++stats_.outOfRange;
+    lastOutOfRange_ = "line " + std::to_string(stats_.lines) + ": " + std::move(outside);
+  }
+  item.kind = StreamItemKind::kFrame;
+  item.values = values_;
   ++stats_.items;
   sink(item);
 }
@@ -351,10 +428,7 @@ std::optional<StreamItem> StreamLineParser::readJsonFrame(const Json& object) {
     values_ = partValues_;
     numPartMatrices_ = 0;
   }
-  if (const std::string fault = shape_.arrange(values_, values_.size()); !fault.empty())
-    throw Error(fault);
   StreamItem item;
-  item.values = values_;
   item.sequence = sequence;
   const Json stamp = header.at("stamp");
   if (stamp.contains("secs"))
@@ -367,8 +441,9 @@ std::optional<StreamItem> StreamLineParser::readJsonFrame(const Json& object) {
 // Refuses the frame whose other matrices did not come.
 void StreamLineParser::dropPart() {
   if (numPartMatrices_ == 0) return;
-  refuse("frame " + std::to_string(*partSequence_) + " has " + std::to_string(numPartMatrices_) +
-         " matrices instead of " + std::to_string(shape_.layout().numMatrices()));
+  refuse((partSequence_ ? "frame " + std::to_string(*partSequence_) : std::string("a frame")) +
+         " has " + std::to_string(numPartMatrices_) + " matrices instead of " +
+         std::to_string(shape_.layout().numMatrices()));
   numPartMatrices_ = 0;
 }
 
@@ -415,7 +490,11 @@ void StreamLineParser::readJson(std::string_view line, const Sink& sink) {
   } catch (const Error& error) {
     return refuse(error.what());
   }
-  for (const StreamItem& item : items) {
+  for (StreamItem& item : items) {
+    if (item.kind == StreamItemKind::kFrame) {
+      deliverFrame(item, values_.size(), sink);
+      continue;
+    }
     ++stats_.items;
     sink(item);
   }

@@ -10,6 +10,8 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 
+#include "device/stream_source.h"
+
 namespace palpate {
 namespace {
 
@@ -24,6 +26,13 @@ constexpr std::int64_t kStreamOffsetWindowUs = 30'000'000;
 // Of two senders nearly each frame is another numbering: it is one event until this time passes
 // without any.
 constexpr std::int64_t kRenumberedAgainUs = 10'000'000;
+// A clock that jumps again and again is one event until this time passes without any jump.
+constexpr std::int64_t kClockAgainUs = 10'000'000;
+// Losses that follow each other faster are one event.
+constexpr std::int64_t kLossEveryUs = 100'000;
+// Frames that waited longer than this in a connection are told.
+constexpr std::int64_t kPileUs = 300'000;
+constexpr std::size_t kMostRemarks = 100;
 constexpr double kImplausibleSpeed = 10.0;
 constexpr double kSecondUs = 1e6;
 constexpr double kRateWeight = 0.05;
@@ -38,6 +47,30 @@ StreamLineOptions lineOptionsOf(const StreamDeviceOptions& device,
 
 std::string secondsText(std::int64_t us) {
   return numberText(std::round(static_cast<double>(us) / 1e5) / 10.0) + " s";
+}
+
+// Frames of this period in a time.
+std::uint64_t framesIn(std::int64_t us, double periodUs, bool withoutLast) {
+  const double periods = std::round(static_cast<double>(us) / periodUs);
+  return static_cast<std::uint64_t>(std::max(periods - (withoutLast ? 1.0 : 0.0), 0.0));
+}
+
+// An event of kind "gap"; `missing` frames, if their number is known.
+DeviceEvent gapEventOf(std::int64_t fromUs,
+                       std::int64_t toUs,
+                       std::optional<std::uint64_t> missing,
+                       bool estimated) {
+  const double seconds = static_cast<double>(toUs - fromUs) / kSecondUs;
+  Json json = Json::object().set("seconds", seconds);
+  std::string text = "no frames for " + numberText(std::round(seconds * 1000.0) / 1000.0) + " s";
+  if (missing) {
+    json.set("lost", static_cast<std::int64_t>(*missing)).set("estimated", estimated);
+    text += *missing == 0
+                ? std::string(", none is missing")
+                : std::string(estimated ? ", about " : ", ") + counted(*missing, "frame") +
+                      (*missing == 1 ? " is missing" : " are missing");
+  }
+  return {fromUs, toUs, "gap", {}, text, json.text(-1)};
 }
 
 }  // namespace
@@ -65,6 +98,27 @@ std::string StreamLink::lastFault() const {
   return lastFault_;
 }
 
+std::string StreamLink::lastOutOfRange() const {
+  std::lock_guard lock(mutex_);
+  return lastOutOfRange_;
+}
+
+std::vector<std::string> StreamLink::remarks() const {
+  std::lock_guard lock(mutex_);
+  return remarks_;
+}
+
+std::optional<DeviceEvent> StreamLink::openGap(std::int64_t untilUs) const {
+  std::lock_guard lock(mutex_);
+  if (!openGap_) return std::nullopt;
+  const std::int64_t toUs = std::min(untilUs, openGap_->closedUs.value_or(untilUs));
+  const std::int64_t gapUs = toUs - openGap_->fromUs;
+  if (gapUs < kStreamSilentUs) return std::nullopt;
+  std::optional<std::uint64_t> missing;
+  if (openGap_->periodUs > 0.0) missing = framesIn(gapUs, openGap_->periodUs, false);
+  return gapEventOf(openGap_->fromUs, toUs, missing, /*estimated=*/true);
+}
+
 // --- The connection
 
 void StreamLink::forget() {
@@ -72,6 +126,9 @@ void StreamLink::forget() {
   std::lock_guard lock(mutex_);
   description_ = {};
   lastFault_.clear();
+  lastOutOfRange_.clear();
+  remarks_.clear();
+  openGap_.reset();
 }
 
 void StreamLink::connect(ByteChannel& channel) {
@@ -86,6 +143,10 @@ void StreamLink::connect(ByteChannel& channel) {
   session_.lastFrameUs = clock_.monotonicUs();
   session_.frameSinceConnect = false;
   session_.silent = false;
+  session_.closedUs.reset();
+  session_.readsPile = options_.source != nullptr && options_.source->waitedUs() > kPileUs;
+  session_.framesBeforePile = session_.frames;
+  publishGap();
   std::lock_guard lock(mutex_);
   description_ = {};
 }
@@ -97,15 +158,22 @@ void StreamLink::disconnected() {
   const Counts now = countsOfConnection();
   session_.before.badChecksums += now.badChecksums;
   session_.before.refused += now.refused;
+  session_.before.outOfRange += now.outOfRange;
   session_.before.skippedBytes += now.skippedBytes;
   lines_.reset();
   packets_.reset();
+  tellLoss(/*atOnce=*/true);
+  // The end of a connection or of an input is its sender's, that of a port is not.
+  const bool isClosed = channel_->isNetwork() || options_.isInput;
+  if (isClosed) session_.closedUs = time_.nowUs();
   channel_ = nullptr;
-  if (!session_.gapFromUs && session_.lastStampUs != 0) session_.gapFromUs = session_.lastStampUs;
+  beginGap(isClosed);
 }
 
 void StreamLink::ended() {
-  if (session_.gapFromUs) endGap(time_.nowUs(), std::nullopt, /*frameReceived=*/false);
+  tellLoss(/*atOnce=*/true);
+  if (session_.gapFromUs && !session_.gapIsEnd)
+    endGap(session_.closedUs.value_or(time_.nowUs()), std::nullopt, /*frameReceived=*/false);
 }
 
 void StreamLink::work() {
@@ -117,6 +185,9 @@ void StreamLink::work() {
     updateCounts();
     watchFaults();
   }
+  endPile(got);
+  watchRemarks();
+  tellLoss(/*atOnce=*/false);
   watchSilence();
 }
 
@@ -189,13 +260,15 @@ void StreamLink::takeFrame(const StreamItem& item) {
     return;
   }
   const std::int64_t nowUs = clock_.monotonicUs();
-  const auto [missing, isLate, renumbered] = stepOf(item, nowUs);
-  if (isLate) {
+  const FrameNumbers::Step step = stepOf(item, nowUs);
+  if (step.late || step.repeated) {
     ++session_.refused;
     session_.refusedWhy = "frame " + std::to_string(item.sequence.value_or(0)) +
-                          " arrived after later ones: it was left out";
+                          (step.late ? " arrived after later ones: it was left out"
+                                     : " arrived again: the second one was left out");
     return;
   }
+  const std::int64_t beforeUs = session_.lastStampUs;
   TactileFrame frame;
   frame.layout = hand_.layout;
   frame.values.assign(item.values.begin(), item.values.end());
@@ -206,17 +279,19 @@ void StreamLink::takeFrame(const StreamItem& item) {
     frame.deviceMs = floorMs(*deviceUs);
     measureAge(hostUs, *deviceUs);
   }
-  if (session_.gapFromUs)
-    endGap(hostUs, missing, /*frameReceived=*/true);
-  else
+  if (session_.gapFromUs) {
+    endGap(hostUs, step.missing, /*frameReceived=*/true);
+  } else {
     measureRate(nowUs);
+    noteLoss(beforeUs, hostUs, step.missing.value_or(0));
+  }
   session_.lastFrameUs = nowUs;
   session_.frameSinceConnect = true;
   session_.silent = false;
   ++session_.frames;
   const bool showsFault = session_.faultUs != 0 && nowUs - session_.faultUs < kFaultShownUs;
-  updateStatus([&, missing = missing](PortStatus& status) {
-    if (missing) status.lost += *missing;
+  updateStatus([&](PortStatus& status) {
+    status.lost += step.missing.value_or(0);
     status.items = session_.frames;
     status.lastItemUs = hostUs;
     status.state = PortState::kStreaming;
@@ -246,7 +321,9 @@ std::optional<std::int64_t> StreamLink::deviceTime(const StreamItem& item,
   if (!item.deviceUs) return std::nullopt;
   const std::int64_t deviceUs = session_.clock.next(*item.deviceUs, monotonicUs);
   if (session_.clock.restarted() && !session_.speedReported) {
-    eventNow("link", "the sender's clock jumped or started anew");
+    const auto before = std::exchange(session_.clockToldUs, monotonicUs);
+    if (!before || monotonicUs - *before >= kClockAgainUs)
+      eventNow("link", "the sender's clock jumped or started anew");
     session_.minOffsetUs = {};
   }
   if (!options_.isInput && !session_.speedReported) {
@@ -255,9 +332,9 @@ std::optional<std::int64_t> StreamLink::deviceTime(const StreamItem& item,
         (speed && (*speed > kImplausibleSpeed || *speed < 1.0 / kImplausibleSpeed));
     if (implausible) {
       session_.speedReported = true;
-      eventNow("alarm",
-               "the sender's clock runs " + fixedText(*speed, *speed < 1.0 ? 4 : 0) +
-                   " times as fast as this machine's: is the unit of its times right?");
+      remark("the sender's clock runs " + fixedText(*speed, *speed < 1.0 ? 4 : 0) +
+                 " times as fast as this machine's: is the unit of its times right?",
+             "alarm");
     }
   }
   return deviceUs;
@@ -290,12 +367,14 @@ StreamLink::Counts StreamLink::countsOfConnection() const {
   Counts counts;
   if (lines_) {
     counts.refused += lines_->stats().refused;
+    counts.outOfRange += lines_->stats().outOfRange;
     counts.skippedBytes += lines_->stats().skippedBytes;
   }
   // While the form is not known, every line would also be bytes outside of packets.
   if (packets_ && formatFound_) {
     counts.badChecksums += packets_->stats().badChecksums;
     counts.refused += packets_->stats().refused + packets_->stats().badLengths;
+    counts.outOfRange += packets_->stats().outOfRange;
     counts.skippedBytes += packets_->stats().skippedBytes;
   }
   return counts;
@@ -312,6 +391,7 @@ void StreamLink::updateCounts() {
     status.bytes = session_.bytes;
     status.badChecksums = session_.before.badChecksums + now.badChecksums;
     status.suspect = session_.before.refused + now.refused + session_.refused;
+    status.outOfRange = session_.before.outOfRange + now.outOfRange;
     status.skippedBytes = session_.before.skippedBytes + now.skippedBytes;
   });
 }
@@ -319,6 +399,7 @@ void StreamLink::updateCounts() {
 // A refused line or packet is shown for two seconds, and reported at most every ten.
 void StreamLink::watchFaults() {
   const Counts counts = countsOfConnection();
+  watchOutOfRange(counts);
   const std::uint64_t refused = session_.before.refused + counts.refused + session_.refused +
                                 session_.before.badChecksums + counts.badChecksums;
   if (refused <= session_.reportedRefused) {
@@ -329,16 +410,74 @@ void StreamLink::watchFaults() {
   std::string fault = std::exchange(session_.refusedWhy, "");
   if (fault.empty()) fault = faultOfConnection();
   if (fault.empty()) return;
-  session_.faultUs = clock_.monotonicUs();
   {
     std::lock_guard lock(mutex_);
     lastFault_ = fault;
   }
-  updateStatus([&](PortStatus& status) { status.message = escapedLine(port_ + ": " + fault); });
-  if (session_.alarmUs && session_.faultUs - *session_.alarmUs < kFaultAlarmEveryUs) return;
-  session_.alarmUs = session_.faultUs;
-  eventNow("alarm", fault + (more > 1 ? " (and " + std::to_string(more - 1) + " before it)" : ""));
+  showFault(fault, more - 1, session_.alarmUs);
 }
+
+// Values outside of the description are shown and reported in the same way; the first one is also
+// a remark, which says what to do.
+void StreamLink::watchOutOfRange(const Counts& counts) {
+  const std::uint64_t outOfRange = session_.before.outOfRange + counts.outOfRange;
+  if (outOfRange <= session_.reportedOutOfRange) return;
+  const std::uint64_t more = outOfRange - session_.reportedOutOfRange;
+  const std::string& text = lines_ && lines_->stats().outOfRange > 0 ? lines_->lastOutOfRange()
+                                                                     : packets_->lastOutOfRange();
+  {
+    std::lock_guard lock(mutex_);
+    lastOutOfRange_ = text;
+  }
+  if (std::exchange(session_.reportedOutOfRange, outOfRange) == 0) {
+    session_.outOfRangeUs = clock_.monotonicUs();
+    return remark(text +
+                      "; such values are kept: does the description of the hand fit (full_scale "
+                      "in hand.json)?",
+                  "alarm");
+  }
+  showFault(text, more - 1, session_.outOfRangeUs);
+}
+
+void StreamLink::showFault(const std::string& text,
+                           std::uint64_t more,
+                           std::optional<std::int64_t>& toldUs) {
+  session_.faultUs = clock_.monotonicUs();
+  updateStatus([&](PortStatus& status) { status.message = escapedLine(port_ + ": " + text); });
+  if (toldUs && session_.faultUs - *toldUs < kFaultAlarmEveryUs) return;
+  toldUs = session_.faultUs;
+  eventNow("alarm", text + (more > 0 ? " (and " + std::to_string(more) + " before it)" : ""));
+}
+
+// --- What the user should know of the sender
+
+void StreamLink::remark(const std::string& text, const std::string& kind) {
+  eventNow(kind, text);
+  std::lock_guard lock(mutex_);
+  if (remarks_.size() < kMostRemarks) remarks_.push_back(text);
+}
+
+void StreamLink::watchRemarks() {
+  if (lines_ && !session_.guessTold && !lines_->guess().empty()) {
+    session_.guessTold = true;
+    remark(lines_->guess());
+  }
+  if (options_.source == nullptr) return;
+  if (const std::string text = options_.source->takeRemark(); !text.empty()) remark(text);
+}
+
+// The frames that waited were read when a read did not fill the buffer.
+void StreamLink::endPile(std::size_t got) {
+  if (!session_.readsPile || got == buffer_.size()) return;
+  session_.readsPile = false;
+  const std::uint64_t waited = session_.frames - session_.framesBeforePile;
+  if (waited < 2) return;
+  remark(counted(waited, "frame") + " had waited up to " +
+         secondsText(options_.source->waitedUs()) +
+         " until the sender was read: their times are those at which they were read");
+}
+
+// --- Silence and loss
 
 void StreamLink::watchSilence() {
   const std::int64_t nowUs = clock_.monotonicUs();
@@ -348,38 +487,73 @@ void StreamLink::watchSilence() {
   if (packets_) packets_->flush([this](const StreamItem& item) { take(item); });
   if (nowUs - session_.lastFrameUs < limitUs) return;
   session_.silent = true;
-  if (!session_.gapFromUs && session_.lastStampUs != 0) session_.gapFromUs = session_.lastStampUs;
-  const std::string fault = lastFault();
-  const bool isFaulty = session_.faultUs != 0 && nowUs - session_.faultUs < kFaultShownUs;
+  beginGap(/*isEnd=*/false);
   setState(PortState::kSilent,
-           port_ + ": no frames for " + secondsText(nowUs - session_.lastFrameUs) +
-               (isFaulty ? "; " + fault : "; is the sender running?"));
+           port_ + ": no frames for " + secondsText(nowUs - session_.lastFrameUs) + "; " +
+               whySilent(nowUs));
   eventNow("alarm", "no frames from the stream");
+}
+
+// Why no frames come, as far as it is known.
+std::string StreamLink::whySilent(std::int64_t monotonicUs) const {
+  if (session_.faultUs != 0 && monotonicUs - session_.faultUs < kFaultShownUs) return lastFault();
+  if (lines_ && lines_->pendingBytes() > 0)
+    return counted(lines_->pendingBytes(), "byte") + " came without the end of a line";
+  const std::string holder = options_.source ? options_.source->holderText() : std::string();
+  return (holder.empty() ? "" : holder + "; ") + "is the sender running?";
+}
+
+void StreamLink::beginGap(bool isEnd) {
+  if (!session_.gapFromUs && session_.lastStampUs != 0) {
+    session_.gapFromUs = session_.lastStampUs;
+    session_.gapIsEnd = isEnd;
+  }
+  publishGap();
+}
+
+void StreamLink::publishGap() {
+  std::lock_guard lock(mutex_);
+  openGap_.reset();
+  if (session_.gapFromUs && !session_.gapIsEnd)
+    openGap_ = {*session_.gapFromUs, session_.periodUs, session_.closedUs};
 }
 
 void StreamLink::endGap(std::int64_t nowUs,
                         std::optional<std::uint64_t> missing,
                         bool frameReceived) {
   const std::int64_t fromUs = *std::exchange(session_.gapFromUs, std::nullopt);
-  const std::int64_t gapUs = nowUs - fromUs;
-  const bool estimated = !missing;
+  const bool wasClosed = std::exchange(session_.gapIsEnd, false);
+  publishGap();
+  const bool estimated = !missing && !wasClosed;
+  if (!missing && wasClosed) missing = 0;
   if (estimated && session_.periodUs > 0.0) {
-    const double periods = std::round(static_cast<double>(gapUs) / session_.periodUs);
-    missing = static_cast<std::uint64_t>(std::max(periods - (frameReceived ? 1.0 : 0.0), 0.0));
+    missing = framesIn(nowUs - fromUs, session_.periodUs, frameReceived);
     updateStatus([&](PortStatus& status) {
       status.lost += *missing;
       status.estimatedLost += *missing;
     });
   }
-  const double seconds = static_cast<double>(gapUs) / kSecondUs;
-  Json json = Json::object().set("seconds", seconds);
-  std::string text = "no frames for " + numberText(std::round(seconds * 1000.0) / 1000.0) + " s";
-  if (missing) {
-    json.set("lost", static_cast<std::int64_t>(*missing)).set("estimated", estimated);
-    text += std::string(estimated ? ", about " : ", ") + std::to_string(*missing) +
-            " frames are missing";
-  }
-  event("gap", text, fromUs, nowUs, {}, json.text(-1));
+  sink_->onEvent(gapEventOf(fromUs, nowUs, missing, estimated));
+}
+
+// Missing frames between two that came.
+void StreamLink::noteLoss(std::int64_t fromUs, std::int64_t toUs, std::uint64_t missing) {
+  if (missing == 0) return;
+  if (session_.lossFrames == 0) session_.lossFromUs = fromUs;
+  session_.lossToUs = toUs;
+  session_.lossFrames += missing;
+  tellLoss(/*atOnce=*/false);
+}
+
+void StreamLink::tellLoss(bool atOnce) {
+  if (session_.lossFrames == 0) return;
+  const std::int64_t nowUs = clock_.monotonicUs();
+  if (!atOnce && session_.lossToldUs && nowUs - *session_.lossToldUs < kLossEveryUs) return;
+  session_.lossToldUs = nowUs;
+  const std::uint64_t missing = std::exchange(session_.lossFrames, 0);
+  DeviceEvent event = gapEventOf(session_.lossFromUs, session_.lossToUs, missing, false);
+  event.text = counted(missing, "frame") + (missing == 1 ? " is missing" : " are missing");
+  sink_->onEvent(std::move(event));
 }
 
 }  // namespace palpate

@@ -20,11 +20,15 @@
 
 namespace palpate {
 
+class StreamSource;
+
 struct StreamLinkOptions {
   bool startsInside = false;  // see StreamLineOptions
   // True for standard input: its last line may lack its end, and its frames may arrive faster than
   // they were measured.
   bool isInput = false;
+  // Knows who sends; null in tests that open a channel of their own.
+  StreamSource* source = nullptr;
 };
 
 class StreamLink : public PortLink {
@@ -38,6 +42,9 @@ class StreamLink : public PortLink {
   // May be called from any thread.
   StreamDescription description() const;
   std::string lastFault() const;
+  std::string lastOutOfRange() const;
+  std::vector<std::string> remarks() const;
+  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const;
 
  protected:
   void connect(ByteChannel& channel) override;
@@ -53,7 +60,14 @@ class StreamLink : public PortLink {
   struct Counts {
     std::uint64_t badChecksums = 0;
     std::uint64_t refused = 0;
+    std::uint64_t outOfRange = 0;
     std::uint64_t skippedBytes = 0;
+  };
+  // A time without frames that has not ended.
+  struct Gap {
+    std::int64_t fromUs = 0;
+    double periodUs = 0.0;
+    std::optional<std::int64_t> closedUs;  // when the sender closed its connection
   };
 
   void parse(std::span<const std::byte> bytes, bool isDatagram);
@@ -66,12 +80,22 @@ class StreamLink : public PortLink {
   std::optional<std::int64_t> deviceTime(const StreamItem& item, std::int64_t monotonicUs);
   void measureRate(std::int64_t monotonicUs);
   void measureAge(std::int64_t hostUs, std::int64_t deviceUs);
+  void beginGap(bool isEnd);
+  void publishGap();
   void endGap(std::int64_t nowUs, std::optional<std::uint64_t> missing, bool frameReceived);
+  void noteLoss(std::int64_t fromUs, std::int64_t toUs, std::uint64_t missing);
+  void tellLoss(bool atOnce);
   Counts countsOfConnection() const;
   std::string faultOfConnection() const;
   void updateCounts();
   void watchFaults();
+  void watchOutOfRange(const Counts& counts);
+  void showFault(const std::string& text, std::uint64_t more, std::optional<std::int64_t>& toldUs);
+  void watchRemarks();
+  void endPile(std::size_t got);
+  void remark(const std::string& text, const std::string& kind = "link");
   void watchSilence();
+  std::string whySilent(std::int64_t monotonicUs) const;
 
   const HandDescription hand_;
   const StreamFormat format_;
@@ -89,6 +113,9 @@ class StreamLink : public PortLink {
   // Read by other threads, requires mutex_.
   StreamDescription description_;
   std::string lastFault_;
+  std::string lastOutOfRange_;
+  std::vector<std::string> remarks_;
+  std::optional<Gap> openGap_;
 
   // State of one session, from begin() to finish().
   struct Session {
@@ -111,10 +138,24 @@ class StreamLink : public PortLink {
     bool frameSinceConnect = false;
     bool silent = false;
     std::optional<std::int64_t> gapFromUs;  // host time of the last frame before the silence
+    bool gapIsEnd = false;                  // it began when the sender closed its connection
+    std::optional<std::int64_t> closedUs;   // host time when the sender closed its connection
+    // Missing frames that no event tells of yet.
+    std::uint64_t lossFrames = 0;
+    std::int64_t lossFromUs = 0;
+    std::int64_t lossToUs = 0;
+    std::optional<std::int64_t> lossToldUs;  // monotonic
+    // Frames that waited in a connection until it was read.
+    bool readsPile = false;
+    std::uint64_t framesBeforePile = 0;
+    bool guessTold = false;
 
     std::uint64_t reportedRefused = 0;
-    std::int64_t faultUs = 0;             // monotonic time of the last fault
-    std::optional<std::int64_t> alarmUs;  // monotonic time of the last alarm about faults
+    std::uint64_t reportedOutOfRange = 0;
+    std::optional<std::int64_t> outOfRangeUs;  // monotonic time of the last alarm about values
+    std::optional<std::int64_t> clockToldUs;   // monotonic time of the last jump of the clock
+    std::int64_t faultUs = 0;                  // monotonic time of the last fault
+    std::optional<std::int64_t> alarmUs;       // monotonic time of the last alarm about faults
 
     // As in TactileLink: minimum of (host time - device time) in this half minute and the last one.
     std::array<std::optional<std::int64_t>, 2> minOffsetUs;

@@ -116,11 +116,12 @@ void StreamPacketParser::flush(const Sink& sink) {
   pending_.clear();
 }
 
-void StreamPacketParser::fault(const std::string& why) {
-  lastFault_ = "packet " +
-               std::to_string(stats_.packets + stats_.badChecksums + stats_.badLengths) + ": " +
-               why;
+std::string StreamPacketParser::place() const {
+  return "packet " + std::to_string(stats_.packets + stats_.badChecksums + stats_.badLengths) +
+         ": ";
 }
+
+void StreamPacketParser::fault(const std::string& why) { lastFault_ = place() + why; }
 
 // Returns what is wrong with the length; empty when an item of the hand has it.
 std::string StreamPacketParser::lengthFault(StreamPacketType type, std::size_t length) const {
@@ -229,7 +230,10 @@ void StreamPacketParser::deliver(std::span<const std::byte> packet, const Sink& 
   }
   if (why.empty()) {
     if (item.kind == StreamItemKind::kFrame) {
-      why = shape_.arrange(values_, count);
+      if (const std::string outside = shape_.arrange(values_, count); !outside.empty()) {
+        ++stats_.outOfRange;
+        lastOutOfRange_ = place() + outside;
+      }
       item.values = values_;
     } else if (item.kind != StreamItemKind::kDescription) {
       why = shape_.check(item.numbers);

@@ -1,6 +1,7 @@
 #include "palpate/device/stream_shape.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,6 +18,15 @@ constexpr std::size_t kLongestDescribedText = 200;
 std::string describedText(const Json& object, const char* key) {
   if (!object.contains(key)) return {};
   return std::string(beginningOf(object.at(key).asString(), kLongestDescribedText));
+}
+
+bool equalsInAnyCase(std::string_view a, std::string_view b) {
+  return std::ranges::equal(
+      a,
+      b,
+      {},
+      [](unsigned char c) { return std::tolower(c); },
+      [](unsigned char c) { return std::tolower(c); });
 }
 
 std::string sizeText(std::int64_t rows, std::int64_t columns) {
@@ -55,6 +65,8 @@ StreamShape::StreamShape(const HandDescription& hand)
                                   numberText(fullScale) + ", not above 0");
     fullScales_.push_back(fullScale);
   }
+  for (const MatrixDescription& matrix : hand.matrices)
+    names_.emplace_back(matrix.name, matrix.shortName);
   numPlaces_ = layout_->numCells();
   numTaxels_ = layout_->numTaxels();
   if (numTaxels_ == numPlaces_) return;
@@ -89,6 +101,7 @@ std::string StreamShape::expected(StreamItemKind kind) const {
 std::string StreamShape::arrange(std::span<float> values, std::size_t count) const {
   if (values.size() != numPlaces_ || !fits(StreamItemKind::kFrame, count))
     throw std::invalid_argument("StreamShape::arrange: wrong number of values");
+  std::string outside;
   std::size_t from = 0;
   for (std::size_t m = 0; m < fullScales_.size(); ++m) {
     const MatrixLayout& matrix = layout_->matrix(m);
@@ -102,13 +115,15 @@ std::string StreamShape::arrange(std::span<float> values, std::size_t count) con
       // Whatever is sent for a place without a taxel is not used.
       if (isGood(values[i]) || (count == numPlaces_ && !exists_.empty() && exists_[i] == 0))
         continue;
-      const std::string value = "value " + std::to_string(i + 1) + " is " + numberText(values[i]);
-      return std::isnan(values[i]) ? value
-                                   : value + ", not in 0.." + numberText(most) + " " + unit_;
+      const bool isNumber = std::isfinite(values[i]);
+      if (outside.empty())
+        outside = "value " + std::to_string(i + 1) + " is " + numberText(values[i]) +
+                  (isNumber ? ", not in 0.." + numberText(most) + " " + unit_ : ": 0 is kept");
+      if (!isNumber) values[i] = 0.0F;
     }
     from = to;
   }
-  if (exists_.empty()) return {};
+  if (exists_.empty()) return outside;
   // From the end, since a value moves only towards the end.
   std::size_t next = count;
   for (std::size_t i = numPlaces_; i-- > 0;) {
@@ -117,7 +132,15 @@ std::string StreamShape::arrange(std::span<float> values, std::size_t count) con
     else if (count != numPlaces_)
       values[i] = values[--next];
   }
-  return {};
+  return outside;
+}
+
+std::optional<std::size_t> StreamShape::matrixNamed(std::string_view name) const noexcept {
+  const auto found = std::ranges::find_if(names_, [&](const auto& each) {
+    return equalsInAnyCase(name, each.first) || equalsInAnyCase(name, each.second);
+  });
+  if (name.empty() || found == names_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names_.begin());
 }
 
 std::string StreamShape::check(std::span<const double> numbers) const {

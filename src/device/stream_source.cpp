@@ -1,8 +1,10 @@
 #include "device/stream_source.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -27,6 +29,13 @@ namespace {
 constexpr std::string_view kListenPrefix = "listen:";
 constexpr std::string_view kUdpPrefix = "udp:";
 constexpr int kUdpBufferBytes = 1 << 22;
+constexpr int kBacklog = 8;
+constexpr std::size_t kMostWaiting = 8;
+constexpr std::int64_t kAcceptEveryUs = 100'000;
+constexpr std::int64_t kHolderSilentUs = 1'000'000;
+// A sender that comes back this soon after another one sent is a second sender, no successor.
+constexpr std::int64_t kOtherSenderUs = 2'000'000;
+constexpr std::int64_t kRemarkEveryUs = 10'000'000;
 
 // A socket address of either family, of numbers.
 struct SocketAddress {
@@ -54,17 +63,25 @@ std::optional<SocketAddress> socketAddress(const std::string& address, std::uint
   return place;
 }
 
-class UdpChannel final : public DescriptorChannel {
- public:
-  // No socket for the base class, to which an empty datagram would be the end.
-  UdpChannel(std::string name, FileDescriptor fd)
-      : DescriptorChannel(std::move(name), fd.get(), false), fd_(std::move(fd)) {}
-  bool isNetwork() const noexcept override { return true; }
-  bool isDatagrams() const noexcept override { return true; }
+std::string addressText(const SocketAddress& address) {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  const bool isV4 = address.storage.ss_family == AF_INET;
+  const auto* v4 = reinterpret_cast<const sockaddr_in*>(&address.storage);
+  const auto* v6 = reinterpret_cast<const sockaddr_in6*>(&address.storage);
+  const void* bytes = isV4 ? static_cast<const void*>(&v4->sin_addr) : &v6->sin6_addr;
+  if (::inet_ntop(address.storage.ss_family, bytes, text.data(), text.size()) == nullptr) return {};
+  const std::string port = std::to_string(ntohs(isV4 ? v4->sin_port : v6->sin6_port));
+  return isV4 ? text.data() + (":" + port) : "[" + std::string(text.data()) + "]:" + port;
+}
 
- private:
-  FileDescriptor fd_;
-};
+// Whether bytes of the sender wait to be read; empty: it closed the connection.
+std::optional<bool> hasSent(const FileDescriptor& connection) {
+  char first = 0;
+  const ssize_t got = ::recv(connection.get(), &first, 1, MSG_PEEK | MSG_DONTWAIT);
+  if (got > 0) return true;
+  if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return false;
+  return std::nullopt;
+}
 
 class InputChannel final : public DescriptorChannel {
  public:
@@ -85,7 +102,63 @@ class InputChannel final : public DescriptorChannel {
 
 }  // namespace
 
-StreamSource::StreamSource(std::string name, int baud) : name_(std::move(name)), baud_(baud) {
+class UdpChannel final : public DescriptorChannel {
+ public:
+  // No socket for the base class, to which an empty datagram would be the end.
+  UdpChannel(StreamSource& source, FileDescriptor fd)
+      : DescriptorChannel(source.name_, fd.get(), false), fd_(std::move(fd)), source_(source) {}
+  bool isNetwork() const noexcept override { return true; }
+  bool isDatagrams() const noexcept override { return true; }
+
+ private:
+  ssize_t receive(std::span<std::byte> into) override {
+    SocketAddress sender;
+    sender.size = sizeof sender.storage;
+    const ssize_t got =
+        ::recvfrom(fd_.get(), into.data(), into.size(), 0, sender.get(), &sender.size);
+    if (got > 0) source_.noteDatagramFrom(addressText(sender));
+    return got;
+  }
+
+  FileDescriptor fd_;
+  StreamSource& source_;
+};
+
+// A connection to a listening port. It ends when it is silent and another sender sends: a
+// connection whose other end died without a word would hold the port for ever.
+class ListenedChannel final : public ByteChannel {
+ public:
+  ListenedChannel(StreamSource& source, std::unique_ptr<ByteChannel> connection)
+      : source_(source),
+        connection_(std::move(connection)),
+        heardUs_(source.clock_.monotonicUs()) {}
+
+  std::size_t read(std::span<std::byte> into, std::chrono::milliseconds timeout) override {
+    const std::size_t got = connection_->read(into, timeout);
+    const std::int64_t nowUs = source_.clock_.monotonicUs();
+    if (got > 0) heardUs_ = nowUs;
+    source_.acceptWaiting();
+    if (nowUs - heardUs_ >= kHolderSilentUs && source_.someWaitingSends())
+      throw DeviceError(DeviceFault::kDisconnected,
+                        name(),
+                        source_.holder_ +
+                            " sent nothing for a second while another sender waited: "
+                            "the other one is read now");
+    return got;
+  }
+  void write(std::span<const std::byte> bytes) override { connection_->write(bytes); }
+  void interrupt() noexcept override { connection_->interrupt(); }
+  const std::string& name() const noexcept override { return connection_->name(); }
+  bool isNetwork() const noexcept override { return true; }
+
+ private:
+  StreamSource& source_;
+  std::unique_ptr<ByteChannel> connection_;
+  std::int64_t heardUs_;
+};
+
+StreamSource::StreamSource(std::string name, int baud, const Clock& clock)
+    : name_(std::move(name)), baud_(baud), clock_(clock) {
   if (name_ == "-") {
     kind_ = Kind::kInput;
     return;
@@ -120,6 +193,7 @@ std::optional<std::uint16_t> StreamSource::localPort() const {
 
 void StreamSource::close() {
   listening_ = FileDescriptor();
+  waiting_.clear();
   localPort_ = 0;
 }
 
@@ -173,7 +247,7 @@ FileDescriptor StreamSource::boundSocket(int type) {
   else
     ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &kUdpBufferBytes, sizeof kUdpBufferBytes);
   bool good = fd.get() >= 0 && ::bind(fd.get(), place.get(), place.size) == 0;
-  if (good && type == SOCK_STREAM) good = ::listen(fd.get(), 1) == 0;
+  if (good && type == SOCK_STREAM) good = ::listen(fd.get(), kBacklog) == 0;
   if (!good) {
     const int error = errno;
     if (error == EADDRINUSE)
@@ -199,17 +273,73 @@ FileDescriptor StreamSource::boundSocket(int type) {
 }
 
 std::unique_ptr<ByteChannel> StreamSource::openUdp() {
-  return std::make_unique<UdpChannel>(name_, boundSocket(SOCK_DGRAM));
+  return std::make_unique<UdpChannel>(*this, boundSocket(SOCK_DGRAM));
 }
 
+// Takes the newest sender that sends, or else the one that waits longest.
 std::unique_ptr<ByteChannel> StreamSource::acceptSender() {
+  holder_.clear();
   if (listening_.get() < 0) listening_ = boundSocket(SOCK_STREAM);
-  FileDescriptor sender(
-      ::accept4(listening_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-  if (sender.get() < 0)
+  nextAcceptUs_ = 0;
+  acceptWaiting();
+  std::erase_if(waiting_, [](const Waiting& each) { return !hasSent(each.connection); });
+  if (waiting_.empty())
     throw DeviceError(
         DeviceFault::kNotFound, name_, "no sender is connected; waiting at " + placeText());
-  return TcpChannel::accepted(name_, std::move(sender));
+  auto chosen = std::find_if(waiting_.rbegin(), waiting_.rend(), [](const Waiting& each) {
+    return hasSent(each.connection).value_or(false);
+  });
+  if (chosen == waiting_.rend()) chosen = std::prev(waiting_.rend());
+  Waiting sender = std::move(*chosen);
+  waiting_.erase(std::prev(chosen.base()));
+  holder_ = sender.peer;
+  waitedUs_ = clock_.monotonicUs() - sender.sinceUs;
+  return std::make_unique<ListenedChannel>(
+      *this, TcpChannel::accepted(name_, std::move(sender.connection)));
+}
+
+void StreamSource::acceptWaiting() {
+  const std::int64_t nowUs = clock_.monotonicUs();
+  if (nowUs < nextAcceptUs_) return;
+  nextAcceptUs_ = nowUs + kAcceptEveryUs;
+  for (;;) {
+    SocketAddress peer;
+    peer.size = sizeof peer.storage;
+    FileDescriptor sender(
+        ::accept4(listening_.get(), peer.get(), &peer.size, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (sender.get() < 0) return;
+    if (waiting_.size() == kMostWaiting) waiting_.erase(waiting_.begin());
+    waiting_.push_back({std::move(sender), addressText(peer), nowUs});
+    if (!holder_.empty())
+      remark(waiting_.back().peer + " is connected, too, and waits: " + holderText());
+  }
+}
+
+bool StreamSource::someWaitingSends() {
+  return std::ranges::any_of(
+      waiting_, [](const Waiting& each) { return hasSent(each.connection).value_or(false); });
+}
+
+std::string StreamSource::holderText() const {
+  return holder_.empty() ? std::string() : holder_ + " holds the port";
+}
+
+// Two senders are told by the first one coming back soon after the second one sent.
+void StreamSource::noteDatagramFrom(const std::string& sender) {
+  if (sender == sender_) return;
+  const std::int64_t nowUs = clock_.monotonicUs();
+  if (sender == otherSender_ && nowUs - otherSenderUs_ < kOtherSenderUs)
+    remark("two senders use the port, " + sender_ + " and " + sender +
+           ": their frames are mixed; stop one of them");
+  otherSender_ = std::exchange(sender_, sender);
+  otherSenderUs_ = nowUs;
+}
+
+void StreamSource::remark(std::string text) {
+  const std::int64_t nowUs = clock_.monotonicUs();
+  if (nowUs < nextRemarkUs_) return;
+  nextRemarkUs_ = nowUs + kRemarkEveryUs;
+  remark_ = std::move(text);
 }
 
 }  // namespace palpate

@@ -80,10 +80,12 @@ bool isFoxgloveOrigin(std::string_view origin, const std::vector<std::string>& o
 
 FoxgloveReply replyTo(const FoxgloveHandshake& handshake, const std::vector<std::string>& origins) {
   if (!handshake.hasOneOrigin || !isFoxgloveOrigin(handshake.origin, origins))
-    return {403,
-            "",
-            "The web page " + shown(handshake.origin) +
-                " may not read the hand: allow it with the option --origin."};
+    return {
+        kForbidden,
+        "",
+        "The web page " + shown(handshake.origin) +
+            " may not read the hand: allow it with the option --origin (in the window: the setting "
+            "streams/foxglove_origins)."};
   if (!handshake.isUpgrade)
     return {426,
             "",

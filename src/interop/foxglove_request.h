@@ -11,6 +11,7 @@
 namespace palpate {
 
 constexpr int kSwitchingProtocols = 101;
+constexpr int kForbidden = 403;  // the origin may not connect
 inline constexpr const char* kNothingIsTaken =
     "Palpate only sends: it takes no data, parameters or calls";
 

@@ -8,6 +8,7 @@
 #include <list>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -112,10 +113,17 @@ struct FoxgloveServer::Impl {
   void sendPosted();
   void ended(const std::shared_ptr<Session>& session);
 
+  std::set<std::string> refusedOrigins;  // those that were told
+
   void refuse(const std::string& why) {
     const std::lock_guard lock(mutex);
     ++stats.refused;
     stats.lastRefusal = why;
+  }
+  void tellOrigin(const std::string& origin, const std::string& why) {
+    constexpr std::size_t kMostOrigins = 16;
+    if (!options.onRefusedOrigin || refusedOrigins.size() == kMostOrigins) return;
+    if (refusedOrigins.insert(origin).second) options.onRefusedOrigin(why);
   }
   void count(std::uint64_t FoxgloveServerStats::*counter, std::uint64_t by = 1) {
     const std::lock_guard lock(mutex);
@@ -228,6 +236,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
         }));
     handshake.maxClients = server_.options.maxClients;
     const FoxgloveReply reply = replyTo(handshake, server_.options.origins);
+    if (reply.status == kForbidden) server_.tellOrigin(handshake.origin, reply.text);
     if (reply.status != kSwitchingProtocols) return sendRefusal(reply);
     if (buffer_.size() > 0)
       return sendRefusal({400, "", "Data arrived before the handshake was finished."});

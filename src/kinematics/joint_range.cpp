@@ -21,9 +21,9 @@ AnglesCheck checkAngles(const std::vector<double>& anglesDeg,
     if (anglesDeg[i] < axis.minimumDeg - toleranceDeg ||
         anglesDeg[i] > axis.maximumDeg + toleranceDeg)
       return {AngleValidity::kOutOfRange,
-              "axis " + std::to_string(i) + " (" + axis.name + ") at " + numberText(anglesDeg[i]) +
-                  " degrees; its range is " + numberText(axis.minimumDeg) + ".." +
-                  numberText(axis.maximumDeg)};
+              "axis " + std::to_string(i) + " (" + axis.name + ") at " +
+                  numberText(std::round(100.0 * anglesDeg[i]) / 100.0) + " degrees; its range is " +
+                  numberText(axis.minimumDeg) + ".." + numberText(axis.maximumDeg)};
   }
   return {};
 }

@@ -1,5 +1,7 @@
 #include "palpate/model/timing.h"
 
+#include <algorithm>
+
 #include "palpate/core/statistics.h"
 #include "palpate/model/gap_detector.h"
 
@@ -18,12 +20,18 @@ TimingReport timingOf(std::span<const std::int64_t> stampsUs) {
   for (std::size_t i = 0; i < intervals.size(); ++i) intervals[i] = stampsUs[i + 1] - stampsUs[i];
   const double medianUs = median(std::vector(intervals));
   report.durationS = static_cast<double>(stampsUs.back() - stampsUs.front()) / 1e6;
-  report.rateHz = 1e6 / medianUs;
   report.meanRateHz = static_cast<double>(intervals.size()) / report.durationS;
   const double gapUs = gapThresholdUs(medianUs);
+  double betweenUs = report.durationS * 1e6;
   for (std::size_t i = 0; i < intervals.size(); ++i)
-    if (static_cast<double>(intervals[i]) > gapUs)
+    if (static_cast<double>(intervals[i]) > gapUs) {
       report.gaps.push_back({i, static_cast<double>(intervals[i]) / 1e6});
+      betweenUs -= static_cast<double>(intervals[i]);
+    }
+  const double meanUs = betweenUs / static_cast<double>(std::max<std::size_t>(
+                                        intervals.size() - report.gaps.size(), 1));
+  report.inBursts = isInBursts(medianUs, meanUs);
+  report.rateHz = 1e6 / (report.inBursts ? meanUs : medianUs);
   return report;
 }
 

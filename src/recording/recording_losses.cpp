@@ -54,10 +54,11 @@ std::vector<RecordingLoss> lossesOf(std::span<const RecordingEvent> events) {
   for (const RecordingEvent& event : events) {
     if (event.kind != "gap") continue;
     const Json details = detailsOf(event);
+    const Json lost = details.at("lost");
+    if (lost.isNumber() && lost.asDouble() == 0.0) continue;  // a silence without a loss
     RecordingLoss& loss = all.at(streamOf(details));
     ++loss.spans;
     loss.seconds += static_cast<double>(std::max<std::int64_t>(0, event.t1Us - event.tUs)) / 1e6;
-    const Json lost = details.at("lost");
     if (lost.isNumber() && lost.asDouble() >= 0.0)
       loss.lost += static_cast<std::uint64_t>(lost.asDouble());
     else

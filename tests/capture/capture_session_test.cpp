@@ -74,6 +74,28 @@ TEST(CaptureSession, RecordsWhatTheDeviceDelivers) {
   EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
 }
 
+// A recording of 2 s, the second of which is silent: what is missing is in the file, up to its end.
+TEST(CaptureSession, ASilenceAtTheEndOfTheRecordingIsAGap) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  RecordingOptions options = to(folder / "a.palpate");
+  options.stopAfterS = 2.0;
+  scripted.session->startRecording(options);
+  scripted.run(1.0);
+  scripted.device->silentSinceUs = scripted.clock.hostUs();
+  for (int i = 0; i < 60 && scripted.session->recording(); ++i) {
+    scripted.clock.pass(100'000);
+    scripted.session->step();
+  }
+  ASSERT_FALSE(scripted.session->recording());
+  EXPECT_EQ(scripted.session->stopRecording().counters.at("lost"), 7);
+  const auto events = readableRecording(folder / "a.palpate").events;
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "gap");
+  EXPECT_EQ(events[0].tUs, scripted.device->silentSinceUs);
+  EXPECT_EQ(events[0].t1Us, kWallStartUs + 2'010'000) << "2 s from the first frame";
+}
+
 TEST(CaptureSession, notesWhatTheDeviceSaysAboutItselfAndWhatTheLinkCounted) {
   const TemporaryFolder folder;
   ScriptedSession scripted;

@@ -55,6 +55,8 @@ class ScriptedDevice : public Device {
   DeviceSink* sink = nullptr;
   DeviceStatus state;
   DeviceInfo says;
+  // Host time since which no frame came, which is going on; 0: frames come.
+  std::int64_t silentSinceUs = 0;
 
   ScriptedDevice() { state.tactile.port = "/dev/scripted"; }
   HandDescription hand() const override { return sdh2(); }
@@ -68,6 +70,10 @@ class ScriptedDevice : public Device {
     state.tactile.state = PortState::kClosed;
   }
   DeviceStatus status() const override { return state; }
+  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const override {
+    if (silentSinceUs == 0) return std::nullopt;
+    return DeviceEvent{silentSinceUs, untilUs, "gap", {}, "silent", R"({"lost":7})"};
+  }
   std::future<CommandAnswer> submit(DeviceCommand) override {
     std::promise<CommandAnswer> none;
     none.set_exception(std::make_exception_ptr(

@@ -1,5 +1,6 @@
 // The real program records streams of other hands: from standard input, and what it refuses.
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
@@ -17,15 +18,18 @@ std::string line(int n, int numbers = 256) {
 }
 
 // Records what a shell prints on the program's standard input.
-ProgramResult recordText(const TemporaryFolder& folder, const std::string& text) {
+ProgramResult recordText(const TemporaryFolder& folder,
+                         const std::string& text,
+                         const std::string& hand = kPad,
+                         const std::string& more = "") {
   const auto file = folder / "lines.txt";
   writeFile(file, text);
   const TemporaryFolder home;
   return runProgram(
       "/bin/sh",
       {"-c",
-       std::string("exec '") + PALPATE_PROGRAM + "' record --stream - --hand " + kPad + " -o '" +
-           (folder / "a.palpate").string() + "' < '" + file.string() + "'"},
+       std::string("exec '") + PALPATE_PROGRAM + "' record --stream - --hand '" + hand + "' " +
+           more + " -o '" + (folder / "a.palpate").string() + "' < '" + file.string() + "'"},
       {{"HOME", home.path().string()}, {"XDG_DATA_HOME", home.path().string()}});
 }
 
@@ -47,10 +51,69 @@ TEST(RecordStream, EveryLineOfStandardInputIsRecorded) {
 TEST(RecordStream, TheLastRefusedLineIsNamed) {
   const TemporaryFolder folder;
   const ProgramResult result = recordText(folder, line(0) + line(1) + line(2, 255));
-  EXPECT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_NE(result.out.find("1 refused (the last: line 3: 255 numbers instead of 256)"),
+  EXPECT_EQ(result.exitCode, 3) << result.err;
+  EXPECT_EQ(result.err, "palpate: 1 refused (the last: line 3: 255 numbers instead of 256)\n");
+}
+
+// A pad of 2 x 3, full scale 1023.
+std::string smallPad(const TemporaryFolder& folder) {
+  std::filesystem::create_directory(folder / "pad");
+  writeFile(folder / "pad/hand.json",
+            R"({"format":"palpate-hand","version":1,"name":"Pad","full_scale":1023,)"
+            R"("matrices":[{"name":"pad","rows":2,"columns":3,"pitch_mm":5.0}]})");
+  return (folder / "pad").string();
+}
+
+TEST(RecordStream, ValuesOverTheFullScaleAreKeptAndTold) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int n = 0; n < 40; ++n) {
+    for (int k = 0; k < 6; ++k) text += (k ? "," : "") + std::to_string(40 * (6 * n + k));
+    text += "\n";
+  }
+  const ProgramResult result = recordText(folder, text, smallPad(folder));
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.err.find("36 frames with values that the description of the hand excludes (the "
+                            "last: line 40: value 1 is 9360, not in 0..1023 counts)"),
             std::string::npos)
-      << result.out;
+      << result.err;
+  EXPECT_NE(result.err.find("full_scale in hand.json"), std::string::npos) << result.err;
+  const Profile profile = openRecording(folder / "a.palpate");
+  ASSERT_EQ(profile.numFrames(), 40u);
+  EXPECT_EQ(profile.frame(39).values, (std::vector<float>{9360, 9400, 9440, 9480, 9520, 9560}));
+}
+
+TEST(RecordStream, LossesAreInTheFileWithTheFigureThatIsPrinted) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int n = 0; n < 200; ++n)
+    if (n % 6 != 5) text += line(n);
+  const ProgramResult result = recordText(folder, text + line(200, 255), kPad, "--json");
+  EXPECT_EQ(result.exitCode, 3) << result.err;
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(json.at("lost").asInteger(), 33);
+  EXPECT_EQ(json.at("last_refused").asString(), "line 168: 255 numbers instead of 256");
+  const auto info = palpate({"info", folder / "a.palpate", "--json"});
+  ASSERT_EQ(Json::parse(info.out).at("lost").size(), 1u) << info.out;
+  EXPECT_EQ(Json::parse(info.out).at("lost").at(0).at("lost").asInteger(), 33);
+}
+
+TEST(RecordStream, WhatTheFirstNumberIsTakenForIsSaid) {
+  const TemporaryFolder folder;
+  std::string ascends, constant;
+  for (int n = 0; n < 40; ++n) {
+    ascends += std::to_string(10 * n) + ",6,7,8,9,10,300\n";
+    constant += "5,6,7,8,9,10,300\n";
+  }
+  const ProgramResult told = recordText(folder, ascends, smallPad(folder));
+  EXPECT_EQ(told.exitCode, 0);
+  EXPECT_EQ(told.err,
+            "palpate: the first of 7 numbers of a frame is taken for its time in milliseconds; if "
+            "it is not, name its unit (--time s, ms or us) or --time none\n");
+  const TemporaryFolder other;
+  const ProgramResult refused = recordText(other, constant, smallPad(other));
+  EXPECT_EQ(refused.exitCode, 3);
+  EXPECT_NE(refused.err.find("does not ascend"), std::string::npos) << refused.err;
 }
 
 TEST(RecordStream, WithoutAFrameTheReasonIsSaid) {

@@ -74,7 +74,9 @@ class ScriptedChannel : public ByteChannel {
   }
   void interrupt() noexcept override {}
   const std::string& name() const noexcept override { return name_; }
+  bool isNetwork() const noexcept override { return network; }
 
+  bool network = false;
   Bytes written;
   std::vector<Bytes> requests;
   std::size_t mostAtOnce = SIZE_MAX;

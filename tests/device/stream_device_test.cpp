@@ -2,6 +2,7 @@
 // silent.
 #include "palpate/device/stream_device.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -64,6 +65,14 @@ struct Bench {
                       static_cast<std::uint64_t>(clock.nowUs + afterUs),
                       std::vector<float>{1, 2, static_cast<float>(sequence % 4096)});
     send(bytes, afterUs);
+  }
+  // Frames of all gaps that are told.
+  std::int64_t lostByEvents() const {
+    std::int64_t lost = 0;
+    for (const DeviceEvent& event : sink.events)
+      if (event.kind == "gap" && Json::parse(event.json).contains("lost"))
+        lost += Json::parse(event.json).at("lost").asInteger();
+    return lost;
   }
   void silence(std::int64_t us) {
     for (const std::int64_t endUs = clock.nowUs + us; clock.nowUs < endUs;) link->step();
@@ -174,6 +183,118 @@ TEST(StreamDevice, TwoSendersAreOneEventAndNoLoss) {
             (std::vector<std::string>{"link: the stream is connected",
                                       "link: the numbers of the frames started anew: the sender "
                                       "was restarted, or a second one sends"}));
+}
+
+// What is lost is in the file, with the figure that is counted, and not one event per frame.
+TEST(StreamDevice, EachLossIsAGapOverItsFrames) {
+  Bench bench;
+  for (std::uint32_t n = 0; n < 10; ++n) bench.frame(n);
+  const std::int64_t fromUs = bench.time.nowUs();
+  bench.frame(15);
+  const DeviceEvent first = bench.lastEvent("gap");
+  EXPECT_EQ(first.text, "5 frames are missing");
+  EXPECT_EQ(first.tUs, fromUs);
+  EXPECT_EQ(first.t1Us, bench.time.nowUs());
+  EXPECT_FALSE(Json::parse(first.json).at("estimated").asBool());
+  for (std::uint32_t n = 17; n < 1017; n += 2) bench.frame(n, 20'000);
+  bench.link->finish();
+  EXPECT_EQ(bench.status().lost, 505u);
+  EXPECT_EQ(bench.lostByEvents(), 505);
+  EXPECT_LT(bench.numEvents("gap"), 105u) << "ten per second";
+}
+
+TEST(StreamDevice, ASilenceUntilTheEndIsAGap) {
+  Bench bench;
+  for (int i = 0; i < 100; ++i) bench.send("1,2,3\n", 10'000);
+  EXPECT_FALSE(bench.link->openGap(bench.time.nowUs()));
+  const std::int64_t fromUs = bench.time.nowUs();
+  bench.silence(4'000'000);
+  const auto open = bench.link->openGap(fromUs + 2'000'000);
+  ASSERT_TRUE(open);
+  EXPECT_EQ(open->tUs, fromUs);
+  EXPECT_EQ(open->t1Us, fromUs + 2'000'000);
+  EXPECT_EQ(Json::parse(open->json).at("lost").asInteger(), 200);
+  EXPECT_EQ(bench.numEvents("gap"), 0u);
+  bench.link->finish();
+  EXPECT_EQ(bench.numEvents("gap"), 1u);
+  EXPECT_EQ(bench.lostByEvents(), static_cast<std::int64_t>(bench.status().lost));
+  EXPECT_FALSE(bench.link->openGap(bench.time.nowUs()));
+}
+
+TEST(StreamDevice, TheEndOfAConnectionIsNoLoss) {
+  for (const bool comesBack : {false, true}) {
+    Bench bench;
+    bench.line->network = true;
+    for (int i = 0; i < 100; ++i) bench.send("1,2,3\n", 10'000);
+    bench.line->pullThePlug();
+    bench.link->step();
+    bench.clock.nowUs += 3'000'000;
+    EXPECT_FALSE(bench.link->openGap(bench.time.nowUs()));
+    if (comesBack) {
+      bench.link->step();
+      bench.send("1,2,3\n");
+      EXPECT_EQ(bench.lastEvent("gap").text, "no frames for 3.01 s, none is missing");
+    }
+    bench.link->finish();
+    EXPECT_EQ(bench.status().lost, 0u);
+    EXPECT_EQ(bench.numEvents("gap"), comesBack ? 1u : 0u);
+  }
+}
+
+TEST(StreamDevice, AStallWithoutLossSaysSo) {
+  Bench bench;
+  for (std::uint32_t n = 0; n < 100; ++n) bench.frame(n);
+  bench.silence(700'000);
+  bench.frame(100);
+  EXPECT_NE(bench.lastEvent("gap").text.find("none is missing"), std::string::npos);
+  EXPECT_EQ(bench.status().lost, 0u);
+}
+
+TEST(StreamDevice, AFrameThatArrivesAgainIsLeftOutAndCounted) {
+  Bench bench;
+  for (std::uint32_t n = 0; n < 50; ++n) {
+    bench.frame(n);
+    if (n > 0 && n % 3 == 0) bench.frame(n, 0);
+  }
+  EXPECT_EQ(bench.status().items, 50u);
+  EXPECT_EQ(bench.status().suspect, 16u);
+  EXPECT_EQ(bench.link->lastFault(), "frame 48 arrived again: the second one was left out");
+}
+
+TEST(StreamDevice, ASenderThatEndsToCountIsRead) {
+  Bench bench;
+  for (std::uint32_t n = 0; n < 10; ++n) bench.frame(n);
+  for (int i = 0; i < 20; ++i) bench.frame(9);
+  EXPECT_EQ(bench.status().items, 28u);
+  EXPECT_EQ(bench.status().suspect, 2u);
+}
+
+TEST(StreamDevice, ValuesOutOfRangeAreDeliveredAndTold) {
+  Bench bench;
+  for (int i = 0; i < 3; ++i) bench.send("1,5000,3\n");
+  EXPECT_EQ(bench.status().items, 3u);
+  EXPECT_EQ(bench.sink.frames[0].values, (std::vector<float>{1, 5000, 3}));
+  EXPECT_EQ(bench.status().suspect, 0u);
+  EXPECT_EQ(bench.status().outOfRange, 3u);
+  EXPECT_EQ(bench.link->lastOutOfRange(), "line 3: value 2 is 5000, not in 0..4095 counts");
+  EXPECT_EQ(bench.link->remarks().size(), 1u);
+  EXPECT_EQ(bench.numEvents("alarm"), 1u);
+}
+
+TEST(StreamDevice, WhatTheFirstNumberWasTakenForIsSaidOnce) {
+  Bench bench;
+  for (int i = 0; i < 5; ++i) bench.send(std::to_string(10 * i) + ",1,2,3\n");
+  ASSERT_EQ(bench.link->remarks().size(), 1u);
+  EXPECT_NE(bench.link->remarks()[0].find("is taken for its time in milliseconds"),
+            std::string::npos);
+  EXPECT_EQ(bench.lastEvent("link").text, bench.link->remarks()[0]);
+}
+
+TEST(StreamDevice, BytesWithoutTheEndOfALineAreNamed) {
+  Bench bench;
+  for (int i = 0; i < 20; ++i) bench.send("1;2;3;", 50'000);
+  EXPECT_EQ(bench.status().message,
+            "port: no frames for 0.5 s; 60 bytes came without the end of a line");
 }
 
 TEST(StreamDevice, LossOverABrokenConnectionIsCountedByTheNumbers) {
@@ -498,12 +619,83 @@ TEST(StreamDevice, ADatagramThatWasOvertakenIsLeftOut) {
   EXPECT_EQ(sink.takeFrames()[3].values[2], 104.0F);
   EXPECT_EQ(device.status().tactile.lost, 1u);
   ASSERT_TRUE(awaited([&] { return device.status().tactile.suspect == 1; }));
-  // Two of them that follow each other are a sender that was restarted.
+  // Two numbers that are not missing and follow each other are a sender that was restarted.
   for (const int n : {90, 91, 92})
     ASSERT_TRUE(sender.send("f#" + std::to_string(n) + ",1,2," + std::to_string(n)));
   ASSERT_TRUE(sink.awaitFrames(6));
   EXPECT_EQ(device.status().tactile.lost, 1u);
   device.stop();
+}
+
+TEST(StreamDevice, LateDatagramsInSuccessionAreNoRestart) {
+  CollectingSink sink;
+  StreamDevice device(optionsOf("udp:0"));
+  device.start(sink);
+  ASSERT_TRUE(awaited([&] { return device.localPort().has_value(); }));
+  DatagramSender sender(*device.localPort());
+  for (const int n : {100, 101, 104, 102, 103, 105})
+    ASSERT_TRUE(sender.send("f#" + std::to_string(n) + ",1,2," + std::to_string(n)));
+  ASSERT_TRUE(sink.awaitFrames(4));
+  EXPECT_EQ(sink.takeFrames()[3].values[2], 105.0F);
+  EXPECT_EQ(device.status().tactile.lost, 2u);
+  ASSERT_TRUE(awaited([&] { return device.status().tactile.suspect == 2; }));
+  device.stop();
+}
+
+TEST(StreamDevice, TwoSendersOfDatagramsAreNamed) {
+  CollectingSink sink;
+  StreamDevice device(optionsOf("udp:0"));
+  device.start(sink);
+  ASSERT_TRUE(awaited([&] { return device.localPort().has_value(); }));
+  DatagramSender one(*device.localPort()), two(*device.localPort());
+  for (int n = 0; n < 5; ++n) {
+    ASSERT_TRUE(one.send("1,2,3"));
+    ASSERT_TRUE(two.send("4,5,6"));
+  }
+  ASSERT_TRUE(sink.awaitFrames(10));
+  ASSERT_TRUE(awaited([&] { return !device.remarks().empty(); }));
+  EXPECT_NE(device.remarks()[0].find("two senders use the port, 127.0.0.1:"), std::string::npos)
+      << device.remarks()[0];
+  device.stop();
+  EXPECT_EQ(device.remarks().size(), 1u);
+}
+
+// Read by the device's thread while the test sets it.
+struct SharedClock : Clock {
+  std::int64_t monotonicUs() const override { return nowUs; }
+  std::int64_t wallUs() const override { return 1'500'000'000'000'000 + nowUs; }
+  std::atomic<std::int64_t> nowUs = 0;
+};
+
+// The first client holds the port and is silent; its other end may be dead.
+TEST(StreamDevice, ASenderThatCameBackIsReadInsteadOfADeadConnection) {
+  SharedClock clock;
+  CollectingSink sink;
+  StreamDevice device(optionsOf("listen:0"), clock);
+  device.start(sink);
+  const auto advanced = [&](const std::function<bool()>& condition) {
+    return awaited([&] {
+      clock.nowUs += 50'000;
+      return condition();
+    });
+  };
+  ASSERT_TRUE(advanced([&] { return device.localPort().has_value(); }));
+  const int dead = connectedSocket(*device.localPort());
+  sendTo(dead, "1,2,3\n");
+  ASSERT_TRUE(advanced([&] { return sink.numFrames() == 1; }));
+  ASSERT_TRUE(advanced([&] {
+    return device.status().tactile.message.find("holds the port") != std::string::npos;
+  })) << device.status().tactile.message;
+  const int back = connectedSocket(*device.localPort());
+  sendTo(back, "4,5,6\n4,5,7\n4,5,8\n");
+  ASSERT_TRUE(advanced([&] { return sink.numFrames() == 4; }));
+  EXPECT_EQ(sink.takeFrames()[3].values, (std::vector<float>{4, 5, 8}));
+  device.stop();
+  ::close(dead);
+  ::close(back);
+  bool gap = false;
+  for (const DeviceEvent& event : sink.takeEvents()) gap = gap || event.kind == "gap";
+  EXPECT_TRUE(gap);
 }
 
 TEST(StreamDevice, APortThatIsInUseIsNamed) {

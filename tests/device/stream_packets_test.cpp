@@ -26,7 +26,7 @@ struct Received {
 struct Reading {
   std::vector<Received> items;
   StreamPacketStats stats;
-  std::string fault;
+  std::string fault, outOfRange;
 };
 
 Reading readBytes(const Bytes& bytes,
@@ -53,6 +53,7 @@ Reading readBytes(const Bytes& bytes,
   if (flush) parser.flush(sink);
   reading.stats = parser.stats();
   reading.fault = parser.lastFault();
+  reading.outOfRange = parser.lastOutOfRange();
   return reading;
 }
 
@@ -175,15 +176,17 @@ TEST(StreamPackets, NamesAWrongLength) {
   EXPECT_EQ(reading.fault, "packet 1: 8 bytes of u16 values (4) instead of 3");
 }
 
-TEST(StreamPackets, NamesAValueOutOfRange) {
+TEST(StreamPackets, KeepsAValueOutOfRangeAndNamesIt) {
   const Reading reading = readBytes(
       joined(
           {frameBytes(1, {1, 2, 3}), frameBytes(2, {1, 5000, 3}), frameBytes(3, {1.5F, NAN, 3})}),
       padHand({{1, 3}}));
-  EXPECT_EQ(reading.items.size(), 1u);
-  EXPECT_EQ(reading.stats.packets, 3u);
-  EXPECT_EQ(reading.stats.refused, 2u);
-  EXPECT_EQ(reading.fault, "packet 3: value 2 is nan");
+  ASSERT_EQ(reading.items.size(), 3u);
+  EXPECT_EQ(reading.items[1].numbers, (std::vector<double>{1, 5000, 3}));
+  EXPECT_EQ(reading.items[2].numbers, (std::vector<double>{1.5, 0, 3}));
+  EXPECT_EQ(reading.stats.outOfRange, 2u);
+  EXPECT_EQ(reading.stats.refused, 0u);
+  EXPECT_EQ(reading.outOfRange, "packet 3: value 2 is nan: 0 is kept");
 }
 
 TEST(StreamPackets, CountsAWrongChecksum) {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <list>
+#include <mutex>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -106,6 +107,12 @@ TEST(FoxgloveServer, ALatchedMessageAwaitsItsReaders) {
 TEST(FoxgloveServer, AWebPageThatNobodyAllowedReadsNothing) {
   FoxgloveServerOptions options = freePort();
   options.origins = {"http://localhost:8080"};
+  std::mutex mutex;
+  std::vector<std::string> told;
+  options.onRefusedOrigin = [&](const std::string& why) {
+    const std::lock_guard lock(mutex);
+    told.push_back(why);
+  };
   FoxgloveServer server(options, twoChannels());
   const auto status = [&](const std::string& origins) {
     WebSocketClient client(server.port());
@@ -125,6 +132,12 @@ TEST(FoxgloveServer, AWebPageThatNobodyAllowedReadsNothing) {
   EXPECT_EQ(status("Origin: https://app.foxglove.dev\r\nOrigin: https://evil.example\r\n"), "403");
   EXPECT_NE(server.stats().lastRefusal.find("may not read the hand"), std::string::npos);
   EXPECT_EQ(server.stats().refused, 8u);
+  // One line per origin, however often a page tries.
+  EXPECT_EQ(status("Origin: file://\r\n"), "403");
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(told.size(), 8u);
+  EXPECT_NE(told[6].find("file://"), std::string::npos) << told[6];
+  EXPECT_NE(told[6].find("--origin"), std::string::npos) << told[6];
 }
 
 TEST(FoxgloveServer, WhatIsNoWebSocketGetsASentence) {

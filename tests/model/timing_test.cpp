@@ -35,6 +35,19 @@ TEST(Timing, AGapIsLongerThanASecondAndThanFiveIntervals) {
   EXPECT_EQ(slow.gaps[0].frame, 4u);
 }
 
+// 1 kHz, ten frames at once every 10 ms, and a pause of 5 s.
+TEST(Timing, OfFramesInBurstsTheRateIsTheMean) {
+  std::vector<std::int64_t> stampsUs;
+  for (std::int64_t burst = 0; burst < 200; ++burst)
+    for (std::int64_t i = 0; i < 10; ++i)
+      stampsUs.push_back(10'000 * burst + i + (burst < 100 ? 0 : 5'000'000));
+  const TimingReport report = timingOf(stampsUs);
+  EXPECT_TRUE(report.inBursts);
+  EXPECT_NEAR(report.rateHz, 1000.0, 6.0);
+  ASSERT_EQ(report.gaps.size(), 1u);
+  EXPECT_FALSE(timingOf(profileAt({0, 32, 64, 95, 159})).inBursts);
+}
+
 TEST(Timing, OneFrameHasNoRate) {
   const TimingReport report = timingOf(profileAt({5}));
   EXPECT_EQ(report.rateHz, 0.0);

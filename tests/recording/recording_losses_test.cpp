@@ -26,6 +26,12 @@ TEST(RecordingLosses, AreCountedForEachStream) {
   EXPECT_EQ(losses[1].text(), "12 angle samples in 2 spans, 0.35 s");
 }
 
+TEST(RecordingLosses, ASilenceWithoutALossIsNone) {
+  EXPECT_TRUE(
+      lossesOf(std::vector{gap(0, 700'000, R"({"seconds":0.7,"lost":0,"estimated":false})")})
+          .empty());
+}
+
 TEST(RecordingLosses, SayWhatIsNotKnown) {
   const auto unknown = lossesOf(std::vector{gap(0, 500'000, ""), gap(1, 1, "{damaged")});
   ASSERT_EQ(unknown.size(), 1u);

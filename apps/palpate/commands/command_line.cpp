@@ -158,8 +158,10 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
     if (word.empty()) throw UsageError("an empty file name");
     if (word == "-") throw UsageError("'-': a recording is read from a file, not from a stream");
   }
-  if (words_.size() < spec.minArguments || words_.size() > spec.maxArguments)
-    throw UsageError("usage: " + inOneLine(spec.synopsis));
+  if (words_.size() > spec.maxArguments)
+    throw UsageError("'" + words_[spec.maxArguments] +
+                     "' is one word too many; usage: " + inOneLine(spec.synopsis));
+  if (words_.size() < spec.minArguments) throw UsageError("usage: " + inOneLine(spec.synopsis));
 }
 
 std::optional<std::string> CommandLine::text(const std::string& option) const {

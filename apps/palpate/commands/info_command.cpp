@@ -237,10 +237,13 @@ std::string plainText(const std::string& file,
   text += row("frames", std::to_string(profile.numFrames()));
   if (profile.numFrames() > 0) text += row("start", utcText(profile.frameTimeUs(0)) + " UTC");
   text += row("duration", fixedText(timing.durationS, 3) + " s");
-  text += row("rate",
-              timing.rateHz > 0.0 ? fixedText(timing.rateHz, 2) + " Hz (median interval), " +
-                                        fixedText(timing.meanRateHz, 2) + " Hz (mean)"
-                                  : "not known: fewer than two frames");
+  text +=
+      row("rate",
+          timing.rateHz > 0.0 ? fixedText(timing.rateHz, 2) +
+                                    (timing.inBursts ? " Hz (without gaps; frames came in bursts), "
+                                                     : " Hz (median interval), ") +
+                                    fixedText(timing.meanRateHz, 2) + " Hz (mean)"
+                              : "not known: fewer than two frames");
   std::string gaps = std::to_string(timing.gaps.size());
   for (const Gap& gap : timing.gaps)
     gaps += (&gap == &timing.gaps.front() ? ": " : ", ") + fixedText(gap.seconds, 1) +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/core/escaped_line.h"
@@ -147,7 +148,13 @@ LiveStreams::LiveStreams(CaptureSession& session,
              sendingTo(stream_, foxglove_)) {
   warnAboutTargets(targets_);
   for (const StreamTarget& target : targets_.datagrams) stream_.switchOn(target.kind, target.port);
-  if (targets_.foxglove) foxglove_.switchOn(*targets_.foxglove);
+  if (targets_.foxglove) {
+    FoxgloveOptions options = *targets_.foxglove;
+    options.server.onRefusedOrigin = [](const std::string& why) {
+      std::fprintf(stderr, "palpate: foxglove: %s\n", escapedLine(why).c_str());
+    };
+    foxglove_.switchOn(std::move(options));
+  }
   chain_.connect(session);
   chain_.start();
 }

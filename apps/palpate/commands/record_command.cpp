@@ -116,13 +116,13 @@ RecordingOptions recordingOptions(const CommandLine& given) {
 void recordUntilDone(CaptureSession& session,
                      Interruption& interruption,
                      double firstFrameS,
-                     bool quiet) {
+                     bool quiet,
+                     StreamNotice& notice) {
   constexpr int kLookMs = 50;
   constexpr int kShowEvery = 10;
   session.start();
   StatusLine status(quiet);
   const StreamDevice* const stream = streamOf(session);
-  StreamNotice notice(stream, quiet);
   for (int look = 0; session.recording(); ++look) {
     if (interruption.waitForSignal(kLookMs)) return;
     notice.show();
@@ -157,7 +157,16 @@ std::uint64_t badChecksumsOf(const DeviceStatus& device) {
 
 Json recordRateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
 
-std::string recordJsonText(const RecordingReport& report, const DeviceStatus& device) {
+std::int64_t countOf(const RecordingReport& report, const char* name) {
+  const auto found = report.counters.find(name);
+  return found == report.counters.end() ? 0 : found->second;
+}
+
+Json textOrNull(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+std::string recordJsonText(const RecordingReport& report,
+                           const DeviceStatus& device,
+                           const StreamDevice* stream) {
   Json files = jsonList(report.paths, [](const fs::path& path) { return path.string(); });
   return Json::object()
       .set("files", files)
@@ -168,8 +177,11 @@ std::string recordJsonText(const RecordingReport& report, const DeviceStatus& de
       .set("temperatures", report.temperatures)
       .set("bad_checksums", static_cast<std::int64_t>(badChecksumsOf(device)))
       .set("suspect", static_cast<std::int64_t>(device.tactile.suspect))
-      .set("lost", static_cast<std::int64_t>(device.tactile.lost) + report.lost)
-      .set("lost_estimated", static_cast<std::int64_t>(device.tactile.estimatedLost))
+      .set("last_refused", textOrNull(stream ? stream->lastFault() : std::string()))
+      .set("out_of_range", static_cast<std::int64_t>(device.tactile.outOfRange))
+      .set("last_out_of_range", textOrNull(stream ? stream->lastOutOfRange() : std::string()))
+      .set("lost", countOf(report, "lost") + report.lost)
+      .set("lost_estimated", countOf(report, "lost_estimated"))
       .set("recorder_lost", report.lost)
       .set("gaps", report.gaps)
       .set("events", report.events)
@@ -189,17 +201,9 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
          fixedText(report.durationS, 1) + " s (" + fixedText(report.meanRateHz, 1) + "/s), " +
          counted(static_cast<std::uint64_t>(report.angles), "angle sample") + ", " +
          counted(static_cast<std::uint64_t>(report.temperatures), "temperature sample") + "; " +
-         std::to_string(static_cast<std::int64_t>(device.tactile.lost) + report.lost) + " lost, " +
+         std::to_string(countOf(report, "lost") + report.lost) + " lost, " +
          counted(badChecksumsOf(device), "bad checksum") + ", " +
          counted(static_cast<std::uint64_t>(report.gaps), "gap");
-}
-
-// What a stream sent that is not in the recording: ", 3 refused (the last: line 812: ..)".
-std::string refusedText(const CaptureSession& session, const DeviceStatus& device) {
-  const StreamDevice* const stream = streamOf(session);
-  if (stream == nullptr || device.tactile.suspect == 0) return {};
-  return ", " + std::to_string(device.tactile.suspect) +
-         " refused (the last: " + escapedLine(stream->lastFault()) + ")";
 }
 
 std::unique_ptr<Device> recordedDevice(const CommandLine& given) {
@@ -222,7 +226,7 @@ CommandSpec recordSpec() {
           "{date}, {time}, {operator}, {object}, {run} (next free number). With --remote it "
           "records only when another program asks for it (palpate remote start); OUT is then a "
           "folder, or a folder with a template of file names. Exit code 3: something is missing in "
-          "a recording.",
+          "a recording (lost frames, refused lines), or has values that the hand can't have.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"output,o", "OUT.palpate", "where to record"},
@@ -283,25 +287,27 @@ int recordCommand(const Arguments& words) {
       std::fprintf(stderr, "%s\n", escapedLine(place).c_str());
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
   session.startRecording(std::move(options));
-  recordUntilDone(session, interruption, firstFrameS, given.quiet());
+  StreamNotice notice(streamOf(session), given.quiet());
+  recordUntilDone(session, interruption, firstFrameS, given.quiet(), notice);
   const LinkHealth health = session.health();
-  const DeviceStatus& device = health.device;
   session.stop();
+  notice.show();
   const RecordingReport report = session.stopRecording();
   if (report.paths.empty())
     throw Error(health.frames.ageMs ? "nothing was recorded: " + report.message
-                                    : nothingText(device, *port, streamOf(session)));
-  const std::string text = given.has("json")
-                               ? recordJsonText(report, device)
-                               : lineText(report, device) + refusedText(session, device);
+                                    : nothingText(health.device, *port, streamOf(session)));
+  const DeviceStatus device = session.device().status();
+  const std::string text = given.has("json") ? recordJsonText(report, device, streamOf(session))
+                                             : lineText(report, device);
   if (given.has("json") || !given.quiet()) std::printf("%s\n", text.c_str());
   if (!report.mcapFailure.empty())
     std::fprintf(stderr,
                  "palpate: the MCAP file stopped before the end: %s\n",
                  escapedLine(report.mcapFailure).c_str());
-  if (report.complete) return report.mcapFailure.empty() ? kDone : kPartlyDone;
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
-  return kPartlyDone;
+  const std::string leftOut = leftOutText(report, streamOf(session));
+  if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
+  if (!report.complete) std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
+  return report.complete && report.mcapFailure.empty() && leftOut.empty() ? kDone : kPartlyDone;
 }
 
 }  // namespace palpate::commands

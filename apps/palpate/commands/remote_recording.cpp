@@ -12,6 +12,7 @@
 #include "palpate/interop/remote_server.h"
 
 #include "commands/commands.h"
+#include "commands/stream_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -77,7 +78,8 @@ int recordRemotely(const CommandLine& given,
   RemoteRecorderOptions options = remoteRecordingOptionsOf(given, std::move(each));
   std::atomic<bool> whole = true;
   options.onFinished = [&](const RecordingReport& report) {
-    if (!report.complete && !report.paths.empty()) whole = false;
+    const bool isWhole = report.complete && leftOutText(report, streamOf(session)).empty();
+    if (!isWhole && !report.paths.empty()) whole = false;
     if (given.has("json") || !given.quiet()) sayRemoteRecording(report, given.has("json"));
   };
   session.start();

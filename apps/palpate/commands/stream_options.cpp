@@ -5,6 +5,7 @@
 #include <string>
 
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
 
 #include "commands/hand_options.h"
 
@@ -84,11 +85,36 @@ const StreamDevice* streamOf(const CaptureSession& session) {
 }
 
 void StreamNotice::show() {
-  if (stream_ == nullptr || quiet_) return;
-  const std::string text = stream_->notice();
-  if (text.empty()) return;
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(text).c_str());
-  stream_ = nullptr;
+  if (stream_ == nullptr) return;
+  const auto print = [](const std::string& text) {
+    std::fprintf(stderr, "palpate: %s\n", escapedLine(text).c_str());
+  };
+  const std::string place = placeShown_ ? std::string() : stream_->notice();
+  if (!place.empty()) print(place);
+  placeShown_ = placeShown_ || !place.empty();
+  const std::vector<std::string> remarks = stream_->remarks();
+  for (; remarksShown_ < remarks.size(); ++remarksShown_) print(remarks[remarksShown_]);
+}
+
+std::string leftOutText(const RecordingReport& report, const StreamDevice* stream) {
+  const auto countOf = [&](const char* name) {
+    const auto found = report.counters.find(name);
+    return found == report.counters.end() ? std::uint64_t{0}
+                                          : static_cast<std::uint64_t>(found->second);
+  };
+  if (stream == nullptr) return {};
+  std::string text;
+  const auto add = [&](const std::string& part, const std::string& last) {
+    text += (text.empty() ? "" : ", ") + part;
+    if (!last.empty()) text += " (the last: " + escapedLine(last) + ")";
+  };
+  if (const auto lost = countOf("lost"); lost > 0) add(counted(lost, "frame") + " lost", "");
+  if (const auto refused = countOf("suspect"); refused > 0)
+    add(std::to_string(refused) + " refused", stream->lastFault());
+  if (const auto outOfRange = countOf("out_of_range"); outOfRange > 0)
+    add(counted(outOfRange, "frame") + " with values that the description of the hand excludes",
+        stream->lastOutOfRange());
+  return text;
 }
 
 }  // namespace palpate::commands

@@ -2,7 +2,9 @@
 // --format, --time and --baud.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <palpate/capture/capture_session.h>
@@ -23,16 +25,20 @@ std::unique_ptr<StreamDevice> streamSourceOf(const CommandLine& given);
 CaptureOptions streamCaptureOptions(const CommandLine& given);
 // The stream of a session; null when its device is another one.
 const StreamDevice* streamOf(const CaptureSession& session);
-// Prints once on standard error where senders are awaited, as soon as it is known; nothing with
-// --quiet.
+// Prints on standard error where senders are awaited, as soon as it is known, and each remark about
+// the stream (StreamDevice::remarks()); nothing with --quiet.
 class StreamNotice {
  public:
-  StreamNotice(const StreamDevice* stream, bool quiet) : stream_(stream), quiet_(quiet) {}
+  StreamNotice(const StreamDevice* stream, bool quiet) : stream_(quiet ? nullptr : stream) {}
   void show();
 
  private:
   const StreamDevice* stream_;
-  const bool quiet_;
+  bool placeShown_ = false;
+  std::size_t remarksShown_ = 0;
 };
+// What the recording of a stream lacks, or has beyond the description of the hand: "31 frames lost,
+// 2 refused (the last: line 812: ..)"; empty: nothing, or `stream` is null.
+std::string leftOutText(const RecordingReport& report, const StreamDevice* stream);
 
 }  // namespace palpate::commands

@@ -53,6 +53,9 @@ struct RecordingOptions {
   // Returns counters of the recording (bad checksums, ..); called with every commit, at least once
   // a second, and at the end; may be empty.
   std::function<std::map<std::string, std::int64_t>()> counters;
+  // Returns the events of gaps that are still going on at this time [us since 1970], at which the
+  // recording ends; called once, before the last `counters`; may be empty.
+  std::function<std::vector<RecordingEvent>(std::int64_t untilUs)> openGaps;
   double preTriggerS = 2.0;                     // [s], limited to what the recorder keeps
   std::optional<double> splitS;                 // a new part after this time [s], >= 1
   std::optional<std::int64_t> splitBytes;       // or at about this size of a part, >= 64 KiB

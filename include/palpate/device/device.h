@@ -88,6 +88,8 @@ struct PortStatus {
   std::uint64_t badChecksums = 0;  // packets or answers with a wrong checksum
   // Packets with a correct checksum but implausible content; they are dropped.
   std::uint64_t suspect = 0;
+  // Frames of a stream with a value outside of the description of the hand; they are delivered.
+  std::uint64_t outOfRange = 0;
   std::uint64_t skippedBytes = 0;  // bytes outside of any packet
   // Number of frames that were sent but never received completely, counted by the device clock.
   // During a gap without device times the number is estimated from the usual rate; estimatedLost
@@ -194,6 +196,13 @@ class Device {
   // True for a controller, which scans at its own rate, given by its layout. False for the replay
   // of a recording, which delivers frames at their recorded times.
   virtual bool isFreeRunning() const { return false; }
+  // The event "gap" of a time without frames that has not ended, as if it ended at `untilUs` [us
+  // since 1970]; empty: frames come, or their absence is no gap. Its frames are not in the counts
+  // of status() yet. Safe from any thread.
+  virtual std::optional<DeviceEvent> openGap(std::int64_t untilUs) const {
+    static_cast<void>(untilUs);
+    return std::nullopt;
+  }
   // Latest axis states (SDH-2: 0 idle, 1 positioning, 2 speed mode, 3 not initialised, 4 and 5
   // blocked, 6 disabled, 7 limit reached); empty where unknown. They are polled while a motion
   // runs; from the motion command until the first poll the state is "positioning".

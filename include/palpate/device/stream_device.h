@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <palpate/core/time.h>
 #include <palpate/device/byte_channel.h>
@@ -27,7 +28,8 @@ struct StreamDeviceOptions {
   // Where the stream comes from:
   //   a serial device, a /dev/serial/by-id name, a pty, or tcp:HOST:PORT, as openChannel() takes
   //     them;
-  //   listen:[ADDRESS:]PORT  a TCP port of this machine, to which one sender at a time connects;
+  //   listen:[ADDRESS:]PORT  a TCP port of this machine, to which senders connect. One at a time is
+  //     read; when it is silent for a second, the newest one of the others that sends;
   //   udp:[ADDRESS:]PORT     a UDP port of this machine;
   //   -                      standard input.
   // ADDRESS is numeric ("0.0.0.0", "[::1]"); without it only programs of this machine can send.
@@ -49,8 +51,10 @@ struct StreamDeviceOptions {
 // device's time of a frame is kept beside it (TactileFrame::deviceMs).
 //
 // Lost frames are counted by the sender's sequence numbers. Without these they are estimated during
-// a silence only, from the usual rate. PortStatus::suspect counts what was refused: lines, packets
-// with implausible content, and frames that arrived late.
+// a silence only, from the usual rate. Each loss and each silence is an event "gap"; the end of a
+// connection that its sender closed is neither. PortStatus::suspect counts what was refused: lines,
+// packets with implausible content, and frames that arrived late or twice. Values outside of the
+// description of the hand are kept; PortStatus::outOfRange counts their frames.
 class StreamDevice : public Device {
  public:
   // Opens nothing yet. The clock must outlive the device. Throws std::invalid_argument (options).
@@ -76,6 +80,13 @@ class StreamDevice : public Device {
   // What is wrong with the last line or packet that was refused since start(): "line 812: 255
   // numbers instead of 256"; empty when none was.
   std::string lastFault() const;
+  // The last value that was outside of the description of the hand: "line 9: value 2 is 5880, not
+  // in 0..1023 counts"; empty when none was.
+  std::string lastOutOfRange() const;
+  // Lines for the user, each of which comes once since start(): what was guessed of the stream, and
+  // what is odd about its senders.
+  std::vector<std::string> remarks() const;
+  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const override;
   // One line that says where senders are awaited, and from which machines; empty where localPort()
   // is.
   std::string notice() const;

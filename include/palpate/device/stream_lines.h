@@ -1,6 +1,6 @@
 // Reads a stream of text lines: numbers separated by commas, semicolons or white space, one line
-// per frame, or JSON objects as `palpate stream` sends them. docs/stream_protocol.md specifies
-// both.
+// per frame, per matrix, or per row of the only matrix; values with labels ("A0:1,A1:2"); or JSON
+// objects as `palpate stream` sends them. docs/stream_protocol.md specifies all of them.
 //
 // The numbers of a line are read without an allocation; JSON objects take several.
 #pragma once
@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <palpate/device/stream_shape.h>
@@ -22,7 +23,8 @@ class Json;
 // The time at the beginning of a line.
 enum class StreamTime {
   // A time is there if the line has exactly one number more than the item has values. It is in
-  // seconds when it is written with a decimal point or an exponent, otherwise in milliseconds.
+  // seconds when it is written with a decimal point or an exponent, otherwise in milliseconds;
+  // guess() says so. Lines whose first number turns out not to ascend are refused.
   kAuto,
   kNone,
   kSeconds,
@@ -45,6 +47,8 @@ struct StreamLineStats {
   std::uint64_t items = 0;  // handed to the sink
   // Lines with another content than an item, empty lines and comments.
   std::uint64_t refused = 0;
+  // Frames with a value outside of the description of the hand; they are among `items`.
+  std::uint64_t outOfRange = 0;
   std::uint64_t lineBytes = 0;  // bytes of complete lines, with their line ends
   // Bytes of lines that are too long, or that lack their beginning.
   std::uint64_t skippedBytes = 0;
@@ -65,12 +69,24 @@ class StreamLineParser {
   // What is wrong with the last refused line, and which it is: "line 812: 255 numbers instead of
   // 256". Lines are counted from 1. Empty when none was refused.
   const std::string& lastFault() const noexcept { return lastFault_; }
+  // The last value outside of the description: "line 9: value 2 is 5880, not in 0..1023 counts".
+  const std::string& lastOutOfRange() const noexcept { return lastOutOfRange_; }
+  // What the first number of a line was taken for with StreamTime::kAuto; empty: nothing yet.
+  const std::string& guess() const noexcept { return guess_; }
   // Longest line that is read [bytes], enough for the hand's values with 25 characters each.
   std::size_t longestLine() const noexcept { return longestLine_; }
 
  private:
-  struct Head;
+  // What a line of numbers begins with.
+  struct Head {
+    StreamItemKind kind = StreamItemKind::kFrame;
+    std::string_view name;  // without its colon and number; empty: none
+    bool hasColon = false;
+    std::optional<std::uint32_t> sequence;
+    const char* values = nullptr;  // where the numbers begin
+  };
   void takeLine(std::string_view line, const Sink& sink);
+  void takeText(std::string_view line, const Sink& sink);
   void readNumbers(std::string_view line, const Sink& sink);
   void readJson(std::string_view line, const Sink& sink);
   std::optional<StreamItem> readJsonFrame(const Json& object);
@@ -78,6 +94,39 @@ class StreamLineParser {
   bool readHead(std::string_view line, Head& head);
   std::size_t readValues(const char* at, const char* end, bool& failed);
   void deliver(const Head& head, std::size_t count, const Sink& sink);
+  std::string countFault(const Head& head, std::size_t count) const;
+  void endParts();
+  void deliverFrame(StreamItem& item, std::size_t count, const Sink& sink);
+
+  // The time before the values.
+  bool hasTime(bool fits, bool fitsWithout) const noexcept;
+  bool readTime(StreamItemKind kind, StreamTime unit, std::size_t count, StreamItem& item);
+  bool ascends(double us);
+
+  // A line per matrix.
+  bool takePad(const Head& head, std::size_t count, const Sink& sink);
+  bool continuesPads(std::size_t matrix, const Head& head, const StreamItem& item);
+
+  // A line per row.
+  bool mayBeRows() const noexcept;
+  bool takeWord(const Head& head, std::size_t count);
+  bool takeRow(const Head& head, std::size_t count, const Sink& sink);
+  bool isRow(const Head& head, std::size_t count) const noexcept;
+  void addRow(const Sink& sink);
+  void skipRow();
+  void separateRows();
+  void refuseHeldWord();
+
+  // Values with labels.
+  void readLabelled(std::string_view line, const Sink& sink);
+  bool readPairs(std::string_view line);
+  bool learnLabels(bool mayBeInside);
+  void takeLabelled(std::size_t from, StreamItem& item, const Sink& sink);
+  void takeLabel(std::string_view label, double value, const Sink& sink);
+  bool endsFirstLabels(std::string_view label, const Sink& sink);
+  void dropLabels();
+  std::optional<std::size_t> placeOfLabel(std::string_view label, std::size_t likely) const;
+
   void refuse(const std::string& why) { refuse(stats_.lines, why); }
   void refuse(std::uint64_t line, const std::string& why);
 
@@ -86,16 +135,45 @@ class StreamLineParser {
   std::size_t longestLine_;
   StreamLineStats stats_;
   std::string lastFault_;
+  std::string lastOutOfRange_;
+  std::string guess_;
   std::string pending_;           // a line without its end yet; never longer than longestLine_
   bool skipping_ = false;         // until the end of a line that is not used
+  char lastEnd_ = '\0';           // '\n' or '\r' directly before, of which no pair was made yet
+  std::string plain_;             // the present line without its brackets
   std::vector<double> numbers_;   // of the present line, as many as an item has at most
   std::string_view firstNumber_;  // as it was written
   std::vector<float> values_;
+  // The times that were guessed.
+  std::optional<double> lastTimeUs_;
+  int timesEqual_ = 0;
+  int timesBack_ = 0;
+  int timesForward_ = 0;
+  bool isNoTime_ = false;
+  std::uint64_t numGuessed_ = 0;
+  bool hasWholeFrames_ = false;  // frames come in one line each
   // A frame of which only some matrices came yet.
   std::size_t numPartMatrices_ = 0;  // 0: none
   std::optional<std::uint32_t> partSequence_;
+  std::optional<std::int64_t> partDeviceUs_;
   std::vector<bool> partSeen_;  // per matrix
   std::vector<float> partValues_;
+  std::optional<std::size_t> firstPad_;  // the matrix with which a frame begins
+  // A frame of which only some rows came yet.
+  std::size_t numRows_ = 0;
+  bool hasRows_ = false;        // the stream is known to have a line per row
+  bool rowsBegin_ = true;       // the next row is known to be the first one of a frame
+  bool rowsSeparated_ = false;  // something stands between two frames
+  bool rowsWhole_ = false;      // a frame ended, and nothing stood behind it yet
+  bool rowBroken_ = false;      // a row of this frame was refused
+  std::size_t numUnplacedRows_ = 0;
+  std::optional<std::pair<std::uint64_t, std::string>> heldWord_;  // line and fault
+  // Labels in the order of the values, and those of the present line.
+  std::vector<std::string> labels_;
+  bool labelsLearned_ = false;
+  std::vector<std::string_view> lineLabels_;
+  std::vector<bool> labelSeen_;  // of a frame with a line per label
+  std::size_t numLabelsSeen_ = 0;
   // Whether signals of a frame were read: further parts of them hold nothing to show.
   bool readsSignals_ = false;
 };

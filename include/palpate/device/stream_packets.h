@@ -50,6 +50,8 @@ struct StreamPacketStats {
   std::uint64_t badChecksums = 0;  // candidates with a wrong checksum
   // Packets with a right checksum and implausible content.
   std::uint64_t refused = 0;
+  // Frames with a value outside of the description of the hand; they are among `items`.
+  std::uint64_t outOfRange = 0;
   // Beginnings of packets whose length is not that of an item of the hand; they are searched for
   // the next packet.
   std::uint64_t badLengths = 0;
@@ -75,16 +77,20 @@ class StreamPacketParser {
   // values (255) instead of 256 values". Packets are counted from 1, with those refused. Empty when
   // there was none.
   const std::string& lastFault() const noexcept { return lastFault_; }
+  // The last value outside of the description: "packet 9: value 2 is 5880, not in 0..1023 counts".
+  const std::string& lastOutOfRange() const noexcept { return lastOutOfRange_; }
 
  private:
   std::size_t take(std::span<const std::byte> bytes, bool isEnd, const Sink& sink);
   std::string lengthFault(StreamPacketType type, std::size_t length) const;
   void deliver(std::span<const std::byte> packet, const Sink& sink);
+  std::string place() const;
   void fault(const std::string& why);
 
   StreamShape shape_;
   StreamPacketStats stats_;
   std::string lastFault_;
+  std::string lastOutOfRange_;
   std::vector<std::byte> pending_;  // the beginning of a packet
   std::vector<float> values_;
   std::vector<double> numbers_;

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <palpate/model/hand_description.h>
@@ -59,9 +60,12 @@ class StreamShape {
 
   // Makes a frame of `count` received values, which are the first ones of `values` (numPlaces()
   // floats): moves them to their places if only those of taxels were sent, and sets places without
-  // a taxel to 0. Returns what is wrong, for example "value 17 is -3, not in 0..4095 counts", with
-  // values counted from 1 as they were sent; empty when all values are good.
+  // a taxel to 0. Returns what is outside of the description, for example "value 17 is -3, not in
+  // 0..4095 counts", with values counted from 1 as they were sent; empty when nothing is. Such a
+  // value is kept; one that is not finite becomes 0, and the text says so.
   std::string arrange(std::span<float> values, std::size_t count) const;
+  // The matrix of this name or short name, in letters of either case.
+  std::optional<std::size_t> matrixNamed(std::string_view name) const noexcept;
   // Returns what is wrong with angles or temperatures: a value that is not finite.
   std::string check(std::span<const double> numbers) const;
 
@@ -73,6 +77,7 @@ class StreamShape {
   std::size_t numTemperatures_ = 0;
   std::vector<float> fullScales_;  // per matrix
   std::string unit_;
+  std::vector<std::pair<std::string, std::string>> names_;  // per matrix: name, short name
   std::vector<std::uint8_t> exists_;  // per place; empty when no place is masked
 };
 

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -42,6 +43,9 @@ struct FoxgloveServerOptions {
   // Origins of web pages that may connect in addition to https://app.foxglove.dev, for example
   // "http://localhost:8080". Browsers name the origin of the page; other programs name none.
   std::vector<std::string> origins = {};
+  // Called with one line for the first refused connection of each other origin, of 16 origins at
+  // most: a browser shows its user no reason. From the server's thread; may be empty.
+  std::function<void(const std::string& why)> onRefusedOrigin = {};
   std::size_t maxClients = 16;  // 1..1000
   // What may wait for one client [bytes]; beyond it the oldest messages are dropped.
   std::size_t maxWaitingBytes = 4U << 20;

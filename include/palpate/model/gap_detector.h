@@ -15,6 +15,7 @@ namespace palpate {
 inline constexpr std::int64_t kShortestGapUs = 1'000'000;  // [us]
 inline constexpr double kShortestGapS = 1.0;               // [s]
 inline constexpr int kGapIntervals = 5;
+inline constexpr double kBurstIntervals = 4.0;
 
 // The longest interval that is no gap, for a given median interval.
 constexpr double gapThresholdS(double medianS) {
@@ -23,6 +24,12 @@ constexpr double gapThresholdS(double medianS) {
 template <typename Us>
 constexpr Us gapThresholdUs(Us medianUs) {
   return std::max<Us>(kShortestGapUs, kGapIntervals * medianUs);
+}
+
+// Frames come in bursts when so many of them arrive together that the median interval says nothing
+// of their rate; `mean`: of the intervals that are no gaps.
+constexpr bool isInBursts(double medianUs, double meanUs) {
+  return kBurstIntervals * medianUs < meanUs;
 }
 
 // Finds gaps in a series of time stamps that are passed one by one.

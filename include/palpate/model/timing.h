@@ -21,7 +21,10 @@ struct Gap {
 // Duration, rates and gaps of a series of frames.
 struct TimingReport {
   double durationS = 0.0;  // first to last frame [s]
-  double rateHz = 0.0;     // 1 / median interval; 0 with fewer than two frames
+  // 1 / median interval; 1 / mean interval without the gaps when frames came in bursts; 0 with
+  // fewer than two frames.
+  double rateHz = 0.0;
+  bool inBursts = false;  // the median interval is that between frames that arrived together
   // (frames - 1) / duration; 0 with fewer than two frames.
   double meanRateHz = 0.0;
   std::vector<Gap> gaps;  // longer than max(1 s, 5 median intervals)

@@ -27,7 +27,7 @@ struct RecordingLoss {
 };
 
 // One item for each stream that lost something, in the order above. An event that names no stream
-// is about the frames.
+// is about the frames. An event that tells of no lost item is a silence and no loss.
 std::vector<RecordingLoss> lossesOf(std::span<const RecordingEvent> events);
 
 }  // namespace palpate

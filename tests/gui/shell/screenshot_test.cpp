@@ -85,6 +85,9 @@ TEST_F(ScreenshotTest, WhatIsPressedAndRememberedIsSeen) {
   with = ofDemoFile("keys.png");
   with.presses = {{"F1", 0.0}};
   EXPECT_NE(shot(with).size(), usual.size()) << "the dialogue alone";
+  with = ofDemoFile("dock.png");
+  with.docks = {"slip"};  // in any case of its letters
+  EXPECT_NE(shot(with), usual);
   with = ofDemoFile("settings.png");
   testing::writeFile(folder_ / "s.ini", "[view]\nmap=viridis\n");
   with.settings = folder_ / "s.ini";

@@ -1,6 +1,10 @@
 #include "gui/link/link_feature.h"
 
 #include <QApplication>
+#include <string>
+#include <vector>
+
+#include <palpate/core/escaped_line.h>
 
 #include "gui/link/link_panel.h"
 #include "gui/widgets/dock.h"
@@ -86,6 +90,7 @@ void LinkFeature::connectLog() {
   });
   connect(&live, &LiveController::sourceOpened, this, [this, &live] {
     noticeLogged_ = false;
+    remarksLogged_ = 0;
     panel_->log("connected: " + describe(live.source()->connection));
   });
   connect(&live, &LiveController::failed, this, [this](const QString& message) {
@@ -145,6 +150,10 @@ void LinkFeature::look() {
     noticeLogged_ = true;
     panel_->log(QString::fromStdString(stream->notice()));
   }
+  if (!stream) return;
+  const std::vector<std::string> remarks = stream->remarks();
+  for (; remarksLogged_ < remarks.size(); ++remarksLogged_)
+    panel_->log(QString::fromStdString(escapedLine(remarks[remarksLogged_])));
 }
 
 std::vector<DockSpec> LinkFeature::docks() {

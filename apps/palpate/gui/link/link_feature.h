@@ -54,6 +54,7 @@ class LinkFeature : public Feature {
   bool alarmIsNew_ = false;
   // Whether it was logged where senders of the stream are awaited.
   bool noticeLogged_ = false;
+  std::size_t remarksLogged_ = 0;
   std::unique_ptr<OtherPrograms> others_;
 };
 

@@ -117,6 +117,11 @@ std::vector<Fact> factsOf(const StreamDevice& stream) {
     facts.push_back({"last refused",
                      QString::fromStdString(escapedLine(fault)),
                      !stream.status().tactile.message.empty()});
+  if (const std::string value = stream.lastOutOfRange(); !value.empty())
+    facts.push_back({"out of range",
+                     QString::number(stream.status().tactile.outOfRange) +
+                         " frames, the last: " + QString::fromStdString(escapedLine(value)),
+                     true});
   return facts;
 }
 

@@ -1,5 +1,7 @@
 #include "gui/link/other_programs.h"
 
+#include <utility>
+
 #include <palpate/core/error.h>
 
 #include "gui/link/link_feature.h"
@@ -45,6 +47,7 @@ OtherPrograms::OtherPrograms(const OtherProgramsOptions& options, QObject* paren
   connect(&live_, &LiveController::sourceOpened, this, &OtherPrograms::useStreams);
   connect(&live_, &LiveController::ended, this, &OtherPrograms::changed);
   connect(&live_, &LiveController::refreshed, this, &OtherPrograms::changed);
+  connect(&live_, &LiveController::refreshed, this, &OtherPrograms::logRefusal);
 }
 
 QAction* OtherPrograms::actionOf(StreamKind kind) const {
@@ -95,6 +98,14 @@ void OtherPrograms::reportFoxglove(bool on) {
   emit logged(on ? "streaming to Foxglove at ws://127.0.0.1:" + QString::number(foxglovePort())
                  : QString("no longer streaming to Foxglove"));
   emit changed();
+}
+
+void OtherPrograms::logRefusal() {
+  const LiveSource* source = live_.source();
+  const auto stats = source ? source->foxglove->stats() : std::nullopt;
+  const std::string refusal = stats ? stats->lastRefusal : std::string();
+  if (std::exchange(loggedRefusal_, refusal) != refusal && !refusal.empty())
+    emit logged("Foxglove: " + QString::fromStdString(refusal));
 }
 
 void OtherPrograms::switchStream(StreamKind kind, bool on) {

@@ -157,10 +157,14 @@ void showPage(Panel& panel, const QString& dock, const QString& page) {
 
 void showDocks(MainWindow& window, const ScreenshotOptions& options) {
   for (const std::string& dock : options.docks) {
-    const QString name = QString::fromStdString(dock).section('/', 0, 0);
-    if (!window.docks().names().contains(name))
-      throw Error("no dock '" + dock + "': there are " +
-                  window.docks().names().join(", ").toStdString());
+    const QString given = QString::fromStdString(dock).section('/', 0, 0);
+    const QStringList names = window.docks().names();
+    const auto found = std::find_if(names.begin(), names.end(), [&](const QString& each) {
+      return each.compare(given, Qt::CaseInsensitive) == 0;
+    });
+    if (found == names.end())
+      throw Error("no dock '" + dock + "': there are " + names.join(", ").toStdString());
+    const QString& name = *found;
     if (window.state().displayed.kind() != DisplayedSource::Kind::kNothing)
       window.docks().show(name);
     // "Calibrate/Noise" names a page of the dock.

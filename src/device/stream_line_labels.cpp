@@ -1,0 +1,214 @@
+// Lines whose values have labels: "A0:1,A1:2", all of a frame in a line, or a line for each. The
+// first frame says in which order the labels stand for the values.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/file_name.h"
+#include "palpate/core/number_text.h"
+#include "palpate/device/stream_lines.h"
+
+#include "device/line_tokens.h"
+
+namespace palpate {
+namespace {
+
+using namespace line_tokens;
+
+constexpr std::size_t kLongestLabel = 64;
+
+// The unit that the label of a time names; empty: it is no time.
+std::optional<StreamTime> timeOfLabel(std::string_view label) {
+  constexpr std::array<std::pair<std::string_view, StreamTime>, 10> kTimes{
+      {{"t", StreamTime::kAuto},
+       {"time", StreamTime::kAuto},
+       {"timestamp", StreamTime::kAuto},
+       {"s", StreamTime::kSeconds},
+       {"seconds", StreamTime::kSeconds},
+       {"ms", StreamTime::kMilliseconds},
+       {"millis", StreamTime::kMilliseconds},
+       {"time_ms", StreamTime::kMilliseconds},
+       {"us", StreamTime::kMicroseconds},
+       {"micros", StreamTime::kMicroseconds}}};
+  for (const auto& [name, unit] : kTimes)
+    if (label == name) return unit;
+  return std::nullopt;
+}
+
+// True when the labels are one name with different numbers: "A0", "A1", ..
+bool areNumbered(const std::vector<std::string>& labels) {
+  constexpr std::string_view kDigits = "0123456789";
+  const auto nameOf = [&](const std::string& label) {
+    return std::string_view(label).substr(0, label.find_last_not_of(kDigits) + 1);
+  };
+  return std::ranges::all_of(labels, [&](const std::string& label) {
+    return nameOf(label) == nameOf(labels.front()) && nameOf(label).size() < label.size();
+  });
+}
+
+}  // namespace
+
+// Reads "LABEL:VALUE, .." into lineLabels_ and numbers_. Returns false when it was refused.
+bool StreamLineParser::readPairs(std::string_view line) {
+  lineLabels_.clear();
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  while (at != end) {
+    const std::string_view token = tokenAt(at, end);
+    const std::size_t colon = token.find(':');
+    const std::string_view label = token.substr(0, colon);
+    if (colon == std::string_view::npos || label.empty() || label.size() > kLongestLabel) {
+      refuse(inQuotes(token) + " has no label, as the other values have");
+      return false;
+    }
+    double value = 0.0;
+    const char* const number = skipBlanks(at + colon + 1, end);
+    const char* const stop = readNumber(number, end, value);
+    if (stop == nullptr) {
+      refuse("the value of " + inQuotes(label) + " is " + inQuotes(tokenAt(number, end)) +
+             ", not a number");
+      return false;
+    }
+    if (lineLabels_.empty()) firstNumber_ = {number, static_cast<std::size_t>(stop - number)};
+    if (lineLabels_.size() < numbers_.size()) numbers_[lineLabels_.size()] = value;
+    lineLabels_.push_back(label);
+    at = skipBlanks(stop, end);
+    if (at != end && (*at == ',' || *at == ';')) at = skipBlanks(at + 1, end);
+  }
+  return true;
+}
+
+void StreamLineParser::readLabelled(std::string_view line, const Sink& sink) {
+  if (!readPairs(line)) return;
+  const std::size_t count = lineLabels_.size();
+  constexpr auto kFrame = StreamItemKind::kFrame;
+  StreamItem item;
+  const bool withTime = hasTime(shape_.fits(kFrame, count), shape_.fits(kFrame, count - 1));
+  if (!shape_.fits(kFrame, count - (withTime ? 1 : 0)))
+    return refuse(counted(count, "value") + " with labels instead of " + shape_.expected(kFrame));
+  if (withTime) {
+    const std::optional<StreamTime> unit = timeOfLabel(lineLabels_.front());
+    if (!unit)
+      return refuse("one value more than the hand has, and the first is " +
+                    inQuotes(lineLabels_.front()) + "; a time is called t, time, s, ms or us");
+    if (!readTime(kFrame, options_.time == StreamTime::kAuto ? *unit : options_.time, count, item))
+      return;
+  }
+  const std::size_t from = withTime ? 1 : 0;
+  if (!labelsLearned_) {
+    labels_.assign(lineLabels_.begin() + static_cast<std::ptrdiff_t>(from), lineLabels_.end());
+    if (!learnLabels(false)) return;
+  }
+  takeLabelled(from, item, sink);
+}
+
+// Takes labels_ as those of the values in their order, if they can be. Where the first lines may
+// lack the beginning of a frame only their numbers say the order.
+bool StreamLineParser::learnLabels(bool mayBeInside) {
+  std::vector<std::string> sorted = labels_;
+  std::ranges::sort(sorted, [](const auto& a, const auto& b) { return naturalOrder(a, b) < 0; });
+  std::string why;
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+    why = "the label " + inQuotes(*twice) + " is there twice";
+  else if (mayBeInside && !areNumbered(labels_))
+    why = "the order of the values is not known: send all of a frame in one line";
+  if (!why.empty()) {
+    labels_.clear();
+    refuse(why);
+    return false;
+  }
+  if (mayBeInside) labels_ = std::move(sorted);
+  labelsLearned_ = true;
+  labelSeen_.assign(labels_.size(), false);
+  numLabelsSeen_ = 0;
+  return true;
+}
+
+std::optional<std::size_t> StreamLineParser::placeOfLabel(std::string_view label,
+                                                          std::size_t likely) const {
+  if (likely < labels_.size() && labels_[likely] == label) return likely;
+  const auto found = std::ranges::find(labels_, label);
+  if (found == labels_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - labels_.begin());
+}
+
+// Delivers the frame of a line; its first value is that of label `from`.
+void StreamLineParser::takeLabelled(std::size_t from, StreamItem& item, const Sink& sink) {
+  const std::size_t count = lineLabels_.size() - from;
+  if (count != labels_.size())
+    return refuse(counted(count, "value") + " with labels instead of " +
+                  std::to_string(labels_.size()) + ", as before");
+  labelSeen_.assign(count, false);
+  numLabelsSeen_ = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string_view label = lineLabels_[from + i];
+    const auto place = placeOfLabel(label, i);
+    if (!place || labelSeen_[*place])
+      return refuse("the label " + inQuotes(label) +
+                    (place ? " is there twice" : " was not in the first frame"));
+    labelSeen_[*place] = true;
+    values_[*place] = static_cast<float>(numbers_[from + i]);
+  }
+  labelSeen_.assign(count, false);
+  deliverFrame(item, count, sink);
+}
+
+// Takes one of the values of a frame with a line for each.
+void StreamLineParser::takeLabel(std::string_view label, double value, const Sink& sink) {
+  if (label.size() > kLongestLabel) return refuse("a label is longer than 64 bytes");
+  partValues_.resize(shape_.numPlaces());
+  if (!labelsLearned_ && !endsFirstLabels(label, sink)) {
+    if (labels_.size() == shape_.numPlaces()) return dropLabels();
+    partValues_[labels_.size()] = static_cast<float>(value);
+    labels_.emplace_back(label);
+    return;
+  }
+  const std::optional<std::size_t> place = placeOfLabel(label, numLabelsSeen_);
+  if (!place) return refuse("the label " + inQuotes(label) + " was not in the first frame");
+  if (numLabelsSeen_ > 0 && (*place == 0 || labelSeen_[*place])) {
+    refuse("a frame of " + counted(numLabelsSeen_, "value") + " with labels instead of " +
+           std::to_string(labels_.size()));
+    labelSeen_.assign(labels_.size(), false);
+    numLabelsSeen_ = 0;
+  }
+  if (numLabelsSeen_ == 0 && *place != 0) {
+    // The end of the frame that was being sent when the port was opened is no fault.
+    if (stats_.items > 0) refuse(inQuotes(label) + " came before the first value of its frame");
+    return;
+  }
+  labelSeen_[*place] = true;
+  partValues_[*place] = static_cast<float>(value);
+  if (++numLabelsSeen_ < labels_.size()) return;
+  labelSeen_.assign(labels_.size(), false);
+  numLabelsSeen_ = 0;
+  values_ = partValues_;
+  StreamItem item;
+  deliverFrame(item, labels_.size(), sink);
+}
+
+// Whether this label was there before, so that those between are the labels of a frame. Then the
+// first frame is delivered.
+bool StreamLineParser::endsFirstLabels(std::string_view label, const Sink& sink) {
+  if (!placeOfLabel(label, 0)) return false;
+  if (!shape_.fits(StreamItemKind::kFrame, labels_.size())) {
+    dropLabels();
+    return false;
+  }
+  if (!learnLabels(options_.startsInside)) return false;
+  if (options_.startsInside) return true;
+  values_ = partValues_;
+  StreamItem item;
+  deliverFrame(item, labels_.size(), sink);
+  return true;
+}
+
+// Refuses the labels that were collected: they are not as many as a frame has values.
+void StreamLineParser::dropLabels() {
+  if (labelsLearned_ || labels_.empty()) return;
+  refuse(counted(labels_.size(), "value") + " with labels instead of " +
+         shape_.expected(StreamItemKind::kFrame));
+  labels_.clear();
+}
+
+}  // namespace palpate

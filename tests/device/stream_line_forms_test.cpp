@@ -1,0 +1,268 @@
+// Forms of lines that sketches and programs print: rows, a line per matrix, labels, lists; times
+// that were guessed; values outside of the description.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "palpate/device/stream_lines.h"
+
+#include "device/stream_hands.h"
+
+namespace palpate::testing::stream_line_forms_test {
+namespace {
+
+using Values = std::vector<float>;
+
+struct FormReading {
+  std::vector<Values> frames;
+  std::vector<std::optional<std::int64_t>> timesUs;
+  StreamLineStats stats;
+  std::string fault, outOfRange, guess;
+};
+
+FormReading readForm(const std::string& text,
+                     const HandDescription& hand,
+                     const StreamLineOptions& options = {},
+                     std::size_t chunk = SIZE_MAX) {
+  StreamLineParser parser(StreamShape(hand), options);
+  FormReading reading;
+  const auto bytes = std::as_bytes(std::span(text));
+  for (std::size_t at = 0; at < bytes.size(); at += std::min(chunk, bytes.size() - at))
+    parser.push(bytes.subspan(at, std::min(chunk, bytes.size() - at)), [&](const StreamItem& item) {
+      reading.frames.emplace_back(item.values.begin(), item.values.end());
+      reading.timesUs.push_back(item.deviceUs);
+    });
+  reading.stats = parser.stats();
+  reading.fault = parser.lastFault();
+  reading.outOfRange = parser.lastOutOfRange();
+  reading.guess = parser.guess();
+  EXPECT_EQ(reading.stats.lineBytes + reading.stats.skippedBytes + parser.pendingBytes(),
+            text.size());
+  return reading;
+}
+
+// Two matrices of 2 x 2, "left" and "right".
+HandDescription twoPads() {
+  HandDescription hand = padHand({{2, 2}, {2, 2}});
+  hand.matrices[0].name = "left";
+  hand.matrices[0].shortName = "L";
+  hand.matrices[1].name = "right";
+  hand.matrices[1].shortName = "R";
+  return hand;
+}
+
+const std::vector<Values> kTwoFrames{{0, 1, 2, 3, 4, 5}, {10, 11, 12, 13, 14, 15}};
+
+// --- Rows
+
+TEST(StreamLineForms, AFrameMayHaveALinePerRow) {
+  for (const char* text : {"0 1 2 \r\n3 4 5 \r\n\r\n10 11 12 \r\n13 14 15 \r\n\r\n",
+                           "0,1,2\n3,4,5\n10,11,12\n13,14,15\n",
+                           "START\n0,1,2\n3,4,5\nSTART\n10,11,12\n13,14,15\n",
+                           "flag:\n0,1,2\n3,4,5\nflag:\n10,11,12\n13,14,15\n",
+                           "[[0, 1, 2],\n [3, 4, 5]]\n[[10, 11, 12],\n [13, 14, 15]]\n"})
+    for (const std::size_t chunk : {std::size_t{1}, std::size_t{7}, SIZE_MAX}) {
+      const FormReading reading = readForm(text, padHand({{2, 3}}), {}, chunk);
+      EXPECT_EQ(reading.frames, kTwoFrames) << text;
+      EXPECT_EQ(reading.stats.refused, 0u) << text << reading.fault;
+    }
+}
+
+TEST(StreamLineForms, AFrameWithAMissingOrWrongRowIsRefusedAlone) {
+  const FormReading missing =
+      readForm("0,1,2\n3,4,5\n\n7,8,9\n\n10,11,12\n13,14,15\n\n", padHand({{2, 3}}));
+  EXPECT_EQ(missing.frames, kTwoFrames);
+  EXPECT_EQ(missing.fault, "line 5: a frame of 1 row instead of 2");
+  EXPECT_EQ(missing.stats.refused, 1u);
+  for (const char* wrong : {"7,8", "7,x,9", "7,8,9,10"}) {
+    // With a wrong row in the place of a row, also without empty lines.
+    const FormReading reading = readForm(
+        "0,1,2\n3,4,5\n1,2,3\n" + std::string(wrong) + "\n10,11,12\n13,14,15\n", padHand({{2, 3}}));
+    EXPECT_EQ(reading.frames, kTwoFrames) << wrong;
+    EXPECT_EQ(reading.stats.refused, 1u) << wrong << reading.fault;
+  }
+  EXPECT_EQ(readForm("0,1,2\n3,4\n", padHand({{2, 3}})).fault,
+            "line 2: 2 numbers instead of 3 in row 2");
+}
+
+TEST(StreamLineForms, ARowTooManyIsRefused) {
+  const FormReading reading =
+      readForm("0,1,2\n3,4,5\n\n0,1,2\n3,4,5\n6,7,8\n\n10,11,12\n13,14,15\n\n", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames.size(), 3u);
+  EXPECT_EQ(reading.frames.back(), kTwoFrames[1]);
+  EXPECT_EQ(reading.fault, "line 6: more than 2 rows in a frame");
+}
+
+// The first line of a running sender is skipped, and so is the rest of its frame.
+TEST(StreamLineForms, OfARunningSenderTheFirstSeparatorIsAwaited) {
+  const StreamLineOptions inside{.startsInside = true};
+  const FormReading reading =
+      readForm("9\n7,8,9\n\n0,1,2\n3,4,5\n\n10,11,12\n13,14,15\n\n", padHand({{2, 3}}), inside);
+  EXPECT_EQ(reading.frames, kTwoFrames);
+  EXPECT_EQ(reading.stats.refused, 0u) << reading.fault;
+  const FormReading endless =
+      readForm("9\n0,1,2\n3,4,5\n10,11,12\n13,14,15\n", padHand({{2, 3}}), inside);
+  EXPECT_EQ(endless.frames.size(), 0u);
+  EXPECT_EQ(endless.fault,
+            "line 5: it is not known with which row a frame begins: print an empty line after each "
+            "frame");
+}
+
+// A line cut off to the length of a row is none in a stream of whole frames.
+TEST(StreamLineForms, RowsDoNotMixWithWholeFrames) {
+  const FormReading reading =
+      readForm("0,1,2,3,4,5\n3,4,5\n0,1,2\n10,11,12,13,14,15\n", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames, kTwoFrames);
+  EXPECT_EQ(reading.stats.refused, 2u);
+  EXPECT_EQ(reading.fault, "line 3: 3 numbers instead of 6");
+}
+
+TEST(StreamLineForms, AWordIsRefusedWhereNoRowsFollow) {
+  const FormReading reading = readForm("booting\n0,1,2,3,4,5\n", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames.size(), 1u);
+  EXPECT_EQ(reading.fault, "line 1: 0 numbers instead of 6");
+}
+
+// --- A line per matrix
+
+TEST(StreamLineForms, AFrameMayHaveALinePerMatrix) {
+  const std::vector<Values> frames{{1, 2, 3, 4, 5, 6, 7, 8}, {9, 9, 9, 9, 0, 0, 0, 1}};
+  for (const char* text : {"L:1,2,3,4\nR:5,6,7,8\nL:9,9,9,9\nR:0,0,0,1\n",
+                           "right 5 6 7 8\nleft 1 2 3 4\nRIGHT: 0 0 0 1\nLeft: 9 9 9 9\n"}) {
+    const FormReading reading = readForm(text, twoPads());
+    EXPECT_EQ(reading.frames, frames) << text << reading.fault;
+    EXPECT_EQ(reading.stats.refused, 0u) << reading.fault;
+  }
+  const FormReading timed = readForm("L,50,1,2,3,4\nR,51,5,6,7,8\n", twoPads());
+  EXPECT_EQ(timed.timesUs, (std::vector<std::optional<std::int64_t>>{50'000}));
+  EXPECT_EQ(readForm("L:1,2,3,4\nR:5,6,7,8\n1,2,3,4,5,6,7,8\n", twoPads()).frames.size(), 2u);
+}
+
+TEST(StreamLineForms, AMatrixThatDidNotComeIsAFault) {
+  const FormReading reading = readForm("L:1,2,3,4\nL:1,2,3,4\nR:5,6,7,8\nR:5,6,7,8\n", twoPads());
+  EXPECT_EQ(reading.frames.size(), 1u);
+  EXPECT_EQ(reading.stats.refused, 2u);
+  EXPECT_EQ(reading.fault, "line 4: \"R\" came before the first matrix of its frame");
+  EXPECT_EQ(readForm("A:1,2,3,4\n", twoPads()).fault,
+            "line 1: 4 numbers instead of 8; a line per matrix begins with the name of its matrix, "
+            "as the hand has it");
+}
+
+// --- Labels
+
+TEST(StreamLineForms, ValuesMayHaveLabels) {
+  for (const char* text : {"A0:0,A1:1,A2:2,A3:3,A4:4,A5:5\nA0:10,A1:11,A2:12,A3:13,A4:14,A5:15\n",
+                           "A0: 0 A1: 1 A2: 2 A3: 3 A4: 4 A5: 5\n"
+                           "A1: 11 A0: 10 A2: 12 A3: 13 A5: 15 A4: 14\n",
+                           ">A0:0\n>A1:1\n>A2:2\n>A3:3\n>A4:4\n>A5:5\n"
+                           ">A0:10\n>A1:11\n>A2:12\n>A3:13\n>A4:14\n>A5:15\n"}) {
+    const FormReading reading = readForm(text, padHand({{2, 3}}));
+    EXPECT_EQ(reading.frames, kTwoFrames) << text << reading.fault;
+    EXPECT_EQ(reading.stats.refused, 0u) << reading.fault;
+  }
+  const FormReading timed = readForm("ms:50,a:1,b:2,c:3\nms:60,a:1,b:2,c:3\n", padHand({{1, 3}}));
+  EXPECT_EQ(timed.timesUs, (std::vector<std::optional<std::int64_t>>{50'000, 60'000}));
+  EXPECT_EQ(timed.guess, "");
+}
+
+// The port was opened within a frame: the numbers of the labels say the order.
+TEST(StreamLineForms, LabelsOfARunningSenderAreOrderedByTheirNumbers) {
+  std::string text = "half\n";
+  for (int value = 3; value < 36; ++value)
+    text += "A" + std::to_string(value % 12) + ":" + std::to_string(value) + "\n";
+  const FormReading reading = readForm(text, padHand({{3, 4}}), {.startsInside = true});
+  ASSERT_EQ(reading.frames.size(), 1u) << reading.fault;
+  EXPECT_EQ(reading.frames[0], (Values{24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35}));
+  EXPECT_EQ(readForm("half\nb:1\nc:2\na:3\nb:4\n", padHand({{1, 3}}), {.startsInside = true}).fault,
+            "line 5: the order of the values is not known: send all of a frame in one line");
+}
+
+TEST(StreamLineForms, WrongLabelsAreNamed) {
+  const std::string first = "a:1,b:2,c:3\n";
+  const auto faultOf = [&](const std::string& line) {
+    return readForm(first + line + "\n", padHand({{1, 3}})).fault;
+  };
+  EXPECT_EQ(faultOf("a:1,b:2,d:3"), "line 2: the label \"d\" was not in the first frame");
+  EXPECT_EQ(faultOf("a:1,b:2,b:3"), "line 2: the label \"b\" is there twice");
+  EXPECT_EQ(faultOf("a:1,b:2"), "line 2: 2 values with labels instead of 3");
+  EXPECT_EQ(faultOf("a:1,b:x,c:3"), "line 2: the value of \"b\" is \"x\", not a number");
+  EXPECT_EQ(faultOf("a:1,b:2,3"), "line 2: \"3\" has no label, as the other values have");
+}
+
+TEST(StreamLineForms, ListsInBracketsAreNumbers) {
+  for (const char* text : {"[0, 1, 2, 3, 4, 5]\n[10, 11, 12, 13, 14, 15]\n",
+                           "(0,1,2,3,4,5)\n(10,11,12,13,14,15)\n",
+                           "[[0, 1, 2], [3, 4, 5]]\n[[10, 11, 12], [13, 14, 15]]\n",
+                           "frame: [0 1 2 3 4 5]\nframe: [10 11 12 13 14 15]\n",
+                           "[0, 1, 2, 3, 4, 5],\n[10, 11, 12, 13, 14, 15],\n"})
+    EXPECT_EQ(readForm(text, padHand({{2, 3}})).frames, kTwoFrames) << text;
+  EXPECT_EQ(readForm("[]\n", padHand({{2, 3}})).fault, "line 1: an empty list");
+}
+
+TEST(StreamLineForms, AnyEndOfALineAndAByteOrderMark) {
+  for (const char* text : {"0,1,2,3,4,5\r10,11,12,13,14,15\r",
+                           "0,1,2,3,4,5\n\r10,11,12,13,14,15\n\r",
+                           "\xEF\xBB\xBF"
+                           "0,1,2,3,4,5\r\n10,11,12,13,14,15\r\n"})
+    for (const std::size_t chunk : {std::size_t{1}, std::size_t{5}, SIZE_MAX}) {
+      const FormReading reading = readForm(text, padHand({{2, 3}}), {}, chunk);
+      EXPECT_EQ(reading.frames, kTwoFrames) << text;
+      EXPECT_EQ(reading.stats.refused, 0u) << reading.fault;
+      EXPECT_EQ(reading.stats.lines, 2u) << text;
+    }
+}
+
+// --- Values and times
+
+TEST(StreamLineForms, ValuesOutsideOfTheDescriptionAreKeptAndCounted) {
+  const FormReading reading =
+      readForm("1,5880,3\n1,-2.5,3\n1,nan,3\n1,2,1e999\n1,2,3\n", padHand({{1, 3}}));
+  EXPECT_EQ(reading.frames,
+            (std::vector<Values>{{1, 5880, 3}, {1, -2.5F, 3}, {1, 0, 3}, {1, 2, 0}, {1, 2, 3}}));
+  EXPECT_EQ(reading.stats.outOfRange, 4u);
+  EXPECT_EQ(reading.stats.refused, 0u);
+  EXPECT_EQ(reading.outOfRange, "line 4: value 3 is inf: 0 is kept");
+  const FormReading masked = readForm("1,nan,2,3\n", smallHand());
+  EXPECT_EQ(masked.frames, (std::vector<Values>{{1, 0, 2, 3}}));
+  EXPECT_EQ(masked.stats.outOfRange, 0u);
+}
+
+TEST(StreamLineForms, AGuessedTimeIsTold) {
+  EXPECT_EQ(readForm("5,1,2,3\n6,1,2,3\n", padHand({{1, 3}})).guess,
+            "the first of 4 numbers of a frame is taken for its time in milliseconds; if it is "
+            "not, name its unit (--time s, ms or us) or --time none");
+  EXPECT_NE(readForm("0.5,1,2,3\n", padHand({{1, 3}})).guess.find("in seconds"), std::string::npos);
+  EXPECT_EQ(readForm("5,1,2,3\n", padHand({{1, 3}}), {.time = StreamTime::kMicroseconds}).guess,
+            "");
+  EXPECT_EQ(readForm("1,2,3\n", padHand({{1, 3}})).guess, "");
+}
+
+// A temperature behind the taxels makes the first taxel a time.
+TEST(StreamLineForms, AFirstNumberThatDoesNotAscendIsNoTime) {
+  std::string constant, varying;
+  for (int i = 0; i < 40; ++i) {
+    constant += "5,6,7,8,9,10,300\n";
+    varying += std::to_string(i * 7 % 11) + ",6,7,8,9,10,300\n";
+  }
+  for (const std::string& text : {constant, varying}) {
+    const FormReading reading = readForm(text, padHand({{2, 3}}));
+    EXPECT_LE(reading.frames.size(), 11u);
+    EXPECT_EQ(reading.frames.size() + reading.stats.refused, 40u);
+    EXPECT_NE(reading.fault.find("does not ascend"), std::string::npos) << reading.fault;
+    EXPECT_NE(reading.fault.find("--time none"), std::string::npos) << reading.fault;
+  }
+}
+
+// Two frames per millisecond, a counter of 8 bits, a sender that starts anew.
+TEST(StreamLineForms, ClocksThatWrapOrAreCoarseAscend) {
+  std::string coarse, wrapping;
+  for (int i = 0; i < 2000; ++i) {
+    coarse += std::to_string(i % 1000 / 2) + ",1,2,3\n";
+    wrapping += std::to_string(i % 256) + ",1,2,3\n";
+  }
+  EXPECT_EQ(readForm(coarse, padHand({{1, 3}})).frames.size(), 2000u);
+  EXPECT_EQ(readForm(wrapping, padHand({{1, 3}})).frames.size(), 2000u);
+}
+
+}  // namespace
+}  // namespace palpate::testing::stream_line_forms_test
