@@ -90,6 +90,7 @@ class Docs : public ::testing::Test {
  protected:
   void SetUp() override {
     if (program_.empty()) GTEST_SKIP() << "built without the program (PALPATE_APPS=OFF)";
+    if (!commands_.empty()) return;
     const std::string help = run({"--help"});
     const std::string list = help.substr(help.find("\nCommands:\n"));
     for (const std::string& name : matches(list, "\n  ([a-z][a-z-]*) ")) commands_.insert(name);
@@ -115,8 +116,9 @@ class Docs : public ::testing::Test {
     return words[0];
   }
   const std::string program_ = PALPATE_PROGRAM;
-  std::set<std::string> commands_;
-  std::map<std::string, std::set<std::string>> options_;  // by command
+  // The same for all tests.
+  inline static std::set<std::string> commands_;
+  inline static std::map<std::string, std::set<std::string>> options_;  // by command
 };
 
 TEST(Manual, LinksLeadSomewhere) {

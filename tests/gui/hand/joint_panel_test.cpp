@@ -49,6 +49,7 @@ class JointPanelTest : public HandDockBench {
 
 TEST_F(JointPanelTest, NothingMovesBeforeMoveIsPressed) {
   connectAndOpen();
+  type("jointVelocity", "100");
   EXPECT_FALSE(isEnabled("moveJoints"));
   EXPECT_FALSE(isEnabled("moveJoint2"));
   QSlider* slider = find<ValueSlider>("targetAngle2")->slider();

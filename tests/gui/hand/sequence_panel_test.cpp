@@ -70,7 +70,7 @@ TEST_F(SequencePanelTest, IsBuiltStartedAndDone) {
 
 TEST_F(SequencePanelTest, EscapeAndStopEndAllOfItInAMotionAndInARest) {
   connectAndOpen();
-  type("velocity", "20");
+  type("velocity", "60");
   add("addGrasp");
   find<QDoubleSpinBox>("stepSeconds")->setValue(60.0);
   add("addHold");
