@@ -856,7 +856,7 @@ std::optional<PlannedSeries> Planner::onlySamples(Kind kind) {
   return series;
 }
 
-// Names the columns that nothing is made of.
+// Names the columns that nothing is made of, but for those about the others ("m0_active", "meta").
 void Planner::noteUnused() {
   std::set<std::size_t> used;
   for (const PlannedSeries& series : plan_.series) {
@@ -865,7 +865,7 @@ void Planner::noteUnused() {
   }
   std::vector<TableColumn> unused;
   for (std::size_t c = 0; c < columns_.size(); ++c)
-    if (!used.contains(c) && !hasWord(columns_[c], {"active", "mask"}))
+    if (!used.contains(c) && !hasWord(columns_[c], {"active", "mask", "meta"}))
       unused.push_back(columns_[c]);
   if (!unused.empty()) plan_.notes.push_back("not used: " + namesText(unused));
 }
