@@ -193,11 +193,13 @@ void Hdf5Process::read(const std::string& name,
                        std::uint64_t first,
                        std::uint64_t count,
                        Hdf5Number type,
-                       std::span<std::byte> out) {
+                       std::span<std::byte> out,
+                       Hdf5Axis axis) {
   std::string rest;
   appendLittleEndian(rest, first, 8);
   appendLittleEndian(rest, count, 8);
   appendLittleEndian(rest, static_cast<std::uint8_t>(type), 1);
+  appendLittleEndian(rest, static_cast<std::uint8_t>(axis), 1);
   const std::vector<std::byte> value = ask(Hdf5Request::kRead, name, rest);
   if (value.size() != out.size())
     throw FormatError(path_, inQuotes(name) + " can't be read: damaged or cut off");

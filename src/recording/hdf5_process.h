@@ -38,12 +38,14 @@ class Hdf5Process {
   std::vector<std::string> arrayNames();
   bool has(const std::string& name);
   Hdf5Facts facts(const std::string& name);
-  // Reads rows of the first axis in C order; numbers out of the range of the type are cut to it.
+  // Reads what has these places on an axis, in C order; numbers out of the range of the type are
+  // cut to it.
   void read(const std::string& name,
             std::uint64_t first,
             std::uint64_t count,
             Hdf5Number type,
-            std::span<std::byte> out);
+            std::span<std::byte> out,
+            Hdf5Axis axis = Hdf5Axis::kFirst);
   // Returns one or more of the texts first .. first + count - 1. Those longer than `longest` bytes
   // are refused.
   std::vector<std::string> texts(const std::string& name,

@@ -19,11 +19,12 @@ namespace palpate {
 
 // The names are those of data sets, groups, or of objects with attributes; "" is the file.
 enum class Hdf5Request : std::uint8_t {
-  kOpen,              // -> nothing. The first request
-  kArrayNames,        // -> u32 count, texts: all data sets that are in this file
-  kHas,               // -> u8: whether there is an object of this name
-  kFacts,             // -> see Hdf5Facts
-  kRead,              // first u64, count u64 [rows], Hdf5Number u8 -> the numbers, in C order
+  kOpen,        // -> nothing. The first request
+  kArrayNames,  // -> u32 count, texts: all data sets that are in this file
+  kHas,         // -> u8: whether there is an object of this name
+  kFacts,       // -> see Hdf5Facts
+  kRead,  // first u64, count u64 [places on an axis], Hdf5Number u8, Hdf5Axis u8 -> the numbers, in
+          // C order
   kTexts,             // first u64, count u64, longest u64 [bytes] -> u32 number, texts: one or more
   kTextAttribute,     // attribute, longest u64 [bytes] -> u8 whether there is one, text
   kIntegerAttribute,  // attribute -> u8 whether there is one, i64
@@ -38,6 +39,9 @@ constexpr std::size_t sizeOf(Hdf5Number type) noexcept {
   constexpr std::size_t kBytes[] = {1, 4, 8, 4, 8};
   return kBytes[static_cast<std::size_t>(type)];
 }
+
+// The axis of an array on which a part of it is read.
+enum class Hdf5Axis : std::uint8_t { kFirst, kLast };
 
 enum class Hdf5Kind : std::uint8_t { kInteger, kFloat, kText, kOther };
 

@@ -52,7 +52,7 @@ TEST_F(ImportCommand, TimesThatRepeatNameTheOptionThatKeepsTheRows) {
   testing::writeFile(in("pad.csv"), text);
   const auto result = palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16"});
   EXPECT_EQ(result.exitCode, 3);
-  EXPECT_NE(result.err.find("--rate HZ keeps rows whose times repeat"), std::string::npos)
+  EXPECT_NE(result.err.find("where times repeat, --rate keeps all rows"), std::string::npos)
       << result.err;
 }
 
@@ -70,6 +70,20 @@ TEST_F(ImportCommand, RefusedRowsAreCountedAndTheCodeSaysSo) {
       1,
       {"pad.csv: line 4 has 2 cells instead of 257"});
   EXPECT_FALSE(std::filesystem::exists(in("p.palpate")));
+}
+
+TEST_F(ImportCommand, ValuesThatTheHandDoesNotHaveAreKeptAndTheCodeSaysSo) {
+  std::string row = "200";
+  for (int i = 0; i < 256; ++i) row += i == 3 ? ",-5" : ",1";
+  testing::writeFile(in("pad.csv"), padTable(20) + row + "\n");
+  const auto result = palpate(
+      {"import", in("pad.csv"), "--hand", "flat_pad_16x16", "-o", in("o.palpate"), "--json"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.out.find("\"below\": 1"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("1 value outside of the hand's range: 1 below 0; the first: line 22"),
+            std::string::npos)
+      << result.err;
+  EXPECT_EQ(openRecording(in("o.palpate")).frame(20).values[3], -5.0F);
 }
 
 TEST_F(ImportCommand, APreviewWritesNothing) {

@@ -10,24 +10,32 @@ namespace palpate::import_plan_test {
 namespace {
 
 using testing::handOf;
+using testing::importText;
 using testing::pad;
 using testing::twoPads;
+
+// The plan of a table whose columns all hold 0, 10, 20.
+ImportPlan planOf(const std::string& header,
+                  const HandDescription& hand,
+                  const ImportMapping& mapping = {}) {
+  const testing::TemporaryFolder folder;
+  const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
+  std::string text = header + "\n";
+  for (int line = 0; line < 3; ++line) {
+    for (std::size_t c = 0; c < columns; ++c)
+      text += (c > 0 ? "," : "") + std::to_string(10 * line);
+    text += "\n";
+  }
+  testing::writeFile(folder / "t.csv", text);
+  const auto source = openTable(folder / "t.csv", mapping.text);
+  return planImport(*source, hand, mapping, mapping.text);
+}
 
 // For each place of the hand the position of the column in the file, from 0.
 std::map<std::size_t, std::size_t> columnsByPlace(const std::string& header,
                                                   const HandDescription& hand,
                                                   const ImportMapping& mapping = {}) {
-  const testing::TemporaryFolder folder;
-  std::string row = header;
-  const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
-  std::string text = header + "\n";
-  for (int line = 0; line < 3; ++line) {
-    for (std::size_t c = 0; c < columns; ++c) text += (c > 0 ? "," : "") + std::to_string(line);
-    text += "\n";
-  }
-  testing::writeFile(folder / "t.csv", text);
-  const auto source = openTable(folder / "t.csv", mapping.text);
-  const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
+  const ImportPlan plan = planOf(header, hand, mapping);
   std::map<std::size_t, std::size_t> found;
   const PlannedSeries& frames = plan.series.front();
   for (std::size_t i = 0; i < frames.values.size(); ++i)
@@ -66,6 +74,132 @@ TEST(ImportPlan, FindsTaxelsByTheNumbersInTheirNames) {
   EXPECT_EQ(sorted.at(10), 3u);
   EXPECT_EQ(sorted.at(2), 5u);
   EXPECT_EQ(sorted.size(), 12u);
+}
+
+bool hasNote(const ImportPlan& plan, const std::string& words) {
+  return std::any_of(plan.notes.begin(), plan.notes.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
+// pad(2, 3) has the places 0 1 2 / 3 4 5.
+TEST(ImportPlan, LettersBeforeTheNumbersAreRowsAndColumns) {
+  for (const char* header : {"time,x0y0,x1y0,x0y1,x1y1",
+                             "time,c0r0,c1r0,c0r1,c1r1",
+                             "time,Col0_Row0,Col1_Row0,Col0_Row1,Col1_Row1",
+                             "time,pad_x[1]_y[1],pad_x[2]_y[1],pad_x[1]_y[2],pad_x[2]_y[2]"}) {
+    EXPECT_EQ(columnsByPlace(header, pad(2, 2)), kInOrder) << header;
+    EXPECT_FALSE(hasNote(planOf(header, pad(2, 2)), "row")) << header;
+  }
+  for (const char* header : {"time,x0y0,x0y1,x1y0,x1y1,x2y0,x2y1",
+                             "time,c0r0,c0r1,c1r0,c1r1,c2r0,c2r1",
+                             "time,p_0_0,p_0_1,p_1_0,p_1_1,p_2_0,p_2_1"})
+    EXPECT_EQ(columnsByPlace(header, pad(2, 3)),
+              (Places{{0, 1}, {3, 2}, {1, 3}, {4, 4}, {2, 5}, {5, 6}}))
+        << header;
+  EXPECT_EQ(columnsByPlace("time,r0c0,r1c0,r0c1,r1c1", pad(2, 2)),
+            (Places{{0, 1}, {2, 2}, {1, 3}, {3, 4}}));
+  EXPECT_EQ(columnsByPlace("time,m0_x0_y0,m0_x1_y0,m0_x0_y1,m0_x1_y1,m1_x0_y0,m1_x1_y0,m1_x0_y1,"
+                           "m1_x1_y1",
+                           twoPads())
+                .at(1),
+            2u);
+}
+
+TEST(ImportPlan, AnOrderThatIsGuessedIsNoted) {
+  EXPECT_TRUE(hasNote(planOf("time,p_0_0,p_0_1,p_1_0,p_1_1,p_2_0,p_2_1", pad(2, 3)), "transposed"));
+  EXPECT_TRUE(hasNote(planOf("time,p[0][0],p[0][1],p[1][0],p[1][1]", pad(2, 2)), "row and column"));
+  EXPECT_FALSE(hasNote(planOf("time,p_0_0,p_0_1,p_0_2,p_1_0,p_1_1,p_1_2", pad(2, 3)), "row"));
+  EXPECT_TRUE(hasNote(planOf("time,r0c0,r0c1,r1c0,r1c1,r2c0,r2c1", pad(2, 3)), "exchanged"));
+  // Names with two numbers that are no rows and columns of the hand are not taken in their order.
+  const std::string refusal = testing::errorOf(
+      [] { planOf("time,p_0_0,p_0_1,p_0_2,p_0_3,p_1_0,p_1_1,p_1_2,p_1_3", pad(1, 8)); });
+  EXPECT_NE(refusal.find("no columns fit"), std::string::npos) << refusal;
+}
+
+TEST(ImportPlan, NamesOfTaxelsWinOverAFirstColumnThatAscends) {
+  const std::string refusal =
+      testing::errorOf([] { planOf("taxel_1,taxel_2,taxel_3,taxel_4,temperature", pad(2, 2)); });
+  EXPECT_NE(refusal.find("no column of times was found; name that column (--time), or give the "
+                         "rate of the rows (--rate)"),
+            std::string::npos)
+      << refusal;
+  const ImportPlan plan =
+      planOf("taxel_1,taxel_2,taxel_3,taxel_4,temperature", pad(2, 2), withRate());
+  EXPECT_EQ(plan.notes, std::vector<std::string>{"not used: temperature"});
+}
+
+// The first numbers 0, 1, 2, .. of a table of `names` and four values.
+std::string countingTable(const std::string& names, int first, int step) {
+  std::string text = names + "\n";
+  for (int row = 0; row < 4; ++row) text += std::to_string(first + row * step) + ",7,8,9,7\n";
+  return text;
+}
+
+TEST(ImportPlan, AColumnThatCountsTheRowsIsNoTime) {
+  const auto refusal = [](const std::string& text, const ImportMapping& mapping) {
+    const testing::TemporaryFolder folder;
+    return testing::errorOf([&] { importText(folder, text, pad(2, 2), mapping); });
+  };
+  for (const int first : {0, 1}) {
+    const std::string unnamed = refusal(countingTable("n,a,b,c,d", first, 1), {});
+    EXPECT_NE(unnamed.find("n counts the rows); name that column (--time), or give the rate"),
+              std::string::npos)
+        << unnamed;
+    const std::string named = refusal(countingTable("time,a,b,c,d", first, 1), {});
+    EXPECT_NE(
+        named.find("\"time\" counts the rows (0, 1, 2, ..); give the rate of the rows (--rate)"),
+        std::string::npos)
+        << named;
+  }
+  EXPECT_EQ(refusal(countingTable("n,a,b,c,d", 0, 1), withRate()), "");
+  ImportMapping seconds;
+  seconds.time.unit = "s";
+  EXPECT_EQ(refusal(countingTable("time,a,b,c,d", 0, 1), seconds), "");
+  EXPECT_EQ(refusal(countingTable("time_s,a,b,c,d", 0, 1), {}), "");
+  EXPECT_EQ(refusal(countingTable("time,a,b,c,d", 0, 60), {}), "");
+}
+
+TEST(ImportPlan, AGuessedUnitAndUnusedColumnsAreNoted) {
+  const ImportPlan plan = planOf("time,p0,p1,p2,p3,battery,note", pad(2, 2));
+  EXPECT_EQ(plan.notes,
+            (std::vector<std::string>{
+                "time: the unit of \"time\" is guessed to be ms; choose another one by --time-unit",
+                "not used: battery, note"}));
+  EXPECT_EQ(planOf("time_ms,p0,p1,p2,p3", pad(2, 2)).notes, std::vector<std::string>());
+}
+
+TEST(ImportPlan, AColumnNamedAsAnAxisIsItsAngle) {
+  HandDescription hand = handOf({MatrixLayout::full(2, 2, 1.0)}, 2, 1);
+  hand.axes[0].name = "opening";
+  hand.axes[1].name = "turn";
+  hand.temperatureSensors[0].name = "palm";
+  const ImportPlan plan = planOf("time_ms,turn_rad,palm,p0,p1,p2,p3,opening", hand);
+  ASSERT_EQ(plan.series.size(), 3u);
+  EXPECT_EQ(plan.series[1].columns, (std::vector<std::size_t>{7, 1}));
+  EXPECT_EQ(plan.series[2].columns, (std::vector<std::size_t>{2}));
+  EXPECT_EQ(plan.notes, std::vector<std::string>());
+  EXPECT_TRUE(hasNote(planOf("time_ms,p0,p1,p2,p3,opening", hand),
+                      "\"opening\" is there, but 1 of the hand's 2 are not; not imported"));
+}
+
+TEST(ImportPlan, SaysWhyColumnsHoldNoNumbers) {
+  const auto refusal = [](const std::string& text) {
+    const testing::TemporaryFolder folder;
+    return testing::errorOf([&] { importText(folder, text, pad(2, 2)); });
+  };
+  for (const auto& [cell, words] : std::vector<std::pair<std::string, std::string>>{
+           {"0x1F", "no numbers: p2 (text such as \"0x1F\": hexadecimal)"},
+           {"12 mV",
+            "no numbers: p2 (text such as \"12 mV\": a unit in the cell; put it into the name)"},
+           {"\xE2\x88\x92"
+            "5",
+            "its minus is no ASCII character"},
+           {"on", "no numbers: p2 (text such as \"on\")"}}) {
+    const std::string row = ",1,2," + cell + ",4\n";
+    const std::string what = refusal("time_s,p0,p1,p2,p3\n0.1" + row + "0.2" + row);
+    EXPECT_NE(what.find(words), std::string::npos) << what;
+  }
 }
 
 TEST(ImportPlan, FindsSeveralMatrices) {

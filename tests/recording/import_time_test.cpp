@@ -85,15 +85,53 @@ TEST(ImportTime, AStartShiftsAllTimes) {
 TEST(ImportTime, ACounterOf32BitsGoesOn) {
   constexpr std::int64_t kLast = (std::int64_t{1} << 32) - 1;
   TimeReader reader(TimeUnit::kMicroseconds, std::nullopt);
+  EXPECT_FALSE(reader.mayRestart(9));
   EXPECT_EQ(reader.us(whole(kLast)), kLast);
+  reader.keep();
+  ASSERT_TRUE(reader.mayRestart(9));
+  ASSERT_TRUE(TimeReader::goesOnFrom(9, 1009));
+  reader.restart();
   EXPECT_EQ(reader.us(whole(9)), kLast + 10);
+  reader.keep();
   EXPECT_EQ(reader.us(whole(1009)), kLast + 1010);
   EXPECT_EQ(reader.numRestarts(), 1u);
-  // A board that was reset does not continue.
-  TimeReader reset(TimeUnit::kMicroseconds, std::nullopt);
-  EXPECT_EQ(reset.us(whole(5'000'000)), 5'000'000);
-  EXPECT_EQ(reset.us(whole(10)), 10);
-  EXPECT_EQ(reset.numRestarts(), 0u);
+}
+
+TEST(ImportTime, OnlyACounterNearItsTurnStartsAgain) {
+  constexpr std::int64_t kTurn = std::int64_t{1} << 32;
+  const auto mayRestart = [](TimeUnit unit, std::int64_t last, std::int64_t next) {
+    TimeReader reader(unit, std::nullopt);
+    reader.us(whole(last));
+    reader.keep();
+    return reader.mayRestart(next);
+  };
+  EXPECT_TRUE(mayRestart(TimeUnit::kMilliseconds, kTurn - 10, 5));
+  EXPECT_FALSE(mayRestart(TimeUnit::kMicroseconds, 3'000'123'456, 300'012'345));  // a digit lost
+  EXPECT_FALSE(mayRestart(TimeUnit::kMicroseconds, 5'000'000, 10));               // a board reset
+  EXPECT_FALSE(mayRestart(TimeUnit::kMicroseconds, kTurn - 10, kTurn / 2));
+  EXPECT_FALSE(mayRestart(TimeUnit::kSeconds, kTurn - 10, 5));
+  EXPECT_FALSE(mayRestart(TimeUnit::kMilliseconds, 1'700'000'000'000, 5));  // since 1970
+  EXPECT_FALSE(TimeReader::goesOnFrom(42, kTurn - 5));
+  EXPECT_FALSE(TimeReader::goesOnFrom(42, 42));
+}
+
+TEST(ImportTime, NoNumberOverflows) {
+  TimeReader reader(TimeUnit::kMilliseconds, std::nullopt);
+  reader.us(whole((std::int64_t{1} << 32) - 1));
+  reader.keep();
+  reader.restart();
+  EXPECT_EQ(reader.us(text("9223372036854775807")), std::nullopt);
+  EXPECT_EQ(reader.us(text("-9223372036854775808")), std::nullopt);
+}
+
+TEST(ImportTime, DatesWithoutAnOffsetAreUtcAndSaySo) {
+  TimeReader known(TimeUnit::kDate, std::nullopt);
+  for (const char* date :
+       {"2014-11-27T10:31:05Z", "2014-11-27 10:31:05 UTC", "2014-11-27T11:31:05+01"})
+    EXPECT_EQ(known.us(text(date)), 1'417'084'265'000'000) << date;
+  EXPECT_FALSE(known.assumedUtc());
+  EXPECT_EQ(known.us(text("2014-11-27 10:31:05")), 1'417'084'265'000'000);
+  EXPECT_TRUE(known.assumedUtc());
 }
 
 }  // namespace

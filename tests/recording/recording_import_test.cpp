@@ -13,6 +13,7 @@ using testing::handOf;
 using testing::importText;
 using testing::pad;
 using testing::TemporaryFolder;
+using testing::twoPads;
 
 // A recording of an SDH-2 with fractions, angles, temperatures, a gap, and a frame without contact.
 Profile original(bool withEmptyFrame) {
@@ -212,7 +213,7 @@ TEST(RecordingImport, UnitsAndScalesAreConverted) {
   const auto scaled = importText(folder, "t,p0,p1\n1,4,2\n", hand, mapping);
   EXPECT_EQ(scaled.profile.frame(0).values, (std::vector<float>{10.0F, 0.0F}));
   const auto strange = importText(folder, "t,p0 [furlong],p1 [furlong]\n1,4,2\n", hand);
-  ASSERT_EQ(strange.report.notes.size(), 1u);
+  ASSERT_EQ(strange.report.notes.size(), 2u);  // and of the guessed unit of the time
   EXPECT_NE(strange.report.notes[0].find("furlong"), std::string::npos);
 }
 
@@ -222,7 +223,7 @@ TEST(RecordingImport, RowsThatCanNotBeUsedAreCountedByKind) {
       "1,1,2,3,4\n"
       "2,1,2,3\n"
       "3,1,2,oops,4\n"
-      "4,1,nan,3,4\n"
+      "4,1,inf,3,4\n"
       "5,1,,3,4\n"
       ",1,2,3,4\n"
       "soon,1,2,3,4\n"
@@ -246,6 +247,11 @@ TEST(RecordingImport, RowsThatCanNotBeUsedAreCountedByKind) {
             "8 rows refused: 1 with a wrong number of cells, 2 with text, 1 with NaN or too large "
             "values, 2 with missing values, 2 with a time that is not later");
   EXPECT_EQ(RefusedRows().summary(), "");
+  EXPECT_EQ(
+      made.report.lossText(),
+      refused.summary() +
+          "; the first: line 3 has 4 cells instead of 5; where times repeat, --rate keeps all "
+          "rows");
 }
 
 TEST(RecordingImport, StrictStopsAtTheFirstRefusedRowAndWritesNothing) {
@@ -276,7 +282,7 @@ TEST(RecordingImport, NothingIsLeftWhenItFailsOrIsCancelled) {
     return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
   };
   std::string text = "t,a,b,c,d\n";
-  for (int i = 0; i < 2000; ++i) text += std::to_string(i) + ",1,2,3,4\n";
+  for (int i = 0; i < 2000; ++i) text += std::to_string(10 * i) + ",1,2,3,4\n";
   testing::writeFile(folder / "t.csv", text);
   int asked = 0;
   EXPECT_THROW(importRecording(folder / "t.csv",
@@ -335,7 +341,12 @@ with h5py.File(folder + 'a.h5', 'w') as f:
         folder / name, hand, {}, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
     const Profile profile = openRecording(folder / "o.palpate");
     ASSERT_EQ(profile.numFrames(), 50u) << name;
-    EXPECT_EQ(report.notes, std::vector<std::string>()) << name;
+    std::vector<std::string> notes = {
+        "time: the unit of \"" + std::string(name == std::string("a.h5") ? "arm/" : "") +
+        "joint_time\" is guessed to be s; choose another one by --time-unit"};
+    if (name == std::string("rows.npz"))
+      notes.push_back("time: the dates have no offset and are taken as UTC");
+    EXPECT_EQ(report.notes, notes) << name;
     for (std::size_t i = 0; i < 50; ++i) {
       EXPECT_EQ(profile.frameTimeUs(i),
                 1'700'000'000'000'000 + static_cast<std::int64_t>(i) * 10'000);
@@ -351,14 +362,244 @@ with h5py.File(folder + 'a.h5', 'w') as f:
   }
 }
 
+// The values of frame t of pad(2, 3) are 6 t, 6 t + 1, .. row by row.
+void expectCounting(const Profile& profile, const std::string& name) {
+  ASSERT_EQ(profile.numFrames(), 8u) << name;
+  for (std::size_t t = 0; t < 8; ++t) {
+    EXPECT_EQ(profile.frameTimeUs(t), static_cast<std::int64_t>(t) * 10'000) << name;
+    for (std::size_t k = 0; k < 6; ++k)
+      EXPECT_EQ(profile.frame(t).values[k], static_cast<float>(6 * t + k)) << name << " " << t;
+  }
+}
+
+// Arrays whose axes are not frames, rows, columns, by NumPy and as MATLAB 7.3 writes them.
+constexpr const char* kArraysOfOtherAxes = R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+pad = np.arange(48).reshape(8, 2, 3)
+time = np.arange(8) * 0.01
+swapped = pad.transpose(0, 2, 1)
+np.savez(folder + 'columns.npz', pad=swapped, time_s=time)
+np.savez(folder + 'fortran.npz', pad=np.asfortranarray(swapped), time_s=time)
+np.savez(folder + 'last.npz', pad=np.moveaxis(pad, 0, 2), time_s=time.reshape(1, 8))
+np.savez(folder + 'last_fortran.npz', pad=np.asfortranarray(np.moveaxis(pad, 0, 2)), time_s=time.reshape(1, 8))
+np.savez(folder + 'within.npz', table=np.column_stack([time, pad.reshape(8, 6)]))
+np.savez(folder + 'extra.npz', pad=pad, time_s=time, extra=np.zeros((8, 3)))
+with h5py.File(folder + 'last.h5', 'w') as f:
+  f.create_dataset('pad', data=np.moveaxis(pad, 0, 2), chunks=(1, 3, 3), compression='gzip')
+  f['time_s'] = time.reshape(1, 8)
+def matlab(name, **arrays):
+  with h5py.File(folder + name, 'w', userblock_size=512) as f:
+    for key, values in arrays.items():
+      f[key] = values.T
+      f[key].attrs['MATLAB_class'] = np.bytes_('double')
+  with open(folder + name, 'r+b') as f: f.write(b'MATLAB 7.3 MAT-file'.ljust(512))
+row, column = time.reshape(1, 8), time.reshape(8, 1)
+matlab('rcf.mat', pad=np.moveaxis(pad, 0, 2), time_s=row)
+matlab('rcf_column.mat', pad=np.moveaxis(pad, 0, 2), time_s=column)
+matlab('frc.mat', pad=pad, time_s=column)
+matlab('ft.mat', pad=pad.reshape(8, 6), time_s=column)
+matlab('tf.mat', pad=pad.reshape(8, 6).T, time_s=row)
+)";
+
+TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, kArraysOfOtherAxes);
+  for (const auto& [name, words] : std::vector<std::pair<std::string, std::string>>{
+           {"columns.npz", "transposed"},
+           {"fortran.npz", "transposed"},
+           {"last.npz", "taken for the frames"},
+           {"last_fortran.npz", "taken for the frames"},
+           {"last.h5", "taken for the frames"},
+           {"rcf.mat", "transposed"},
+           {"rcf_column.mat", "transposed"},
+           {"frc.mat", "taken for the frames"},
+           {"ft.mat", "taken for the frames"},
+           {"tf.mat", "row by row"},
+           {"within.npz", "table[0] ascends and is taken for the time"},
+           {"extra.npz", "not used: extra[3]"}}) {
+    const ImportReport report = importRecording(
+        folder / name, pad(2, 3), {}, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
+    expectCounting(openRecording(folder / "o.palpate"), name);
+    EXPECT_TRUE(
+        std::any_of(report.notes.begin(),
+                    report.notes.end(),
+                    [&](const std::string& note) { return note.find(words) != std::string::npos; }))
+        << name << ": " << Json(jsonList(report.notes)).text();
+    EXPECT_FALSE(report.isPartial()) << name;
+  }
+  // Chosen by name the shape decides as well, and numbers of an array can be chosen.
+  const auto choose = [&](const char* name, const char* columns, const char* time) {
+    ImportMapping mapping;
+    mapping.matrices = {{0, columns, {}, false}};
+    mapping.time.column = time;
+    mapping.time.unit = "s";
+    importRecording(folder / name,
+                    pad(2, 3),
+                    mapping,
+                    folder / "o.palpate",
+                    {.overwrite = Overwrite::kReplace});
+    expectCounting(openRecording(folder / "o.palpate"), std::string(name) + " " + columns);
+  };
+  choose("columns.npz", "pad", "time_s");
+  choose("rcf.mat", "pad", "time_s");
+  choose("frc.mat", "pad", "time_s");
+  choose("within.npz", "table[1]..table[6]", "table[0]");
+}
+
+TEST(RecordingImport, ASquareOfMatlabIsTransposedAndOneOfNumpyIsNot) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+pad = np.arange(20).reshape(5, 2, 2)
+time = np.arange(5) * 0.01
+np.savez(folder + 'a.npz', pad=pad, time_s=time)
+with h5py.File(folder + 'a.mat', 'w', userblock_size=512) as f:
+  f['pad'] = np.moveaxis(pad, 0, 2).T
+  f['pad'].attrs['MATLAB_class'] = np.bytes_('double')
+  f['time_s'] = time.reshape(5, 1)
+np.savez(folder + 'other.npz', pad=np.zeros((5, 4, 1)), time_s=time)
+np.savez(folder + 'wrong.npz', pad=np.zeros((5, 4, 3)), time_s=time)
+np.savez(folder + 'stack.npz', pad=np.arange(40).reshape(5, 4, 2), time_s=time)
+)");
+  const auto import = [&](const char* name, const HandDescription& hand, const char* chosen = "") {
+    ImportMapping mapping;
+    if (*chosen) mapping.matrices = {{std::nullopt, chosen, {}, false}};
+    importRecording(
+        folder / name, hand, mapping, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
+    return openRecording(folder / "o.palpate").frame(1).values;
+  };
+  EXPECT_EQ(import("a.npz", pad(2, 2)), (std::vector<float>{4, 5, 6, 7}));
+  EXPECT_EQ(import("a.mat", pad(2, 2)), (std::vector<float>{4, 5, 6, 7}));
+  EXPECT_EQ(import("other.npz", pad(2, 2)), (std::vector<float>{0, 0, 0, 0}));
+  // The rows of two matrices of 2 x 2 one below the other.
+  EXPECT_EQ(import("stack.npz", twoPads()), (std::vector<float>{8, 9, 10, 11, 12, 13, 14, 15}));
+  // Other rows and columns are refused, however many numbers there are.
+  for (const char* chosen : {"", "pad"}) {
+    const std::string refusal = testing::errorOf([&] { import("wrong.npz", pad(2, 6), chosen); });
+    EXPECT_NE(refusal.find("pad[4][3]"), std::string::npos) << refusal;
+  }
+}
+
+TEST(RecordingImport, OtherArraysSayWhyTheyAreNotUsed) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+time = np.arange(5) * 0.01
+np.savez(folder + 'bool.npz', pad=np.zeros((5, 2, 2), dtype=bool), time_s=time)
+np.savez(folder + 'objects.npz', pad=np.array([[1], [2, 3]], dtype=object), time_s=time)
+np.save(folder + 'record.npy', np.zeros(5, dtype=[('time', 'f8'), ('pad', 'u2', (2, 2))]))
+with h5py.File(folder + 'record.h5', 'w') as f:
+  f['pad'] = np.zeros(5, dtype=[('a', 'f8'), ('b', 'u2')]); f['time_s'] = time
+with h5py.File(folder + 'lists.h5', 'w') as f:
+  f.create_dataset('pad', (5,), dtype=h5py.vlen_dtype('u2')); f['time_s'] = time
+with h5py.File(folder + 'lzf.h5', 'w') as f:
+  f.create_dataset('pad', data=np.zeros((5, 2, 2)), compression='lzf'); f['time_s'] = time
+)");
+  for (const auto& [name, words] : std::vector<std::pair<std::string, std::string>>{
+           {"bool.npz", "no numbers: pad (bool)"},
+           {"objects.npz", "no numbers: pad (Python objects)"},
+           {"record.npy", "no numbers: array (structure: save each field as an array of its own)"},
+           {"record.h5", "no numbers: pad (structure: save each field as an array of its own)"},
+           {"lists.h5", "no numbers: pad (lists of different lengths)"},
+           {"lzf.h5", "filter that is not there (32000"}}) {
+    const std::string refusal = testing::errorOf(
+        [&] { importRecording(folder / name, pad(2, 2), {}, folder / "o.palpate"); });
+    EXPECT_NE(refusal.find(words), std::string::npos) << name << ": " << refusal;
+  }
+}
+
+HandDescription maskedPad() {
+  MatrixLayout matrix = MatrixLayout::full(2, 2, 1.0);
+  matrix.staticMask[1] = 0;
+  matrix.dynamicMask[1] = 0;
+  return handOf({matrix});
+}
+
+TEST(RecordingImport, PlacesWithoutATaxelAreNotLookedAt) {
+  for (const char* cell : {"nan", "99999", "-1", "inf", "", "x"}) {
+    const TemporaryFolder folder;
+    const auto made =
+        importText(folder,
+                   "time_ms,p0,p1,p2,p3\n10,1," + std::string(cell) + ",3,4\n20,1,2,3,4\n",
+                   maskedPad());
+    EXPECT_EQ(made.report.frames, 2u) << cell;
+    EXPECT_FALSE(made.report.isPartial()) << cell << made.report.lossText();
+    EXPECT_EQ(made.profile.frame(0).values, (std::vector<float>{1, 0, 3, 4})) << cell;
+  }
+}
+
+TEST(RecordingImport, ValuesOutsideOfTheRangeAreKeptAndCounted) {
+  const TemporaryFolder folder;
+  HandDescription hand = pad(2, 2);
+  hand.maximumCounts = 1023.0F;
+  const std::string text =
+      "time_ms,p0,p1,p2,p3\n10,1,1023,0,4\n20,1,nan,1024,4\n30,-0.5,nan,-3,2000\n40,nan,nan,nan,"
+      "nan\n";
+  const auto made = importText(folder, text, hand);
+  EXPECT_EQ(made.report.frames, 3u);
+  EXPECT_EQ(made.report.outside.above, 2u);
+  EXPECT_EQ(made.report.outside.below, 2u);
+  EXPECT_EQ(made.report.outside.notANumber, 2u);
+  EXPECT_EQ(made.report.outside.first, "line 3, left, row 0, column 1: nan, not in 0..1023");
+  EXPECT_EQ(made.report.refused.notFinite, 1u);  // a frame without any number
+  EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{1, 0, 1024, 4}));
+  EXPECT_EQ(made.profile.frame(2).values, (std::vector<float>{-0.5F, 0, -3, 2000}));
+  EXPECT_EQ(
+      made.report.outside.summary(),
+      "6 values outside of the hand's range: 2 above full scale, 2 below 0, 2 NaN (taken as 0)");
+  EXPECT_TRUE(made.report.isPartial());
+  EXPECT_EQ(ImportReport().lossText(), "");
+}
+
+TEST(RecordingImport, AGarbledCounterDoesNotShiftTheRest) {
+  const TemporaryFolder folder;
+  const auto timesOf = [&](const std::vector<std::string>& counters, std::uint64_t notLater) {
+    std::string text = "time_us,a,b,c,d\n";
+    for (const std::string& counter : counters) text += counter + ",1,2,3,4\n";
+    const auto made = importText(folder, text, pad(2, 2));
+    EXPECT_EQ(made.report.refused.notLater, notLater) << text;
+    std::vector<std::int64_t> times;
+    for (std::size_t i = 0; i < made.profile.numFrames(); ++i)
+      times.push_back(made.profile.frameTimeUs(i));
+    return times;
+  };
+  using Times = std::vector<std::int64_t>;
+  // A digit lost; all but two lost near the turn; a turn that goes on; one with which the file
+  // ends.
+  EXPECT_EQ(timesOf({"3000123456", "300012345", "3000133456"}, 1),
+            (Times{3'000'123'456, 3'000'133'456}));
+  EXPECT_EQ(timesOf({"4294900000", "42", "4294920000", "4294930000"}, 1),
+            (Times{4'294'900'000, 4'294'920'000, 4'294'930'000}));
+  EXPECT_EQ(timesOf({"4294960000", "2704", "12704"}, 0),
+            (Times{4'294'960'000, 4'294'970'000, 4'294'980'000}));
+  EXPECT_EQ(timesOf({"4294950000", "4294960000", "2704"}, 1),
+            (Times{4'294'950'000, 4'294'960'000}));
+}
+
+TEST(RecordingImport, ALastLineWithoutAnEndIsNoted) {
+  const TemporaryFolder folder;
+  const auto notes = [&](const std::string& end) {
+    return importText(folder, "time_ms,a,b,c,d\n10,1,2,3,4\n20,1,2,3,17" + end, pad(2, 2))
+        .report.notes;
+  };
+  EXPECT_EQ(notes(""),
+            std::vector<std::string>{
+                "line 3, the last one, has no line end: its last number may be cut off"});
+  EXPECT_EQ(notes("\n"), std::vector<std::string>());
+  EXPECT_EQ(notes("\r\n"), std::vector<std::string>());
+}
+
 TEST(RecordingImport, WhatIsMissingIsNamedWithWhatIsThere) {
   const TemporaryFolder folder;
   testing::runPython(folder, R"(
 import sys, numpy as np, h5py
 folder = sys.argv[1] + '/'
-np.savez(folder + 'a.npz', left=np.zeros((50, 3, 4)), time=np.arange(50))
-np.savez(folder + 'b.npz', pad=np.zeros((50, 4, 3)), time=np.arange(49))
-with h5py.File(folder + 'a.h5', 'w') as f: f['raw/pad'] = np.zeros((50, 4, 3)); f['raw/time'] = np.arange(50)
+np.savez(folder + 'a.npz', left=np.zeros((50, 3, 4)), time=10 * np.arange(50))
+np.savez(folder + 'b.npz', pad=np.zeros((50, 4, 3)), time=10 * np.arange(49))
+with h5py.File(folder + 'a.h5', 'w') as f: f['raw/pad'] = np.zeros((50, 4, 3)); f['raw/time'] = 10 * np.arange(50)
 )");
   const HandDescription hand = pad(4, 3);
   const auto refusal = [&](const char* name, const ImportMapping& mapping) {
@@ -375,14 +616,17 @@ with h5py.File(folder + 'a.h5', 'w') as f: f['raw/pad'] = np.zeros((50, 4, 3)); 
       << absent;
   mapping.matrices = {{0, "/raw/pad", {}, false}};
   EXPECT_EQ(refusal("a.h5", mapping), "");
-  // 3 x 4 numbers fit a pad of 4 x 3 by their number only: in their order.
+  // 3 x 4 numbers of a pad of 4 x 3 are column by column.
   ImportMapping shape;
   shape.matrices = {{0, "left", {}, true}};
   EXPECT_EQ(testing::errorOf(
                 [&] { importRecording(folder / "a.npz", hand, shape, folder / "p.palpate"); }),
             "");
   const std::string rows = refusal("b.npz", {});
-  EXPECT_NE(rows.find("no column of times was found"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("\"time\" has 49 rows, but pad has 50 rows; save as many times as frames, or "
+                      "give the rate of the rows (--rate)"),
+            std::string::npos)
+      << rows;
   ImportMapping time;
   time.time.column = "time";
   EXPECT_NE(refusal("b.npz", time).find("\"time\" has 49 rows, but pad has 50"), std::string::npos);

@@ -115,8 +115,7 @@ void printImportPreview(const ImportPreview& preview) {
     text += (preview.isWhole ? "all " : "the first ") + counted(sample.rows, "row") + ": " +
             counted(sample.frames, "frame") + " in " + secondsText(sample.durationS) + ", " +
             fixedText(sample.meanRateHz, 1) + " Hz, " + counted(sample.gaps, "gap") + "\n";
-    if (sample.refused.total() > 0)
-      text += sample.refused.summary() + "; the first: " + sample.refused.first + "\n";
+    if (sample.isPartial()) text += sample.lossText() + "\n";
   }
   std::string safe;
   for (std::size_t at = 0; at < text.size();) {
@@ -148,6 +147,12 @@ Json importJson(const fs::path& out, const ImportReport& report) {
       .set("absent_frames", static_cast<std::int64_t>(report.absentFrames))
       .set("counter_restarts", static_cast<std::int64_t>(report.counterRestarts))
       .set("refused", std::move(refused))
+      .set("outside",
+           Json::object()
+               .set("above", static_cast<std::int64_t>(report.outside.above))
+               .set("below", static_cast<std::int64_t>(report.outside.below))
+               .set("nan", static_cast<std::int64_t>(report.outside.notANumber))
+               .set("first", report.outside.first))
       .set("notes", jsonList(report.notes));
 }
 
@@ -176,8 +181,9 @@ int importCommand(const Arguments& words) {
        .purpose = "Imports a table of another program as a recording: text (CSV, or lines that "
                   "microcontrollers print), NumPy's .npy and .npz, HDF5. A row is a frame. Columns "
                   "are found by names and shapes, or chosen: NAME, A..B, #3..#86 (by position, "
-                  "from 1), left*, m{m}[{y}][{x}] (matrix, row, column). Rows that can't be used "
-                  "are left out and counted: exit code 3.",
+                  "from 1), left*, m{m}[{y}][{x}] (matrix, row, column), table[0]..table[5]. Rows "
+                  "that can't be used are left out and counted, and so are values outside of the "
+                  "hand's range: exit code 3.",
        .options = {handOption(),
                    {"output,o", "OUT.palpate", "default: DATA with the ending .palpate"},
                    {"map", "M.json", "the mapping of an earlier import; other options override it"},
@@ -202,7 +208,7 @@ int importCommand(const Arguments& words) {
                    {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
                    {"decimal", "NAME", "point (default) or comma"},
                    {"header", "WORD", "a line of names is present, absent or detect (default)"},
-                   {"strict", "", "the first row that can't be used is an error"},
+                   {"strict", "", "the first row that can't be used, or has a NaN, is an error"},
                    {"force", "", "replace OUT, and the file of --save-map"}},
        .example = "palpate import pad.csv --hand flat_pad_16x16 -o pad.palpate",
        .minArguments = 1,
@@ -221,7 +227,7 @@ int importCommand(const Arguments& words) {
   if (preview) {
     const ImportPreview shown = previewImport(data, hand, mapping);
     printImportPreview(shown);
-    if (shown.problem.empty()) return shown.sample.refused.total() > 0 ? kPartlyDone : kDone;
+    if (shown.problem.empty()) return shown.sample.isPartial() ? kPartlyDone : kDone;
     throw Error(shown.problem);
   }
   fs::path out = given.text("output").value_or("");
@@ -245,15 +251,9 @@ int importCommand(const Arguments& words) {
     for (const std::string& note : report.notes)
       std::printf("note: %s\n", escapedLine(note).c_str());
   }
-  if (report.refused.total() == 0) return kDone;
-  std::fprintf(stderr,
-               "palpate: %s\n",
-               escapedLine(data.string() + ": " + report.refused.summary() +
-                           "; the first: " + report.refused.first +
-                           (report.refused.notLater > 0
-                                ? "; --rate HZ keeps rows whose times repeat, at equal intervals"
-                                : ""))
-                   .c_str());
+  if (!report.isPartial()) return kDone;
+  std::fprintf(
+      stderr, "palpate: %s\n", escapedLine(data.string() + ": " + report.lossText()).c_str());
   return kPartlyDone;
 }
 

@@ -37,6 +37,8 @@ struct PlannedSeries {
   std::vector<std::size_t> columns;  // of the file
   std::vector<PlannedValue> values;  // one per number of these columns in a row
   std::optional<std::size_t> time;   // column; empty: rows at equal intervals
+  // Where the time is a number of the array columns.front(): which one of a row.
+  std::optional<std::size_t> timeWithin;
   TimeUnit timeUnit = TimeUnit::kSeconds;
   // What was chosen, in words: "matrix 0 \"pad\": m0, kPa to counts, x 0.1".
   std::vector<std::string> description;

@@ -18,8 +18,9 @@ std::optional<TimeUnit> timeUnitNamed(std::string_view name);
 
 // Host time [us since 1970] of a date of ISO 8601: "2026-11-22T10:31:05.123Z", with a blank instead
 // of the T, with up to nine digits of a second, with an offset "+01:00"; without one it is UTC.
-// Nothing when it is no such date (or one outside of 1900..2200).
-std::optional<std::int64_t> parseDate(std::string_view text);
+// Nothing when it is no such date (or one outside of 1900..2200). `hasOffset`: whether the date has
+// an offset, or says UTC.
+std::optional<std::int64_t> parseDate(std::string_view text, bool* hasOffset = nullptr);
 
 // What the values of a column that has no unit are, from one of them: seconds, milliseconds,
 // microseconds or nanoseconds since 1970 by their size; smaller ones are seconds when they have
@@ -28,28 +29,42 @@ TimeUnit guessTimeUnit(double value, bool isWhole);
 
 // Converts the times of one table, in order. Whole numbers are converted without rounding errors.
 //
-// A counter of 32 bits starts again at 0: micros() after 71.6 minutes, millis() after 49.7 days. A
-// whole number of milliseconds or microseconds that falls by more than half of 2^32 continues the
-// count.
+// A counter of 32 bits starts again at 0: micros() after 71.6 minutes, millis() after 49.7 days.
+// That is a whole number of milliseconds or microseconds that falls from the last to the first 5 %
+// of 2^32, and from which the next row goes on (mayRestart(), goesOnFrom()): a garbled number is
+// none.
 class TimeReader {
  public:
   // `startUs`: host time of the first row [us since 1970]; empty: times are as in the file.
   // `decimal`: the character before decimals in texts.
   TimeReader(TimeUnit unit, std::optional<std::int64_t> startUs, char decimal = '.');
 
-  // Nothing when the cell holds no time.
+  // Nothing when the cell holds no time, or one that a recording can't hold.
   std::optional<std::int64_t> us(const TimeCell& cell);
+  // The row of the last us() is taken: the next row is compared with it.
+  void keep() noexcept { keptWhole_ = lastWhole_; }
+  // The whole number of a cell, if it is one.
+  std::optional<std::int64_t> wholeOf(const TimeCell& cell) const;
+  // Whether the counter may have started again at this whole number. If the next one goes on from
+  // it, restart() continues the count, and us() has the time of both.
+  bool mayRestart(std::int64_t whole) const noexcept;
+  static bool goesOnFrom(std::int64_t whole, std::int64_t next) noexcept;
+  void restart() noexcept;
+  // Whether dates had no offset, and were taken as UTC.
+  bool assumedUtc() const noexcept { return assumedUtc_; }
   // How often the counter started again.
   std::uint64_t numRestarts() const noexcept { return restarts_; }
 
  private:
-  std::optional<std::int64_t> usOfWhole(std::int64_t value);
+  std::optional<std::int64_t> usOfWhole(std::int64_t value) const;
 
   TimeUnit unit_;
   std::optional<std::int64_t> startUs_;
   char decimal_;
-  std::optional<std::int64_t> shiftUs_;  // added to every time; known from the first one
-  std::int64_t lastWhole_ = 0;
+  std::optional<std::int64_t> shiftUs_;    // added to every time; known from the first one
+  std::optional<std::int64_t> lastWhole_;  // of the last us()
+  std::optional<std::int64_t> keptWhole_;  // of the last row that was taken
+  bool assumedUtc_ = false;
   std::int64_t base_ = 0;  // what earlier turns of the counter amount to
   std::uint64_t restarts_ = 0;
 };

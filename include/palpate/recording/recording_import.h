@@ -3,9 +3,10 @@
 // table is read once, in bounded memory; the recording is whole or not there.
 //
 // A row is refused, and counted, when it has another number of cells than the table has columns, a
-// text or NaN where a number is needed, a cell missing among others, or a time that is not later
-// than that of the row before. A row without any value of a series holds no sample of it: programs
-// that join series of different rates leave such cells empty.
+// text where a number is needed, a cell missing among others, or a time that is not later than that
+// of the row before. Taxels above full scale, below 0 or NaN are imported and counted; places
+// without a taxel are not looked at. A row without any value of a series holds no sample of it:
+// programs that join series of different rates leave such cells empty.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,7 @@ namespace palpate {
 struct RefusedRows {
   std::uint64_t wrongCount = 0;  // another number of cells than the table has columns
   std::uint64_t text = 0;        // something else than a number
-  std::uint64_t notFinite = 0;   // NaN, infinite, larger than a float
+  std::uint64_t notFinite = 0;   // infinite, larger than a float; NaN of a joint, or of all taxels
   std::uint64_t missing = 0;     // some cells of a series are empty, or the time is
   std::uint64_t notLater = 0;    // the time is not later than that of the row before
   std::string first;             // the first one: "line 12, column 3: \"abc\" is not a number"
@@ -40,8 +41,22 @@ struct RefusedRows {
   std::string summary() const;
 };
 
+// Values of taxels that are imported though the hand has no such values. NaN is taken as 0.
+struct OutsideValues {
+  std::uint64_t above = 0;  // the full scale of the matrix
+  std::uint64_t below = 0;  // 0
+  std::uint64_t notANumber = 0;
+  std::string first;  // the first one: "line 3, pad, row 0, column 1: 1200"
+
+  std::uint64_t total() const noexcept { return above + below + notANumber; }
+  // "3 values outside of the hand's range: 1 above full scale, 2 below 0"; empty when there is
+  // none.
+  std::string summary() const;
+};
+
 struct ImportOptions {
-  bool strict = false;  // the first row that is refused ends the import with an error
+  // The first row that is refused, or has a NaN, ends the import with an error.
+  bool strict = false;
   Overwrite overwrite = Overwrite::kRefuse;
 };
 
@@ -51,6 +66,7 @@ struct ImportReport {
   std::uint64_t angles = 0;        // samples
   std::uint64_t temperatures = 0;  // samples
   RefusedRows refused;
+  OutsideValues outside;
   double durationS = 0.0;   // first to last frame [s]
   double meanRateHz = 0.0;  // (frames - 1) / duration; 0 with fewer than two frames
   std::uint64_t gaps = 0;   // between frames (GapDetector)
@@ -60,7 +76,12 @@ struct ImportReport {
   std::uint64_t absentFrames = 0;
   // How often a time counter of 32 bits started again at 0.
   std::uint64_t counterRestarts = 0;
-  std::vector<std::string> notes;  // of the plan
+  std::vector<std::string> notes;  // of the plan, and of what was found in the rows
+
+  // Whether rows were left out, or values don't belong to the hand.
+  bool isPartial() const noexcept { return refused.total() + outside.total() > 0; }
+  // One line that says so, with the first of each; empty otherwise.
+  std::string lossText() const;
 };
 
 // Imports `data` as the recording `out` (.palpate). Throws FileError, FormatError (with the line

@@ -24,11 +24,15 @@ struct TableColumn {
   std::vector<std::size_t> shape = {};        // of the numbers of one row; empty: one number
   std::optional<std::uint64_t> numRows = {};  // known of arrays, not of texts
   std::string type = {};                      // "int16", "float64", "text", "bool", ..
+  std::string example = {};                   // the first text of a column that has texts
   bool isNumeric = true;                      // false: texts and other things that can't be values
   bool hasDates = false;                      // ISO 8601 or datetime64: can only be the time
 
   // Numbers of one row: the product of the shape.
   std::size_t width() const noexcept;
+  // The rows and the shape of an array of these sizes, the rows first; a row of one number has no
+  // shape. False: a row has more numbers than 64 bits count.
+  bool setArrayShape(std::span<const std::uint64_t> sizes);
 };
 
 // What stands where a number should be.
@@ -90,6 +94,12 @@ class TableSource {
   // The place of value `index` of the last row, and what stands there: "column 3: \"abc\"" (from
   // 1), "m0[3][2] is nan".
   virtual std::string placeOf(std::size_t index) const = 0;
+  // After the last row: why the end of the file may be missing; empty where nothing says so.
+  virtual std::string endNote() const { return {}; }
+  // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.
+  virtual bool isColumnMajor() const noexcept { return false; }
+  // Reverses the axes of the array of a column, and with them what its rows are. Before start().
+  virtual void reverseAxes(std::size_t /*column*/) {}
 };
 
 // The longest line of a text [bytes].

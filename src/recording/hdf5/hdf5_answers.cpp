@@ -76,6 +76,10 @@ std::string hdf5TypeName(hid_t type) {
       return "enum";
     case H5T_COMPOUND:
       return "structure";
+    case H5T_VLEN:
+      return "lists of different lengths";
+    case H5T_REFERENCE:
+      return "references";
     default:
       return "other";
   }
@@ -176,15 +180,24 @@ Hdf5Facts factsOf(hid_t id) {
   return facts;
 }
 
-void selectRows(hid_t space, const Hdf5Facts& facts, hsize_t first, hsize_t count, Hdf5Id& memory) {
+// Returns the sizes of what is selected.
+std::vector<hsize_t> selectRows(hid_t space,
+                                const Hdf5Facts& facts,
+                                hsize_t first,
+                                hsize_t count,
+                                Hdf5Id& memory,
+                                Hdf5Axis axis = Hdf5Axis::kFirst) {
   std::vector<hsize_t> start(facts.shape.size(), 0);
   std::vector<hsize_t> size(facts.shape.begin(), facts.shape.end());
-  if (size.empty() || first > size[0] || count > size[0] - first) fault("has fewer rows");
-  start[0] = first;
-  size[0] = count;
+  if (size.empty()) fault("has fewer rows");
+  const std::size_t along = axis == Hdf5Axis::kFirst ? 0 : size.size() - 1;
+  if (first > size[along] || count > size[along] - first) fault("has fewer rows");
+  start[along] = first;
+  size[along] = count;
   memory = Hdf5Id(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
   if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) < 0)
     fault("can't be read: damaged or cut off");
+  return size;
 }
 
 // The chunks that a row of an array crosses; 0 bytes: it has none, or they are too large to be
@@ -407,14 +420,15 @@ std::string Hdf5Answers::numbers(const std::string& name, ByteReader& in) {
   const hsize_t first = in.u64();
   const hsize_t count = in.u64();
   const auto type = static_cast<Hdf5Number>(in.u8());
-  if (!in.ok() || type > Hdf5Number::kF64) fault("was asked for in a wrong way");
+  const auto axis = static_cast<Hdf5Axis>(in.u8());
+  if (!in.ok() || type > Hdf5Number::kF64 || axis > Hdf5Axis::kLast)
+    fault("was asked for in a wrong way");
   const Array& from = arrayToRead(name);
   const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
   Hdf5Id memory;
-  selectRows(space.get(), from.facts, first, count, memory);
-  hsize_t bytes = sizeOf(type) * count;
-  for (std::size_t d = 1; d < from.facts.shape.size(); ++d)
-    if (__builtin_mul_overflow(bytes, from.facts.shape[d], &bytes)) bytes = HSIZE_UNDEF;
+  hsize_t bytes = sizeOf(type);
+  for (const hsize_t size : selectRows(space.get(), from.facts, first, count, memory, axis))
+    if (__builtin_mul_overflow(bytes, size, &bytes)) bytes = HSIZE_UNDEF;
   if (bytes >= kMaxHdf5ReadBytes) fault("has too many numbers per row");
   std::string value(static_cast<std::size_t>(bytes), '\0');
   if (bytes > 0 &&

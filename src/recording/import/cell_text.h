@@ -47,11 +47,13 @@ inline std::optional<double> cellNumber(std::string_view cell, char decimal) {
   return parseDouble(cell);
 }
 
-// Whether a text stands for "not a number" or infinity.
-inline bool isNotFiniteWord(std::string_view cell) {
+// What a text stands for: "not a number" or infinity; nothing for another text.
+inline std::optional<double> notFiniteValue(std::string_view cell) {
   std::string word = smallLetters(trimmedCell(cell));
   if (word.starts_with('-') || word.starts_with('+')) word.erase(0, 1);
-  return word == "nan" || word == "inf" || word == "infinity";
+  if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (word == "inf" || word == "infinity") return std::numeric_limits<double>::infinity();
+  return std::nullopt;
 }
 
 // Whether a float can hold a value.
@@ -68,7 +70,9 @@ inline CellState cellStateOf(std::string_view cell, char decimal, double& value)
     value = *number;
     return fitsFloat(value) ? CellState::kNumber : CellState::kNotFinite;
   }
-  return isNotFiniteWord(cell) ? CellState::kNotFinite : CellState::kText;
+  const auto notFinite = notFiniteValue(cell);
+  value = notFinite.value_or(0.0);
+  return notFinite ? CellState::kNotFinite : CellState::kText;
 }
 
 }  // namespace palpate

@@ -9,6 +9,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
+#include "recording/import/cell_text.h"
 #include "recording/import/column_unit.h"
 
 namespace palpate {
@@ -120,15 +121,18 @@ std::int64_t baseAt(const ColumnGroup& group, std::size_t position) {
 std::optional<std::vector<std::size_t>> placesInMatrix(const ColumnGroup& group,
                                                        const std::vector<std::size_t>& positions,
                                                        const SensorLayout& layout,
-                                                       std::size_t matrix) {
+                                                       std::size_t matrix,
+                                                       IndexOrder order) {
   const MatrixLayout& target = layout.matrix(matrix);
   std::vector<std::size_t> places;
   if (positions.size() == 2) {
-    const std::int64_t firstRow = baseAt(group, positions[0]);
-    const std::int64_t firstColumn = baseAt(group, positions[1]);
+    const std::size_t row = positions[order == IndexOrder::kRowColumn ? 0 : 1];
+    const std::size_t column = positions[order == IndexOrder::kRowColumn ? 1 : 0];
+    const std::int64_t firstRow = baseAt(group, row);
+    const std::int64_t firstColumn = baseAt(group, column);
     for (const TableElement& each : group.elements) {
-      const std::int64_t y = each.indices[positions[0]] - firstRow;
-      const std::int64_t x = each.indices[positions[1]] - firstColumn;
+      const std::int64_t y = each.indices[row] - firstRow;
+      const std::int64_t x = each.indices[column] - firstColumn;
       if (y < 0 || y >= target.rows || x < 0 || x >= target.columns) return std::nullopt;
       places.push_back(layout.offset(matrix) + static_cast<std::size_t>(y * target.columns + x));
     }
@@ -151,17 +155,18 @@ std::optional<std::vector<std::size_t>> placesInMatrix(const ColumnGroup& group,
 // All matrices: by matrix, row and column; by matrix and number; by number.
 std::optional<std::vector<std::size_t>> placesInLayout(const ColumnGroup& group,
                                                        const std::vector<std::size_t>& positions,
-                                                       const SensorLayout& layout) {
+                                                       const SensorLayout& layout,
+                                                       IndexOrder order) {
   if (positions.size() == 1)
     return [&]() -> std::optional<std::vector<std::size_t>> {
-      const auto order = placesInOrder(group.elements.size(), layout, std::nullopt, false);
-      if (!order) return std::nullopt;
+      const auto all = placesInOrder(group.elements.size(), layout, std::nullopt, false);
+      if (!all) return std::nullopt;
       const std::int64_t base = smallestAt(group, positions[0]);
       std::vector<std::size_t> places;
       for (const TableElement& each : group.elements) {
         const std::int64_t i = each.indices[positions[0]] - base;
-        if (i < 0 || i >= static_cast<std::int64_t>(order->size())) return std::nullopt;
-        places.push_back((*order)[static_cast<std::size_t>(i)]);
+        if (i < 0 || i >= static_cast<std::int64_t>(all->size())) return std::nullopt;
+        places.push_back((*all)[static_cast<std::size_t>(i)]);
       }
       if (!isComplete(places, layout, std::nullopt)) return std::nullopt;
       return places;
@@ -181,11 +186,28 @@ std::optional<std::vector<std::size_t>> placesInLayout(const ColumnGroup& group,
       origin.push_back(e);
     }
     if (part.elements.empty()) return std::nullopt;
-    const auto found = placesInMatrix(part, {positions.begin() + 1, positions.end()}, layout, m);
+    const auto found =
+        placesInMatrix(part, {positions.begin() + 1, positions.end()}, layout, m, order);
     if (!found) return std::nullopt;
     for (std::size_t e = 0; e < origin.size(); ++e) places[origin[e]] = (*found)[e];
   }
   return places;
+}
+
+// 'x' or 'y' where the word before index `position` of a stem ("col#_row#") names columns or rows.
+char letterBefore(std::string_view stem, std::size_t position) {
+  std::size_t at = stem.find('#');
+  for (; position > 0 && at != std::string_view::npos; --position) at = stem.find('#', at + 1);
+  if (at == std::string_view::npos) return '\0';
+  const auto end = stem.find_last_not_of(" _-.[(", at == 0 ? 0 : at - 1);
+  std::string word;
+  for (std::size_t i = end; i != std::string_view::npos && i < at &&
+                            std::isalpha(static_cast<unsigned char>(stem[i])) != 0;
+       --i)
+    word.insert(word.begin(), stem[i]);
+  word = smallLetters(word);
+  if (word == "x" || word == "c" || word == "col" || word == "column") return 'x';
+  return word == "y" || word == "r" || word == "row" ? 'y' : '\0';
 }
 
 // Matches a name against a pattern of * and {m}, {y}, {x}, {i}; the numbers at the letters.
@@ -282,6 +304,26 @@ std::vector<std::size_t> columnsOf(const std::vector<TableColumn>& columns, std:
   return chosen;
 }
 
+// The numbers of one part of a choice: of columns, or "table[1]", "table[1]..table[6]".
+void appendPart(const std::vector<TableColumn>& columns,
+                std::string_view part,
+                std::vector<TableElement>& elements) {
+  const auto dots = std::min(part.find(".."), part.size());
+  const auto first = numberNamed(columns, trimmed(part.substr(0, dots)));
+  const auto last =
+      dots < part.size() ? numberNamed(columns, trimmed(part.substr(dots + 2))) : first;
+  if (first && last && first->within && last->within && first->column == last->column) {
+    requireNumbers(columns[first->column]);
+    for (std::size_t i = *first->within; i <= *last->within; ++i)
+      elements.push_back({first->column, i, {static_cast<std::int64_t>(i)}});
+    return;
+  }
+  for (const std::size_t column : columnsOf(columns, part)) {
+    requireNumbers(columns[column]);
+    appendElements(columns, column, {}, elements);
+  }
+}
+
 }  // namespace
 
 std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
@@ -327,17 +369,55 @@ std::optional<std::vector<std::size_t>> placesInOrder(std::size_t count,
 
 std::optional<std::vector<std::size_t>> placesOf(const ColumnGroup& group,
                                                  const SensorLayout& layout,
-                                                 std::optional<std::size_t> matrix) {
+                                                 std::optional<std::size_t> matrix,
+                                                 IndexOrder order) {
   if (group.elements.empty() || group.elements.size() > layout.numCells()) return std::nullopt;
   if (!matrix && layout.numMatrices() == 1) matrix = 0;
   std::vector<std::size_t> all(group.elements.front().indices.size());
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = p;
   const std::vector<std::size_t> varying = varyingPositions(group);
   for (const auto& positions : {all, varying})
-    if (auto places = matrix ? placesInMatrix(group, positions, layout, *matrix)
-                             : placesInLayout(group, positions, layout))
+    if (auto places = matrix ? placesInMatrix(group, positions, layout, *matrix, order)
+                             : placesInLayout(group, positions, layout, order))
       return places;
   return std::nullopt;
+}
+
+std::optional<IndexOrder> orderByLetters(const ColumnGroup& group) {
+  const std::vector<std::size_t> positions = varyingPositions(group);
+  if (positions.size() < 2) return std::nullopt;
+  const char first = letterBefore(group.stem, positions[positions.size() - 2]);
+  const char second = letterBefore(group.stem, positions.back());
+  if (first == 'y' && second == 'x') return IndexOrder::kRowColumn;
+  if (first == 'x' && second == 'y') return IndexOrder::kColumnRow;
+  return std::nullopt;
+}
+
+std::size_t numVaryingIndices(const ColumnGroup& group) { return varyingPositions(group).size(); }
+
+bool isStack(const ColumnGroup& group, const SensorLayout& layout) {
+  const std::vector<std::size_t> positions = varyingPositions(group);
+  if (positions.size() != 2 || group.elements.size() != layout.numCells()) return false;
+  std::int64_t width = 0;
+  for (const TableElement& each : group.elements)
+    width = std::max(width, each.indices[positions[1]] - baseAt(group, positions[1]) + 1);
+  return layout.numMatrices() > 1 &&
+         std::all_of(layout.matrices().begin(),
+                     layout.matrices().end(),
+                     [&](const MatrixLayout& matrix) { return matrix.columns == width; });
+}
+
+std::optional<ChosenNumber> numberNamed(const std::vector<TableColumn>& columns,
+                                        std::string_view name) {
+  if (const auto column = columnNamed(columns, name)) return ChosenNumber{*column, std::nullopt};
+  const auto bracket = name.rfind('[');
+  if (bracket == std::string_view::npos || !name.ends_with(']')) return std::nullopt;
+  const auto column = columnNamed(columns, name.substr(0, bracket));
+  const auto within = parseInteger(name.substr(bracket + 1, name.size() - bracket - 2));
+  if (!column || !within || columns[*column].shape.size() != 1 || *within < 0 ||
+      *within >= static_cast<std::int64_t>(columns[*column].width()))
+    return std::nullopt;
+  return ChosenNumber{*column, static_cast<std::size_t>(*within)};
 }
 
 ChosenElements chooseElements(const std::vector<TableColumn>& columns, const std::string& text) {
@@ -366,10 +446,7 @@ ChosenElements chooseElements(const std::vector<TableColumn>& columns, const std
     const std::string_view part = trimmed(std::string_view(whole).substr(at, comma - at));
     if (part.empty())
       throw Error("the choice of columns " + inQuotes(whole) + " has an empty part");
-    for (const std::size_t column : columnsOf(columns, part)) {
-      requireNumbers(columns[column]);
-      appendElements(columns, column, {}, chosen.elements);
-    }
+    appendPart(columns, part, chosen.elements);
     at = comma + 1;
   }
   return chosen;

@@ -26,6 +26,12 @@ struct ColumnGroup {
   std::vector<TableElement> elements;
 };
 
+// What the two indices of a taxel within its matrix are.
+enum class IndexOrder { kRowColumn, kColumnRow };
+inline IndexOrder opposite(IndexOrder order) {
+  return order == IndexOrder::kRowColumn ? IndexOrder::kColumnRow : IndexOrder::kRowColumn;
+}
+
 // The groups of the given columns, in the order of their first columns.
 std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
                                       const std::vector<std::size_t>& chosen);
@@ -34,7 +40,17 @@ std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
 // layout, or of one matrix of it; else nothing.
 std::optional<std::vector<std::size_t>> placesOf(const ColumnGroup& group,
                                                  const SensorLayout& layout,
-                                                 std::optional<std::size_t> matrix);
+                                                 std::optional<std::size_t> matrix,
+                                                 IndexOrder order);
+
+// What letters say that stand before the last two indices in the names: x, c, col, column; y, r,
+// row. Nothing without them.
+std::optional<IndexOrder> orderByLetters(const ColumnGroup& group);
+
+// How many of the indices differ within the group: 0 or 1 of numbers in a row.
+std::size_t numVaryingIndices(const ColumnGroup& group);
+// Whether the group is the rows of all matrices, one below the other.
+bool isStack(const ColumnGroup& group, const SensorLayout& layout);
 
 // The places of a matrix (or of all) in the order of `count` numbers without indices: all places or
 // those that have a taxel; nothing when the number fits neither.
@@ -42,6 +58,14 @@ std::optional<std::vector<std::size_t>> placesInOrder(std::size_t count,
                                                       const SensorLayout& layout,
                                                       std::optional<std::size_t> matrix,
                                                       bool columnByColumn);
+
+// A column, or a number of an array: "pad", "#2", "table[0]".
+struct ChosenNumber {
+  std::size_t column = 0;
+  std::optional<std::size_t> within;  // of an array
+};
+std::optional<ChosenNumber> numberNamed(const std::vector<TableColumn>& columns,
+                                        std::string_view name);
 
 // What a text chooses.
 struct ChosenElements {

@@ -178,7 +178,10 @@ void dropEmptyEnd(CsvShape& shape, const Candidate& table, std::size_t firstRow)
 }
 
 // Marks the columns that hold dates or texts.
-void describeCells(CsvShape& shape, const std::vector<SampleRow>& rows, std::size_t firstRow) {
+void describeCells(CsvShape& shape,
+                   const Candidate& table,
+                   const std::vector<SampleRow>& rows,
+                   std::size_t firstRow) {
   for (std::size_t c = 0; c < shape.columns.size(); ++c) {
     std::size_t dates = 0;
     std::size_t texts = 0;
@@ -186,12 +189,14 @@ void describeCells(CsvShape& shape, const std::vector<SampleRow>& rows, std::siz
     for (const SampleRow& row : rows) {
       if (row.index < firstRow || c >= row.kinds.size()) continue;
       dates += row.kinds[c] == CellKind::kDate ? 1 : 0;
-      texts += row.kinds[c] == CellKind::kText ? 1 : 0;
+      if (row.kinds[c] == CellKind::kText && texts++ == 0)
+        shape.columns[c].example = std::string(trimmedCell(table.rows[row.index][c]));
       numbers += row.kinds[c] == CellKind::kNumber ? 1 : 0;
     }
     TableColumn& column = shape.columns[c];
     column.hasDates = dates > 0 && dates >= texts + numbers;
     column.isNumeric = !column.hasDates && (numbers > 0 || texts == 0);
+    if (column.isNumeric) column.example.clear();
     column.type = column.hasDates ? "date" : column.isNumeric ? "number" : "text";
     if (column.unit.empty()) column.unit = unitInName(column.name);
   }
@@ -370,7 +375,7 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
   }
   requireDecimalPoints(path, table, rows, numbers);
   dropEmptyEnd(shape, table, firstRow);
-  describeCells(shape, rows, firstRow);
+  describeCells(shape, table, rows, firstRow);
   if (std::none_of(shape.columns.begin(), shape.columns.end(), [](const TableColumn& column) {
         return column.type == "number";
       }))

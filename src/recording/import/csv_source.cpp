@@ -85,7 +85,7 @@ bool CsvSource::next(TableRow& row) {
   do {
     if (!reader_.next(line)) return false;
   } while (reader_.number() <= shape_.linesBefore || isCommentLine(line));
-  row.line = reader_.number();
+  row.line = lastRowLine_ = reader_.number();
   row.complete = readCells(line, row);
   if (!row.complete) return true;
   row.values.resize(selected_.size());
@@ -103,6 +103,12 @@ bool CsvSource::next(TableRow& row) {
 std::string CsvSource::textOf(std::size_t index) const {
   const std::size_t column = selected_.at(index);
   return column < cells_.size() ? std::string(trimmedCell(cells_[column])) : std::string();
+}
+
+std::string CsvSource::endNote() const {
+  if (!reader_.endsWithinLine() || lastRowLine_ != reader_.number()) return {};
+  return "line " + std::to_string(lastRowLine_) +
+         ", the last one, has no line end: its last number may be cut off";
 }
 
 std::string CsvSource::placeOf(std::size_t index) const {

@@ -24,6 +24,7 @@ class CsvSource final : public TableSource {
   double fraction() const noexcept override { return reader_.fraction(); }
   std::string textOf(std::size_t index) const override;
   std::string placeOf(std::size_t index) const override;
+  std::string endNote() const override;
 
   char decimal() const noexcept { return shape_.decimal; }
 
@@ -36,6 +37,7 @@ class CsvSource final : public TableSource {
   std::map<std::string, std::size_t, std::less<>> labelled_;  // column of each name of a line
   std::vector<std::size_t> selected_;
   std::optional<std::size_t> time_;
+  std::uint64_t lastRowLine_ = 0;
   std::vector<std::string_view> cells_;  // of the last line, by column
   std::vector<std::string_view> names_;  // of a line of names and values
   std::vector<std::string_view> values_;

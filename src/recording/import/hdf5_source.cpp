@@ -1,5 +1,6 @@
 #include "recording/import/hdf5_source.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <system_error>
@@ -10,6 +11,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/text_file.h"
+#include "palpate/recording/hdf5_recording.h"
 
 #include "recording/import/column_unit.h"
 
@@ -17,6 +20,7 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kMostHdf5Dimensions = 8;
+constexpr std::size_t kMostUnitBytes = 64;  // and those of MATLAB's class
 
 }  // namespace
 
@@ -24,6 +28,8 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
   const FileDescriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (descriptor.get() < 0)
     throw FileError(path, "can't be read: " + std::generic_category().message(errno));
+  const bool hasUserBlock =
+      beginningOfFile(path, kHdf5Signature.size()) != kHdf5Signature;  // MATLAB's have
   file_ = std::make_unique<Hdf5Process>(path, descriptor.get(), Hdf5Use::kImport);
   for (const std::string& name : file_->arrayNames()) {
     Hdf5Facts facts = file_->facts(name);
@@ -31,17 +37,17 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
     column.isNumeric = (facts.kind == Hdf5Kind::kInteger || facts.kind == Hdf5Kind::kFloat) &&
                        !facts.shape.empty() && facts.shape.size() <= kMostHdf5Dimensions;
     if (column.isNumeric) {
-      column.numRows = facts.shape[0];
-      std::uint64_t width = 1;
-      for (std::size_t d = 1; d < facts.shape.size(); ++d) {
-        if (__builtin_mul_overflow(width, facts.shape[d], &width))
-          throw FormatError(path, inQuotes(name) + " has too many numbers per row");
-        column.shape.push_back(static_cast<std::size_t>(facts.shape[d]));
-      }
-      if (width == 0) column.isNumeric = false;
-      if (column.shape == std::vector<std::size_t>{1}) column.shape.clear();
+      if (!column.setArrayShape(facts.shape))
+        throw FormatError(path, inQuotes(name) + " has too many numbers per row");
+      if (column.width() == 0) column.isNumeric = false;
     }
-    constexpr std::size_t kMostUnitBytes = 64;
+    const std::string matlabClass =
+        hasUserBlock ? file_->textAttribute(name, "MATLAB_class", kMostUnitBytes).value_or("") : "";
+    isMatlab_ = isMatlab_ || !matlabClass.empty();
+    if (matlabClass == "char") {
+      column.type = "text";
+      column.isNumeric = false;
+    }
     for (const char* key : {"units", "unit"})
       if (column.unit.empty())
         column.unit = file_->textAttribute(name, key, kMostUnitBytes).value_or("");
@@ -56,6 +62,46 @@ std::string Hdf5Source::form() const {
   return "HDF5, " + std::to_string(columns_.size()) + " data sets";
 }
 
+void Hdf5Source::reverseAxes(std::size_t column) {
+  std::vector<std::uint64_t>& shape = facts_[column].shape;
+  if (shape.size() < 2) return;
+  std::reverse(shape.begin(), shape.end());
+  columns_[column].setArrayShape(shape);
+  if (!reversed_.insert(column).second) reversed_.erase(column);
+}
+
+// Reads rows as they are now. Along its last axis an array is read in the order of the file.
+template <typename Value>
+void Hdf5Source::readRows(std::size_t column,
+                          std::uint64_t first,
+                          Hdf5Number type,
+                          std::span<Value> values) {
+  const bool isReversed = reversed_.contains(column);
+  const std::size_t width = columns_[column].width();
+  const std::size_t count = values.size() / width;
+  std::vector<Value> read(isReversed ? values.size() : 0);
+  const std::span<Value> target = isReversed ? std::span(read) : values;
+  file_->read(columns_[column].name,
+              first,
+              count,
+              type,
+              std::as_writable_bytes(target),
+              isReversed ? Hdf5Axis::kLast : Hdf5Axis::kFirst);
+  if (!isReversed) return;
+  std::vector<std::uint64_t> sizes = facts_[column].shape;  // the rows first
+  sizes[0] = count;
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    // The first axis of the reversed array changes fastest in the file.
+    std::size_t rest = i;
+    std::size_t at = 0;
+    for (const std::uint64_t size : sizes) {
+      at = at * size + rest % size;
+      rest /= size;
+    }
+    values[at] = read[i];
+  }
+}
+
 void Hdf5Source::open(std::size_t column) {
   const std::string& fault = facts_[column].fault;
   if (!fault.empty()) throw FormatError(path_, inQuotes(columns_[column].name) + " " + fault);
@@ -66,11 +112,7 @@ void Hdf5Source::load(std::size_t column,
                       std::size_t count,
                       std::vector<double>& values) {
   values.resize(count * columns_[column].width());
-  file_->read(columns_[column].name,
-              first,
-              count,
-              Hdf5Number::kF64,
-              std::as_writable_bytes(std::span(values)));
+  readRows(column, first, Hdf5Number::kF64, std::span(values));
 }
 
 void Hdf5Source::loadTimes(std::size_t column,
@@ -80,11 +122,7 @@ void Hdf5Source::loadTimes(std::size_t column,
   times.assign(count, {});
   if (facts_[column].kind == Hdf5Kind::kInteger) {
     std::vector<std::int64_t> values(count);  // larger unsigned numbers are cut to INT64_MAX
-    file_->read(columns_[column].name,
-                first,
-                count,
-                Hdf5Number::kI64,
-                std::as_writable_bytes(std::span(values)));
+    readRows(column, first, Hdf5Number::kI64, std::span(values));
     for (std::size_t i = 0; i < count; ++i)
       times[i] = {.state = CellState::kNumber,
                   .whole = values[i],

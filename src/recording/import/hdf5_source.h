@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <set>
+#include <span>
 #include <vector>
 
 #include "recording/hdf5_process.h"
@@ -13,6 +15,8 @@ class Hdf5Source final : public ArraySource {
  public:
   explicit Hdf5Source(const std::filesystem::path& path);
   std::string form() const override;
+  bool isColumnMajor() const noexcept override { return isMatlab_; }
+  void reverseAxes(std::size_t column) override;
 
  protected:
   void open(std::size_t column) override;
@@ -26,8 +30,13 @@ class Hdf5Source final : public ArraySource {
                  std::vector<TimeCell>& times) override;
 
  private:
+  template <typename Value>
+  void readRows(std::size_t column, std::uint64_t first, Hdf5Number type, std::span<Value> values);
+
+  bool isMatlab_ = false;
+  std::set<std::size_t> reversed_;  // columns
   std::unique_ptr<Hdf5Process> file_;
-  std::vector<Hdf5Facts> facts_;  // of the columns
+  std::vector<Hdf5Facts> facts_;  // of the columns, whose axes may be reversed
 };
 
 }  // namespace palpate

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -81,12 +82,36 @@ int timeScore(const TableColumn& column, Kind kind) {
          (wordsOf(column.name).size() == 1 ? 1 : 0);
 }
 
+std::vector<std::string> namesOf(const HandDescription& hand, Kind kind) {
+  std::vector<std::string> names;
+  for (const AxisDescription& axis : hand.axes)
+    if (kind == Kind::kAngles) names.push_back(axis.name);
+  for (const TemperatureSensorDescription& sensor : hand.temperatureSensors)
+    if (kind == Kind::kTemperatures) names.push_back(sensor.name);
+  return names;
+}
+
 bool sameRows(const TableColumn& first, const TableColumn& second) {
   return !first.numRows || !second.numRows || first.numRows == second.numRows;
 }
 
 std::string matrixShape(const MatrixLayout& matrix) {
   return std::to_string(matrix.rows) + " x " + std::to_string(matrix.columns);
+}
+
+// What the cells of a column hold instead of numbers: "text such as "0x1F": hexadecimal".
+std::string whyNoNumbers(const TableColumn& column) {
+  if (column.example.empty())
+    return column.type == "structure" ? "structure: save each field as an array of its own"
+                                      : column.type;
+  const std::string_view cell = column.example;
+  const std::string text = column.type + " such as " + inQuotes(cell);
+  if (cell.starts_with("0x") || cell.starts_with("0X")) return text + ": hexadecimal";
+  if (cell.starts_with("\xE2\x88\x92")) return text + ": its minus is no ASCII character";
+  const auto blank = cell.find_first_not_of("+-.0123456789");
+  if (blank != 0 && blank != std::string_view::npos && isKnownUnit(cell.substr(blank)))
+    return text + ": a unit in the cell; put it into the name";
+  return text;
 }
 
 class Planner {
@@ -112,7 +137,42 @@ class Planner {
   void findTime(PlannedSeries& series, const std::string& named);
   std::size_t finestOf(std::size_t time);
   void setTimeUnit(PlannedSeries& series);
-  std::vector<std::size_t> unnamedTimeColumn();
+  IndexOrder naturalOrder(const ColumnGroup& group) const;
+  IndexOrder orderOf(const ColumnGroup& group, bool isOpposite) const;
+  void noteOrder(const std::string& what,
+                 const ColumnGroup& group,
+                 std::optional<std::size_t> matrix,
+                 IndexOrder order);
+  void take(PlannedSeries& series,
+            const std::string& what,
+            const std::vector<TableElement>& elements,
+            const std::vector<std::size_t>& places);
+  void takeGroup(PlannedSeries& series,
+                 const std::string& what,
+                 const ColumnGroup& group,
+                 std::optional<std::size_t> matrix,
+                 bool isOpposite);
+  bool takeWhole(PlannedSeries& series, const std::vector<ColumnGroup>& groups, bool isOpposite);
+  bool takeParts(PlannedSeries& series, const std::vector<ColumnGroup>& groups, bool isOpposite);
+  bool takeColumnsInOrder(PlannedSeries& series, const std::vector<ColumnGroup>& groups);
+  bool takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group);
+  struct Counting {
+    bool ascends = false;
+    bool isRowNumber = false;  // 0, 1, 2, .. or 1, 2, 3, ..
+  };
+  Counting countingOf(std::size_t column, std::size_t within);
+  bool leaveOutFirst(PlannedSeries& series, std::size_t column, bool isArray);
+  bool anyFrames() const;
+  void findFrameAxis();
+  void straightenTimes();
+  void noteUnused();
+  std::optional<std::vector<std::size_t>> placesByShape(const MatrixMapping& wanted,
+                                                        const ChosenElements& chosen,
+                                                        const std::string& what);
+  std::vector<TableElement> samplesNamedAsIn(const std::vector<std::string>& names,
+                                             const char* what);
+  std::string allName() const;
+  std::string unusableText() const;
   PlannedValue conversion(const ValueMapping& values,
                           const TableColumn& column,
                           const std::string& handUnit,
@@ -126,7 +186,7 @@ class Planner {
                        const PlannedValue& value,
                        const std::string& unit) const;
   std::vector<std::size_t> candidates() const;
-  std::vector<std::vector<double>> sampleValues(const std::vector<std::size_t>& columns);
+  std::vector<double> sampleValues(std::size_t column, std::size_t within);
   [[noreturn]] void refuse(const std::string& why) const { throw FormatError(source_.path(), why); }
 
   TableSource& source_;
@@ -134,22 +194,23 @@ class Planner {
   const HandDescription& hand_;
   const ImportMapping& mapping_;
   ImportPlan plan_;
-  std::string unitUsed_;                 // by the last conversion()
-  std::optional<std::size_t> time_;      // column of the frames
+  bool isReversed_ = false;          // the axes of all arrays
+  std::string rowNumber_;            // a column that counts the rows
+  std::string unitUsed_;             // by the last conversion()
+  std::optional<std::size_t> time_;  // column of the frames
+  std::optional<std::size_t> timeWithin_;
   std::set<std::size_t> sampleColumns_;  // of angles and temperatures
 };
 
-// The values of numeric columns in the first rows that have them all.
-std::vector<std::vector<double>> Planner::sampleValues(const std::vector<std::size_t>& columns) {
-  std::vector<std::vector<double>> rows;
-  source_.start(columns, std::nullopt);
+// One of the numbers of a column, in the first rows that have it.
+std::vector<double> Planner::sampleValues(std::size_t column, std::size_t within) {
+  std::vector<double> values;
+  source_.start(std::span(&column, 1), std::nullopt);
   TableRow row;
   for (std::size_t i = 0; i < kPlanSampleRows && source_.next(row); ++i)
-    if (row.complete && std::all_of(row.states.begin(), row.states.end(), [](CellState state) {
-          return state == CellState::kNumber;
-        }))
-      rows.push_back(row.values);
-  return rows;
+    if (row.complete && row.states[within] == CellState::kNumber)
+      values.push_back(row.values[within]);
+  return values;
 }
 
 // The unit of a column and of the hand, as a factor and an offset.
@@ -241,6 +302,8 @@ std::vector<TableElement> Planner::foundSamples(Kind kind, std::size_t count) {
         timeScore(columns_[c], kind) == 0 && !hasWord(columns_[c], kOtherWords))
       named.push_back(c);
   const char* what = kind == Kind::kAngles ? "joint angles" : "temperatures";
+  auto elements = samplesNamedAsIn(namesOf(hand_, kind), what);
+  if (!elements.empty()) return elements;
   for (ColumnGroup& group : groupColumns(columns_, named)) {
     if (group.elements.size() == count) {
       // By their last number, in ascending order: PlotJuggler sorts joint10 before joint2.
@@ -254,6 +317,26 @@ std::vector<TableElement> Planner::foundSamples(Kind kind, std::size_t count) {
                           counted(group.elements.size(), "number") + ", but the hand has " +
                           std::to_string(count) + "; not imported");
   }
+  return {};
+}
+
+// Columns with exactly the names of the hand's axes, or of its temperature sensors.
+std::vector<TableElement> Planner::samplesNamedAsIn(const std::vector<std::string>& names,
+                                                    const char* what) {
+  std::vector<TableElement> elements;
+  std::string found;
+  for (const std::string& name : names)
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      if (columns_[c].isNumeric && isScalar(columns_[c]) &&
+          (columns_[c].name == name || nameWithoutUnit(columns_[c].name) == name)) {
+        elements.push_back({c, 0, {}});
+        found = inQuotes(name);
+        break;
+      }
+  if (elements.size() == names.size() || elements.empty()) return elements;
+  plan_.notes.push_back(std::string(what) + ": " + found + " is there, but " +
+                        std::to_string(names.size() - elements.size()) + " of the hand's " +
+                        std::to_string(names.size()) + " are not; not imported");
   return {};
 }
 
@@ -322,37 +405,54 @@ std::size_t Planner::finestOf(std::size_t time) {
 void Planner::findTime(PlannedSeries& series, const std::string& named) {
   const bool isFrames = series.kind == Kind::kFrames;
   const auto fail = [&](const std::string& why) { refuse("time: " + why); };
+  const auto rowsText = [&](std::size_t column) {
+    return counted(columns_[column].numRows.value_or(0), "row");
+  };
+  std::optional<std::size_t> otherRows;  // a time of another length
   if (mapping_.time.rateHz) return;
   if (!named.empty() && named != kNoColumns) {
-    for (std::size_t c = 0; c < columns_.size(); ++c)
-      if (columns_[c].name == named || named == "#" + std::to_string(c + 1)) series.time = c;
-    if (!series.time)
+    const auto chosen = numberNamed(columns_, named);
+    if (!chosen)
       fail("there is no column " + inQuotes(named) + "; there are " + namesText(columns_));
-    if (!isScalar(columns_[*series.time])) fail(inQuotes(named) + " has several numbers per row");
-  } else if (named.empty()) {
+    if (!isScalar(columns_[chosen->column]) && !chosen->within)
+      fail(inQuotes(named) + " has several numbers per row; choose one: NAME[0]");
+    if (chosen->within && chosen->column != series.columns.front())
+      fail(inQuotes(named) + " is part of an array that doesn't hold the values");
+    series.time = chosen->column;
+    series.timeWithin = chosen->within;
+  } else if (named.empty() && !series.time) {
     int best = 0;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const int score = timeScore(columns_[c], series.kind);
-      if (score <= best || !sameRows(columns_[c], columns_[series.columns.front()])) continue;
+      if (score <= best) continue;
+      if (!sameRows(columns_[c], columns_[series.columns.front()])) {
+        otherRows = c;
+        continue;
+      }
       best = score;
       series.time = c;
     }
-    if (!series.time && isFrames && time_) series.time = time_;
     if (series.time) series.time = finestOf(*series.time);
   }
   if (!series.time && !isFrames && time_ &&
-      sameRows(columns_[*time_], columns_[series.columns.front()]))
+      sameRows(columns_[*time_], columns_[series.columns.front()])) {
     series.time = time_;
+    series.timeWithin = timeWithin_;
+  }
+  if (!series.time && isFrames && otherRows)
+    fail(inQuotes(columns_[*otherRows].name) + " has " + rowsText(*otherRows) + ", but " +
+         shortened(columns_[series.columns.front()].name) + " has " +
+         rowsText(series.columns.front()) +
+         "; save as many times as frames, or give the rate of the rows (--rate)");
   if (!series.time && isFrames)
-    fail(
-        "no column of times was found; name that column (time), or give the rate of the rows "
-        "(rate)");
+    fail("no column of times was found" +
+         (rowNumber_.empty() ? "" : " (" + rowNumber_ + " counts the rows)") +
+         "; name that column (--time), or give the rate of the rows (--rate)");
   if (!series.time) return;
   if (!sameRows(columns_[*series.time], columns_[series.columns.front()]))
-    fail(inQuotes(columns_[*series.time].name) + " has " +
-         std::to_string(*columns_[*series.time].numRows) + " rows, but " +
+    fail(inQuotes(columns_[*series.time].name) + " has " + rowsText(*series.time) + ", but " +
          shortened(columns_[series.columns.front()].name) + " has " +
-         std::to_string(*columns_[series.columns.front()].numRows));
+         rowsText(series.columns.front()));
   setTimeUnit(series);
 }
 
@@ -374,17 +474,48 @@ void Planner::setTimeUnit(PlannedSeries& series) {
     if (!mapping_.time.unit.empty()) {
       series.timeUnit = *timeUnitNamed(mapping_.time.unit);
     } else {
-      const auto rows = sampleValues({*series.time});
-      const bool whole = std::all_of(rows.begin(), rows.end(), [](const std::vector<double>& row) {
-        return row[0] == std::floor(row[0]);
-      });
-      series.timeUnit = rows.empty() ? TimeUnit::kSeconds : guessTimeUnit(rows.back()[0], whole);
+      const std::size_t at = series.timeWithin.value_or(0);
+      const std::vector<double> values = sampleValues(*series.time, at);
+      const bool whole = std::all_of(
+          values.begin(), values.end(), [](double value) { return value == std::floor(value); });
+      if (countingOf(*series.time, at).isRowNumber)
+        refuse("time: " + inQuotes(column.name) +
+               " counts the rows (0, 1, 2, ..); give the rate of the rows (--rate), or its unit if "
+               "it is a time (--time-unit)");
+      series.timeUnit = values.empty() ? TimeUnit::kSeconds : guessTimeUnit(values.back(), whole);
       origin = "guessed from the values; choose the unit if it is another";
+      plan_.notes.push_back("time: the unit of " + inQuotes(column.name) + " is guessed to be " +
+                            std::string(nameOf(series.timeUnit)) +
+                            "; choose another one by --time-unit");
     }
   }
   if (series.kind == Kind::kFrames)
     plan_.timeDescription =
         shortened(column.name) + " [" + std::string(nameOf(series.timeUnit)) + ", " + origin + "]";
+}
+
+// The places of an array with rows and columns: its shape decides, unless the mapping says that it
+// is column by column. Nothing for numbers in a row. Throws where the shape contradicts the hand.
+std::optional<std::vector<std::size_t>> Planner::placesByShape(const MatrixMapping& wanted,
+                                                               const ChosenElements& chosen,
+                                                               const std::string& what) {
+  const SensorLayout& layout = *hand_.layout;
+  const std::size_t column = chosen.elements.front().column;
+  if (wanted.columnByColumn || isScalar(columns_[column]) ||
+      chosen.elements.size() != columns_[column].width() || chosen.elements.back().column != column)
+    return std::nullopt;
+  const ColumnGroup group = groupColumns(columns_, {column}).front();
+  if (numVaryingIndices(group) < 2 || (!wanted.matrix && isStack(group, layout)))
+    return std::nullopt;
+  for (const IndexOrder order : {naturalOrder(group), opposite(naturalOrder(group))}) {
+    const auto places = placesOf(group, layout, wanted.matrix, order);
+    if (!places) continue;
+    noteOrder(what, group, wanted.matrix, order);
+    return places;
+  }
+  if (!placesInOrder(chosen.elements.size(), layout, wanted.matrix, false)) return std::nullopt;
+  refuse(namesText({columns_[column]}) + " has as many numbers as " + what +
+         ", but other rows and columns; save it as frames x rows x columns, or as frames x taxels");
 }
 
 PlannedSeries Planner::mappedFrames() {
@@ -398,8 +529,11 @@ PlannedSeries Planner::mappedFrames() {
              shapeText(*hand_.layout));
     const ChosenElements chosen = chooseElements(columns_, wanted.columns);
     std::vector<std::size_t> places;
+    const std::string what = wanted.matrix ? hand_.matrixName(*wanted.matrix) : "matrices";
     if (!chosen.letters.empty()) {
       places = placesByLetters(chosen, *hand_.layout, wanted.matrix);
+    } else if (const auto shaped = placesByShape(wanted, chosen, what)) {
+      places = *shaped;
     } else {
       const auto order = placesInOrder(
           chosen.elements.size(), *hand_.layout, wanted.matrix, wanted.columnByColumn);
@@ -411,7 +545,6 @@ PlannedSeries Planner::mappedFrames() {
                               : shapeText(*hand_.layout)));
       places = *order;
     }
-    const std::string what = wanted.matrix ? hand_.matrixName(*wanted.matrix) : "matrices";
     const PlannedValue value =
         conversion(wanted.values, columns_[chosen.elements.front().column], hand_.unit, what);
     append(series, chosen.elements, places, value);
@@ -429,69 +562,104 @@ PlannedSeries Planner::mappedFrames() {
   return series;
 }
 
-// In a text without names, a first column more than the taxels that ascends is the time.
-std::vector<std::size_t> Planner::unnamedTimeColumn() {
-  std::vector<std::size_t> all = candidates();
-  if (time_ || mapping_.time.rateHz || mapping_.time.column == kNoColumns || all.size() < 2)
-    return all;
-  if (std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& column) {
-        return timeScore(column, Kind::kFrames) > 0;
-      }))
-    return all;
-  const SensorLayout& layout = *hand_.layout;
-  const std::size_t rest = all.size() - 1;
-  if (rest != layout.numCells() && rest != layout.numTaxels()) return all;
-  if (!std::all_of(all.begin(), all.end(), [&](std::size_t c) { return isScalar(columns_[c]); }))
-    return all;
-  const auto rows = sampleValues({all.front()});
-  bool ascends = rows.size() > 1;
-  for (std::size_t i = 1; i < rows.size(); ++i) ascends = ascends && rows[i][0] > rows[i - 1][0];
-  if (!ascends) return all;
-  time_ = all.front();
-  plan_.notes.push_back(shortened(columns_[*time_].name) + " ascends and is taken for the time");
-  all.erase(all.begin());
-  return all;
+// How a group is read unless only the other order fits: by letters, or as its writer keeps arrays.
+IndexOrder Planner::naturalOrder(const ColumnGroup& group) const {
+  if (const auto order = orderByLetters(group)) return *order;
+  const bool isArray = group.columns.size() == 1;
+  return isArray && source_.isColumnMajor() != isReversed_ ? IndexOrder::kColumnRow
+                                                           : IndexOrder::kRowColumn;
 }
 
-PlannedSeries Planner::foundFrames() {
-  PlannedSeries series;
-  series.file = source_.path();
+IndexOrder Planner::orderOf(const ColumnGroup& group, bool isOpposite) const {
+  return isOpposite ? opposite(naturalOrder(group)) : naturalOrder(group);
+}
+
+// Says where the order of the taxels is another one than a reader would expect, or a guess.
+void Planner::noteOrder(const std::string& what,
+                        const ColumnGroup& group,
+                        std::optional<std::size_t> matrix,
+                        IndexOrder order) {
   const SensorLayout& layout = *hand_.layout;
-  const std::vector<std::size_t> usable = unnamedTimeColumn();
-  const std::vector<ColumnGroup> groups = groupColumns(columns_, usable);
-  const auto take = [&](const std::string& what,
-                        const std::vector<TableElement>& elements,
-                        const std::vector<std::size_t>& places) {
-    const PlannedValue value = conversion({}, columns_[elements.front().column], hand_.unit, what);
-    append(series, elements, places, value);
-    series.description.push_back(describe(what, elements, value, unitUsed_));
+  const bool isArray = group.columns.size() == 1;
+  const auto places = placesOf(group, layout, matrix, order);
+  const auto others = placesOf(group, layout, matrix, opposite(order));
+  const auto letters = orderByLetters(group);
+  const auto note = [&](const char* text) {
+    const std::string name = inQuotes(columns_[group.columns.front()].name);
+    plan_.notes.push_back(what + ": " + name + text);
   };
-  const std::string all = layout.numMatrices() == 1 ? hand_.matrixName(0) : "matrices";
-  // One group is the whole hand.
+  if (isArray && others == places && group.elements.size() > 1 && source_.isColumnMajor())
+    note(
+        " is taken row by row; where MATLAB's (:) made it, use a mapping with \"order\": "
+        "\"columns\"");
+  if (others == places || letters == order) return;
+  if (letters)
+    note(": rows and columns are exchanged: the names fit the hand only so");
+  else if (isArray && order == (isReversed_ ? IndexOrder::kRowColumn : IndexOrder::kColumnRow))
+    note(" has columns x rows in the file and is transposed");
+  else if (!isArray && order == IndexOrder::kColumnRow)
+    note(": the names count columns, then rows: transposed");
+  else if (!isArray && others)
+    note(
+        ": the numbers in the names are taken for row and column, in this order; choose another "
+        "one by --matrix 'NAME{x}_{y}'");
+}
+
+void Planner::take(PlannedSeries& series,
+                   const std::string& what,
+                   const std::vector<TableElement>& elements,
+                   const std::vector<std::size_t>& places) {
+  const PlannedValue value = conversion({}, columns_[elements.front().column], hand_.unit, what);
+  append(series, elements, places, value);
+  series.description.push_back(describe(what, elements, value, unitUsed_));
+}
+
+void Planner::takeGroup(PlannedSeries& series,
+                        const std::string& what,
+                        const ColumnGroup& group,
+                        std::optional<std::size_t> matrix,
+                        bool isOpposite) {
+  const IndexOrder order = orderOf(group, isOpposite);
+  take(series, what, group.elements, *placesOf(group, *hand_.layout, matrix, order));
+  noteOrder(what, group, matrix, order);
+}
+
+std::string Planner::allName() const {
+  return hand_.layout->numMatrices() == 1 ? hand_.matrixName(0) : "matrices";
+}
+
+// One group is the whole hand.
+bool Planner::takeWhole(PlannedSeries& series,
+                        const std::vector<ColumnGroup>& groups,
+                        bool isOpposite) {
   const ColumnGroup* whole = nullptr;
   for (const ColumnGroup& group : groups) {
-    if (!placesOf(group, layout, std::nullopt)) continue;
+    if (!placesOf(group, *hand_.layout, std::nullopt, orderOf(group, isOpposite))) continue;
     if (whole)
       refuse("both " + inQuotes(columns_[whole->columns.front()].name) + " and " +
              inQuotes(columns_[group.columns.front()].name) +
-             " could be the taxels; choose the columns of each matrix");
+             " could be the taxels; choose the columns of each matrix (--matrix)");
     whole = &group;
   }
-  if (whole) {
-    take(all, whole->elements, *placesOf(*whole, layout, std::nullopt));
-    return series;
-  }
-  // A group per matrix: by its name, else in the order of the file.
+  if (whole) takeGroup(series, allName(), *whole, std::nullopt, isOpposite);
+  return whole != nullptr;
+}
+
+// A group per matrix: by its name, else in the order of the file.
+bool Planner::takeParts(PlannedSeries& series,
+                        const std::vector<ColumnGroup>& groups,
+                        bool isOpposite) {
+  const SensorLayout& layout = *hand_.layout;
+  if (layout.numMatrices() < 2) return false;
+  const auto fits = [&](const ColumnGroup& group, std::size_t m) {
+    return placesOf(group, layout, m, orderOf(group, isOpposite)).has_value();
+  };
   std::vector<const ColumnGroup*> parts;
-  for (std::size_t m = 0; m < layout.numMatrices() && layout.numMatrices() > 1; ++m) {
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const ColumnGroup* named = nullptr;
     for (const ColumnGroup& group : groups) {
-      std::string letters;
-      for (const std::string& word : wordsOf(columns_[group.columns.front()].name))
-        letters += word + " ";
-      std::string wanted;
-      for (const std::string& word : wordsOf(hand_.matrixName(m))) wanted += word + " ";
-      if (letters == wanted && !wanted.empty() && placesOf(group, layout, m)) named = &group;
+      const auto words = wordsOf(columns_[group.columns.front()].name);
+      if (!words.empty() && words == wordsOf(hand_.matrixName(m)) && fits(group, m)) named = &group;
     }
     if (named && std::find(parts.begin(), parts.end(), named) == parts.end())
       parts.push_back(named);
@@ -500,39 +668,199 @@ PlannedSeries Planner::foundFrames() {
     parts.clear();
     for (const ColumnGroup& group : groups)
       for (std::size_t m = 0; m < layout.numMatrices(); ++m)
-        if (placesOf(group, layout, m)) {
+        if (fits(group, m)) {
           parts.push_back(&group);
           break;
         }
   }
-  if (parts.size() == layout.numMatrices()) {
-    bool fits = true;
-    for (std::size_t m = 0; m < parts.size(); ++m)
-      fits = fits && placesOf(*parts[m], layout, m).has_value();
-    if (fits) {
-      for (std::size_t m = 0; m < parts.size(); ++m)
-        take(hand_.matrixName(m), parts[m]->elements, *placesOf(*parts[m], layout, m));
-      return series;
-    }
+  if (parts.size() != layout.numMatrices()) return false;
+  for (std::size_t m = 0; m < parts.size(); ++m)
+    if (!fits(*parts[m], m)) return false;
+  for (std::size_t m = 0; m < parts.size(); ++m)
+    takeGroup(series, hand_.matrixName(m), *parts[m], m, isOpposite);
+  return true;
+}
+
+// What the first numbers of the rows tell of a number within them.
+Planner::Counting Planner::countingOf(std::size_t column, std::size_t within) {
+  constexpr std::size_t kFewestCounts = 3;
+  const std::vector<double> values = sampleValues(column, within);
+  Counting found{values.size() > 1, values.size() >= kFewestCounts};
+  if (found.isRowNumber) found.isRowNumber = values[0] == 0.0 || values[0] == 1.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    found.ascends = found.ascends && values[i] > values[i - 1];
+    found.isRowNumber = found.isRowNumber && values[i] == values[i - 1] + 1.0;
   }
-  // All numbers in their order: one array, or all columns of a text.
-  const auto inOrder = [&](const std::vector<TableElement>& elements) {
-    const auto places = placesInOrder(elements.size(), layout, std::nullopt, false);
-    if (places) take(all + ", in order", elements, *places);
-    return places.has_value();
+  return found;
+}
+
+// Whether a first number more than the taxels is none of them: the time, or the number of the row.
+bool Planner::leaveOutFirst(PlannedSeries& series, std::size_t column, bool isArray) {
+  const std::string name = shortened(columns_[column].name) + (isArray ? "[0]" : "");
+  const Counting counting = countingOf(column, 0);
+  if (!counting.ascends) return false;
+  if (counting.isRowNumber) {
+    rowNumber_ = name;
+    plan_.notes.push_back(name + " counts the rows; not used");
+    return true;
+  }
+  const bool hasTime =
+      time_ || std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& each) {
+        return timeScore(each, Kind::kFrames) > 0;
+      });
+  if (hasTime || mapping_.time.column == kNoColumns) return false;
+  if (mapping_.time.rateHz) {
+    plan_.notes.push_back(name + " ascends; not used, since the rate is given");
+    return true;
+  }
+  series.time = time_ = column;
+  if (isArray) series.timeWithin = 0;
+  plan_.notes.push_back(name + " ascends and is taken for the time");
+  return true;
+}
+
+// All numbers in their order: of all columns of a text, whose names say nothing else.
+bool Planner::takeColumnsInOrder(PlannedSeries& series, const std::vector<ColumnGroup>& groups) {
+  std::vector<std::size_t> all;
+  for (const ColumnGroup& group : groups) {
+    if (numVaryingIndices(group) > 1) return false;
+    all.insert(all.end(), group.columns.begin(), group.columns.end());
+  }
+  std::sort(all.begin(), all.end());
+  if (all.empty() ||
+      !std::all_of(all.begin(), all.end(), [&](std::size_t c) { return isScalar(columns_[c]); }))
+    return false;
+  const auto fits = [&](std::size_t count) {
+    return placesInOrder(count, *hand_.layout, std::nullopt, false);
   };
-  bool isText = !usable.empty();
+  if (!fits(all.size()) && fits(all.size() - 1) && leaveOutFirst(series, all.front(), false))
+    all.erase(all.begin());
+  const auto places = fits(all.size());
+  if (!places) return false;
   std::vector<TableElement> elements;
-  for (const std::size_t c : usable) {
-    isText = isText && isScalar(columns_[c]);
-    elements.push_back({c, 0, {}});
+  for (const std::size_t c : all) elements.push_back({c, 0, {}});
+  take(series, allName() + ", in order", elements, *places);
+  return true;
+}
+
+// The same of one array: of numbers in a row, or of the rows of all matrices.
+bool Planner::takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group) {
+  if (group.columns.size() != 1) return false;
+  const SensorLayout& layout = *hand_.layout;
+  const bool isRow = numVaryingIndices(group) <= 1;
+  if (!isRow && !isStack(group, layout)) return false;
+  std::vector<TableElement> elements = group.elements;
+  auto places = placesInOrder(elements.size(), layout, std::nullopt, false);
+  const bool oneMore = isRow && elements.size() > 1 &&
+                       placesInOrder(elements.size() - 1, layout, std::nullopt, false);
+  if (!places && oneMore && leaveOutFirst(series, group.columns.front(), true)) {
+    elements.erase(elements.begin());
+    places = placesInOrder(elements.size(), layout, std::nullopt, false);
   }
-  if (isText && inOrder(elements)) return series;
+  if (!places) return false;
+  take(series, allName() + ", in order", elements, *places);
+  return true;
+}
+
+PlannedSeries Planner::foundFrames() {
+  PlannedSeries series;
+  series.file = source_.path();
+  const std::vector<ColumnGroup> groups = groupColumns(columns_, candidates());
+  for (const bool isOpposite : {false, true})
+    if (takeWhole(series, groups, isOpposite) || takeParts(series, groups, isOpposite))
+      return series;
+  if (takeColumnsInOrder(series, groups)) return series;
   for (const ColumnGroup& group : groups)
-    if (group.columns.size() == 1 && inOrder(group.elements)) return series;
+    if (takeArrayInOrder(series, group)) return series;
+  const SensorLayout& layout = *hand_.layout;
   refuse("no columns fit the hand " + inQuotes(hand_.name) + ", which has " + shapeText(layout) +
          " (expected are so many columns, or arrays of rows x " + matrixShape(layout.matrix(0)) +
-         "); the file has " + namesText(columns_) + "; choose the columns of each matrix");
+         "); the file has " + namesText(columns_) + unusableText() +
+         "; choose the columns of each matrix (--matrix)");
+}
+
+// Whether frames can be found when the rows of the arrays are as they are now.
+bool Planner::anyFrames() const {
+  const SensorLayout& layout = *hand_.layout;
+  if (!mapping_.matrices.empty())
+    return std::all_of(
+        mapping_.matrices.begin(), mapping_.matrices.end(), [&](const MatrixMapping& wanted) {
+          const ChosenElements chosen = chooseElements(columns_, wanted.columns);
+          return !chosen.letters.empty() ||
+                 placesInOrder(chosen.elements.size(), layout, wanted.matrix, false);
+        });
+  std::vector<std::size_t> narrow = candidates();
+  std::erase_if(narrow, [&](std::size_t c) { return columns_[c].width() > layout.numCells(); });
+  const std::vector<ColumnGroup> groups = groupColumns(columns_, narrow);
+  return std::any_of(groups.begin(), groups.end(), [&](const ColumnGroup& group) {
+    for (const IndexOrder order : {IndexOrder::kRowColumn, IndexOrder::kColumnRow}) {
+      if (placesOf(group, layout, std::nullopt, order)) return true;
+      for (std::size_t m = 0; m < layout.numMatrices() && layout.numMatrices() > 1; ++m)
+        if (placesOf(group, layout, m, order)) return true;
+    }
+    return false;
+  });
+}
+
+// Where all arrays share their last size, frames may be there: MATLAB's pad(frames, rows, columns),
+// NumPy's rows x columns x frames. The axes are reversed where the hand fits only then.
+void Planner::findFrameAxis() {
+  std::set<std::uint64_t> firsts;
+  std::set<std::uint64_t> lasts;
+  std::vector<std::size_t> arrays;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const TableColumn& column = columns_[c];
+    std::uint64_t numbers = 0;
+    if (!column.numRows || !column.isNumeric ||
+        __builtin_mul_overflow(*column.numRows, column.width(), &numbers) || numbers <= 1)
+      continue;
+    arrays.push_back(c);
+    firsts.insert(*column.numRows);
+    lasts.insert(column.shape.empty() ? *column.numRows : column.shape.back());
+  }
+  const auto reverse = [&] {
+    for (const std::size_t c : arrays) source_.reverseAxes(c);
+    isReversed_ = !isReversed_;
+  };
+  if (lasts.size() != 1 || lasts == firsts || *lasts.begin() == 1) return;
+  const bool fits = anyFrames();
+  if (fits && !mapping_.matrices.empty()) return;
+  reverse();
+  const bool fitsReversed = anyFrames();
+  const bool isSure = firsts.size() > 1;
+  if (fits && fitsReversed && !isSure)
+    refuse(
+        "the frames may be the first or the last axis of the arrays: choose the first by "
+        "--matrix NAME, or save them with the frames first");
+  if (fitsReversed)
+    plan_.notes.push_back("the last axis of the arrays, of " + std::to_string(*lasts.begin()) +
+                          ", is taken for the frames");
+  else
+    reverse();
+}
+
+// A vector of MATLAB is an array of one row or one column.
+void Planner::straightenTimes() {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const TableColumn& column = columns_[c];
+    if (column.isNumeric && column.numRows == 1 && column.shape.size() == 1 &&
+        (namesTime(column) || column.name == mapping_.time.column))
+      source_.reverseAxes(c);
+  }
+}
+
+// Why columns of the file hold no numbers, for a message.
+std::string Planner::unusableText() const {
+  constexpr std::size_t kShown = 6;
+  std::string text;
+  std::size_t count = 0;
+  for (const TableColumn& column : columns_) {
+    if ((column.isNumeric && column.type != "bool") || column.hasDates) continue;
+    if (++count > kShown) continue;
+    text += (count > 1 ? ", " : "; no numbers: ") + shortened(column.name) + " (" +
+            whyNoNumbers(column) + ")";
+  }
+  return text + (count > kShown ? " and " + std::to_string(count - kShown) + " more" : "");
 }
 
 PlannedSeries Planner::frames() {
@@ -545,6 +873,7 @@ PlannedSeries Planner::frames() {
              std::to_string(*columns_[series.columns.front()].numRows));
   findTime(series, mapping_.time.column);
   time_ = series.time;
+  timeWithin_ = series.timeWithin;
   return series;
 }
 
@@ -555,7 +884,23 @@ std::optional<PlannedSeries> Planner::onlySamples(Kind kind) {
   return series;
 }
 
+// Names the columns that nothing is made of, but for those about the others ("m0_active", "meta").
+void Planner::noteUnused() {
+  std::set<std::size_t> used;
+  for (const PlannedSeries& series : plan_.series) {
+    used.insert(series.columns.begin(), series.columns.end());
+    if (series.time) used.insert(*series.time);
+  }
+  std::vector<TableColumn> unused;
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    if (!used.contains(c) && !hasWord(columns_[c], {"active", "mask", "meta"}))
+      unused.push_back(columns_[c]);
+  if (!unused.empty()) plan_.notes.push_back("not used: " + namesText(unused));
+}
+
 ImportPlan Planner::plan() {
+  findFrameAxis();
+  straightenTimes();
   // A column of times that the mapping names is none of the taxels.
   for (std::size_t c = 0; c < columns_.size(); ++c)
     if (!mapping_.time.column.empty() && (columns_[c].name == mapping_.time.column ||
@@ -571,6 +916,7 @@ ImportPlan Planner::plan() {
     if (!columns_[series.columns.front()].numRows && own.empty()) {
       // The rows of a text have one time.
       series.time = taxels.time;
+      series.timeWithin = taxels.timeWithin;
       series.timeUnit = taxels.timeUnit;
     } else {
       findTime(series, own);
@@ -590,6 +936,7 @@ ImportPlan Planner::plan() {
   }
   if (mapping_.time.rateHz)
     plan_.timeDescription = "rows at equal intervals, " + numberText(*mapping_.time.rateHz) + " Hz";
+  noteUnused();
   return std::move(plan_);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
@@ -29,18 +30,22 @@ ImportRows::ImportRows(const HandDescription& hand,
       sink_(std::move(sink)),
       frame_(hand.layout) {
   report_.notes = plan.notes;
+  for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
+    for (const std::uint8_t isTaxel : hand.layout->matrix(m).staticMask)
+      maximum_.push_back(isTaxel != 0 ? hand.maximumOf(m) : -1.0F);
 }
 
 std::vector<ImportRows::Pass> ImportRows::passes() const {
   std::vector<Pass> passes;
   for (const PlannedSeries& series : plan_.series) {
     const auto same = std::find_if(passes.begin(), passes.end(), [&](const Pass& pass) {
-      return pass.series.front()->file == series.file && pass.time == series.time;
+      return pass.first().file == series.file && pass.first().time == series.time &&
+             pass.first().timeWithin == series.timeWithin;
     });
     if (same != passes.end())
       same->series.push_back(&series);
     else
-      passes.push_back({{&series}, series.time, series.timeUnit});
+      passes.push_back({{&series}});
   }
   return passes;
 }
@@ -54,8 +59,8 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
     };
     lastUs_.reset();
     rowIndex_ = 0;
-    if (all[i].series.front()->file != source.path()) {
-      const auto beside = openTable(all[i].series.front()->file, mapping_.text);
+    if (all[i].first().file != source.path()) {
+      const auto beside = openTable(all[i].first().file, mapping_.text);
       runPass(*beside, all[i], mostRows, part);
     } else if (plan_.isTaxelList) {
       runTaxelList(source, all[i], mostRows, part);
@@ -63,6 +68,7 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
       runPass(source, all[i], mostRows, part);
     }
     report_.counterRestarts += timeReader_ ? timeReader_->numRestarts() : 0;
+    if (all[i].first().kind == PlannedSeries::Kind::kFrames) noteRows(source);
   }
   if (report_.frames > 1) {
     report_.durationS = static_cast<double>(lastFrameUs_ - *firstUs_) / kUsPerS;
@@ -80,6 +86,14 @@ void ImportRows::refuse(const TableSource& source,
   ++counter;
 }
 
+// What is known of the times and the end of the table when the frames were read.
+void ImportRows::noteRows(const TableSource& source) {
+  if (timeReader_ && timeReader_->assumedUtc())
+    report_.notes.push_back("time: the dates have no offset and are taken as UTC");
+  const std::string end = atEnd_ ? source.endNote() : "";
+  if (!end.empty()) report_.notes.push_back(end);
+}
+
 // The time of a row; nothing when it was refused.
 std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const TableRow& row) {
   std::optional<std::int64_t> us;
@@ -93,7 +107,7 @@ std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const 
     RefusedRows& refused = report_.refused;
     if (row.time.state == CellState::kEmpty)
       refuse(source, row, refused.missing, ": the time is missing");
-    else if (row.time.state == CellState::kNotFinite || isNotFiniteWord(row.time.text))
+    else if (row.time.state == CellState::kNotFinite || notFiniteValue(row.time.text))
       refuse(source, row, refused.notFinite, ": the time is not finite");
     else
       refuse(source,
@@ -114,17 +128,22 @@ std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const 
   return us;
 }
 
-// Whether the numbers of a series can be used, or it has none in this row (isThere).
+// Whether the numbers of a series can be used, or it has none in this row (isThere). Places without
+// a taxel are not looked at.
 bool ImportRows::examine(const TableSource& source,
                          const PlannedSeries& series,
                          const TableRow& row,
                          std::size_t begin,
                          bool& isThere) {
+  const bool areTaxels = series.kind == PlannedSeries::Kind::kFrames && !plan_.isTaxelList;
   std::size_t numbers = 0;
   std::size_t used = 0;
   std::optional<std::size_t> empty;
+  std::optional<std::size_t> notANumber;  // the first one
+  std::size_t numNotANumber = 0;
   for (std::size_t i = 0; i < series.values.size(); ++i) {
-    if (!series.values[i].target) continue;
+    const auto target = series.values[i].target;
+    if (!target || (areTaxels && maximum_[*target] < 0.0F)) continue;
     ++used;
     const std::size_t at = begin + i;
     const auto fail = [&](std::uint64_t& counter, const char* what) {
@@ -141,12 +160,24 @@ bool ImportRows::examine(const TableSource& source,
         if (!empty) empty = at;
         break;
       case CellState::kNotFinite:
-        return fail(report_.refused.notFinite, ", not finite or too large");
+        if (!areTaxels || strict_ || !std::isnan(row.values[at]))
+          return fail(report_.refused.notFinite, ", not finite or too large");
+        ++numbers;
+        notANumber = notANumber.value_or(at);
+        ++numNotANumber;
+        break;
       case CellState::kText:
         return fail(report_.refused.text, " is not a number");
     }
   }
   isThere = numbers > 0;
+  if (isThere && numbers == numNotANumber) {
+    refuse(source,
+           row,
+           report_.refused.notFinite,
+           ", " + source.placeOf(*notANumber) + ", not finite");
+    return false;
+  }
   if (numbers == 0 || numbers == used) return true;
   refuse(source, row, report_.refused.missing, ", " + source.placeOf(*empty));
   return false;
@@ -165,7 +196,36 @@ void ImportRows::addFrame(std::int64_t us) {
   if (sink_.frame) sink_.frame(frame_);
 }
 
-void ImportRows::add(const PlannedSeries& series,
+// The value of a taxel in a recording; counts what the hand doesn't have.
+float ImportRows::taxelValue(const TableSource& source,
+                             const TableRow& row,
+                             std::size_t place,
+                             double value) {
+  const auto taken = static_cast<float>(value);
+  OutsideValues& outside = report_.outside;
+  if (std::isnan(value))
+    ++outside.notANumber;
+  else if (taken < 0.0F)
+    ++outside.below;
+  else if (taken > maximum_[place])
+    ++outside.above;
+  else
+    return taken;
+  if (outside.first.empty()) {
+    std::size_t m = 0;
+    while (place >= hand_.layout->offset(m) + hand_.layout->matrix(m).numCells()) ++m;
+    const std::size_t cell = place - hand_.layout->offset(m);
+    const auto width = static_cast<std::size_t>(hand_.layout->matrix(m).columns);
+    outside.first = source.rowWord() + (" " + std::to_string(row.line)) + ", " +
+                    hand_.matrixName(m) + ", row " + std::to_string(cell / width) + ", column " +
+                    std::to_string(cell % width) + ": " + numberText(value) + ", not in 0.." +
+                    numberText(maximum_[place]);
+  }
+  return std::isnan(value) ? 0.0F : taken;
+}
+
+void ImportRows::add(const TableSource& source,
+                     const PlannedSeries& series,
                      std::int64_t us,
                      const TableRow& row,
                      std::size_t begin) {
@@ -173,17 +233,10 @@ void ImportRows::add(const PlannedSeries& series,
     return row.values[begin + i] * series.values[i].scale + series.values[i].offset;
   };
   if (series.kind == PlannedSeries::Kind::kFrames) {
-    const SensorLayout& layout = *hand_.layout;
     std::fill(frame_.values.begin(), frame_.values.end(), 0.0F);
     for (std::size_t i = 0; i < series.values.size(); ++i)
-      if (series.values[i].target)
-        frame_.values[*series.values[i].target] = static_cast<float>(valueAt(i));
-    // Places without a taxel hold 0.
-    for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
-      const Mask& mask = layout.matrix(m).staticMask;
-      for (std::size_t k = 0; k < mask.size(); ++k)
-        if (mask[k] == 0) frame_.values[layout.offset(m) + k] = 0.0F;
-    }
+      if (const auto place = series.values[i].target; place && maximum_[*place] >= 0.0F)
+        frame_.values[*place] = taxelValue(source, row, *place, valueAt(i));
     return addFrame(us);
   }
   const bool isAngles = series.kind == PlannedSeries::Kind::kAngles;
@@ -195,31 +248,76 @@ void ImportRows::add(const PlannedSeries& series,
   if (!isAngles && sink_.temperatures) sink_.temperatures({us, sample_});
 }
 
-// False when the row was refused.
-bool ImportRows::takeRow(TableSource& source, const Pass& pass, const TableRow& row) {
+bool ImportRows::examineAll(const TableSource& source, const Pass& pass, const TableRow& row) {
+  std::size_t begin = 0;
+  isThere_.clear();
+  for (const PlannedSeries* series : pass.series) {
+    bool isThere = false;
+    if (!examine(source, *series, row, begin, isThere)) return false;
+    isThere_.push_back(isThere);
+    begin += series->values.size();
+  }
+  return true;
+}
+
+void ImportRows::addAll(const TableSource& source,
+                        const Pass& pass,
+                        std::int64_t us,
+                        const TableRow& row) {
+  lastUs_ = us;
+  if (timeReader_) timeReader_->keep();
+  std::size_t begin = 0;
+  for (std::size_t s = 0; s < pass.series.size(); ++s) {
+    if (isThere_[s]) add(source, *pass.series[s], us, row, begin);
+    begin += pass.series[s]->values.size();
+  }
+}
+
+// Whether the row waits for the next one, which tells whether a counter started again.
+bool ImportRows::wait(const TableSource& source, const Pass& pass, const TableRow& row) {
+  const auto whole = timeReader_ ? timeReader_->wholeOf(row.time) : std::nullopt;
+  if (!whole || !timeReader_->mayRestart(*whole)) return false;
+  if (examineAll(source, pass, row))
+    waiting_ = WaitingRow{row, std::string(row.time.text), *whole, isThere_};
+  return true;
+}
+
+// Takes or refuses the row that waits, by the time of the next row (null: there is none).
+void ImportRows::finishWaiting(const TableSource& source, const Pass& pass, const TimeCell* next) {
+  if (!waiting_) return;
+  const auto nextWhole = next ? timeReader_->wholeOf(*next) : std::nullopt;
+  if (next && !nextWhole) return;
+  WaitingRow waited = *std::exchange(waiting_, std::nullopt);
+  waited.row.time.text = waited.time;
+  isThere_ = waited.isThere;
+  if (nextWhole && TimeReader::goesOnFrom(waited.whole, *nextWhole)) timeReader_->restart();
+  if (const auto us = timeOf(source, waited.row)) addAll(source, pass, *us, waited.row);
+}
+
+void ImportRows::takeRow(TableSource& source, const Pass& pass, const TableRow& row) {
   if (!row.complete) {
     refuse(source,
            row,
            report_.refused.wrongCount,
            " has " + counted(row.numCells, "cell") + " instead of " +
                std::to_string(source.columns().size()));
-    return false;
+    return;
   }
+  finishWaiting(source, pass, &row.time);
+  if (wait(source, pass, row)) return;
   const auto us = timeOf(source, row);
-  if (!us) return false;
-  std::vector<std::size_t> there;
-  std::vector<std::size_t> begins;
-  std::size_t begin = 0;
-  for (std::size_t s = 0; s < pass.series.size(); ++s) {
-    bool isThere = false;
-    if (!examine(source, *pass.series[s], row, begin, isThere)) return false;
-    if (isThere) there.push_back(s);
-    begins.push_back(begin);
-    begin += pass.series[s]->values.size();
-  }
-  lastUs_ = us;
-  for (const std::size_t s : there) add(*pass.series[s], *us, row, begins[s]);
-  return true;
+  if (us && examineAll(source, pass, row)) addAll(source, pass, *us, row);
+}
+
+// Puts the time in its place where it is a number of the array.
+void ImportRows::findTimeWithin(const Pass& pass, TableRow& row) {
+  if (!pass.first().timeWithin) return;
+  constexpr double kLargestExact = 9007199254740992.0;  // 2^53
+  const double number = row.values[*pass.first().timeWithin];
+  row.time = {.state = std::isfinite(number) ? CellState::kNumber : CellState::kNotFinite,
+              .number = number};
+  if (number == std::floor(number) && std::abs(number) < kLargestExact)
+    row.time.whole = static_cast<std::int64_t>(number);
 }
 
 void ImportRows::runPass(TableSource& source,
@@ -230,16 +328,19 @@ void ImportRows::runPass(TableSource& source,
   for (const PlannedSeries* series : pass.series)
     columns.insert(columns.end(), series->columns.begin(), series->columns.end());
   timeReader_.reset();
-  if (pass.time) timeReader_.emplace(pass.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
-  source.start(columns, pass.time);
-  const bool hasFrames = pass.series.front()->kind == PlannedSeries::Kind::kFrames;
+  const PlannedSeries& first = pass.first();
+  if (first.time) timeReader_.emplace(first.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
+  source.start(columns, first.timeWithin ? std::nullopt : first.time);
+  const bool hasFrames = first.kind == PlannedSeries::Kind::kFrames;
   TableRow row;
   for (; rowIndex_ < mostRows && source.next(row); ++rowIndex_) {
     if (progress && rowIndex_ % kRowsPerReport == 0 && !progress(source.fraction()))
       throw Cancelled();
     if (hasFrames) ++report_.rows;
+    findTimeWithin(pass, row);
     takeRow(source, pass, row);
   }
+  finishWaiting(source, pass, nullptr);
   if (rowIndex_ == mostRows && source.next(row)) atEnd_ = false;
 }
 
@@ -274,6 +375,7 @@ void ImportRows::takeTaxel(const TableSource& source, const TableRow& row, std::
     listedFrame_ = frame;
     listedUs_ = us;
     lastUs_ = us;
+    timeReader_->keep();
   }
   const SensorLayout& layout = *hand_.layout;
   const auto m = static_cast<std::size_t>(whole(1));
@@ -284,17 +386,18 @@ void ImportRows::takeTaxel(const TableSource& source, const TableRow& row, std::
                       "line " + std::to_string(row.line) + ": matrix " + std::to_string(m) +
                           ", row " + std::to_string(y) + ", column " + std::to_string(x) +
                           " is outside of the hand, which has " + shapeText(layout));
-  frame_.values[layout.offset(m) + static_cast<std::size_t>(y * layout.matrix(m).columns + x)] =
-      static_cast<float>(row.values[4]);
+  const std::size_t place =
+      layout.offset(m) + static_cast<std::size_t>(y * layout.matrix(m).columns + x);
+  if (maximum_[place] >= 0.0F) frame_.values[place] = taxelValue(source, row, place, row.values[4]);
 }
 
 void ImportRows::runTaxelList(TableSource& source,
                               const Pass& pass,
                               std::uint64_t mostRows,
                               const Progress& progress) {
-  timeReader_.emplace(pass.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
-  source.start(pass.series.front()->columns, pass.time);
-  PlannedSeries all = *pass.series.front();
+  timeReader_.emplace(pass.first().timeUnit, mapping_.time.startUs, mapping_.text.decimal);
+  source.start(pass.first().columns, pass.first().time);
+  PlannedSeries all = pass.first();
   for (PlannedValue& value : all.values) value.target = 0;  // each number is needed
   TableRow row;
   for (; rowIndex_ < mostRows && source.next(row); ++rowIndex_) {

@@ -40,8 +40,14 @@ class ImportRows {
   // Series that are read together: of one table, at the same times.
   struct Pass {
     std::vector<const PlannedSeries*> series;
-    std::optional<std::size_t> time;
-    TimeUnit timeUnit = TimeUnit::kSeconds;
+    const PlannedSeries& first() const { return *series.front(); }
+  };
+  // A row with which a counter may have started again: the next one tells.
+  struct WaitingRow {
+    TableRow row;
+    std::string time;
+    std::int64_t whole = 0;
+    std::vector<bool> isThere;  // the series
   };
   std::vector<Pass> passes() const;
   void runPass(TableSource& source,
@@ -52,14 +58,25 @@ class ImportRows {
                     const Pass& pass,
                     std::uint64_t mostRows,
                     const Progress& progress);
-  bool takeRow(TableSource& source, const Pass& pass, const TableRow& row);
+  void takeRow(TableSource& source, const Pass& pass, const TableRow& row);
+  bool examineAll(const TableSource& source, const Pass& pass, const TableRow& row);
+  void addAll(const TableSource& source, const Pass& pass, std::int64_t us, const TableRow& row);
+  static void findTimeWithin(const Pass& pass, TableRow& row);
+  bool wait(const TableSource& source, const Pass& pass, const TableRow& row);
+  void finishWaiting(const TableSource& source, const Pass& pass, const TimeCell* next);
+  void noteRows(const TableSource& source);
   std::optional<std::int64_t> timeOf(const TableSource& source, const TableRow& row);
   bool examine(const TableSource& source,
                const PlannedSeries& series,
                const TableRow& row,
                std::size_t begin,
                bool& isThere);
-  void add(const PlannedSeries& series, std::int64_t us, const TableRow& row, std::size_t begin);
+  void add(const TableSource& source,
+           const PlannedSeries& series,
+           std::int64_t us,
+           const TableRow& row,
+           std::size_t begin);
+  float taxelValue(const TableSource& source, const TableRow& row, std::size_t place, double value);
   void addFrame(std::int64_t us);
   void countAbsent(const TableRow& row);
   void takeTaxel(const TableSource& source, const TableRow& row, std::int64_t us);
@@ -77,6 +94,7 @@ class ImportRows {
   ImportReport report_;
   bool atEnd_ = true;
   TactileFrame frame_;
+  std::vector<float> maximum_;  // of each place; below 0: it has no taxel
   std::vector<double> sample_;
   GapDetector gaps_;
   std::optional<std::int64_t> firstUs_;  // of the frames
@@ -84,6 +102,8 @@ class ImportRows {
   // Of the pass that runs.
   std::optional<TimeReader> timeReader_;
   std::optional<std::int64_t> lastUs_;
+  std::optional<WaitingRow> waiting_;
+  std::vector<bool> isThere_;  // the series in the examined row
   std::uint64_t rowIndex_ = 0;
   // Of the frame of a list of taxels that is being read.
   std::optional<std::int64_t> listedFrame_;

@@ -15,6 +15,9 @@ namespace palpate {
 namespace {
 
 constexpr double kLargestUs = 1e18;  // what a recording can hold
+constexpr std::int64_t kCounterTurn = std::int64_t{1} << 32;
+// How near to its turn a counter is when it starts again.
+constexpr std::int64_t kNearTurn = kCounterTurn / 20;
 
 std::optional<int> digitsAt(std::string_view text, std::size_t at, std::size_t count) {
   if (at + count > text.size()) return std::nullopt;
@@ -112,7 +115,8 @@ std::optional<TimeUnit> timeUnitNamed(std::string_view name) {
   return std::nullopt;
 }
 
-std::optional<std::int64_t> parseDate(std::string_view text) {
+std::optional<std::int64_t> parseDate(std::string_view text, bool* hasOffset) {
+  if (hasOffset) *hasOffset = false;
   constexpr int kEarliestYear = 1900;
   constexpr int kLatestYear = 2200;
   const auto year = digitsAt(text, 0, 4);
@@ -134,6 +138,7 @@ std::optional<std::int64_t> parseDate(std::string_view text) {
   if (!within) return std::nullopt;
   const auto zone = zoneUs(text, at);
   if (!zone) return std::nullopt;
+  if (hasOffset) *hasOffset = at < text.size();
   return days * kUsPerDay + *within - *zone;
 }
 
@@ -149,16 +154,29 @@ TimeUnit guessTimeUnit(double value, bool isWhole) {
 TimeReader::TimeReader(TimeUnit unit, std::optional<std::int64_t> startUs, char decimal)
     : unit_(unit), startUs_(startUs), decimal_(decimal) {}
 
-std::optional<std::int64_t> TimeReader::usOfWhole(std::int64_t value) {
-  constexpr std::int64_t kTurn = std::int64_t{1} << 32;
-  const bool isCounter = (unit_ == TimeUnit::kMilliseconds || unit_ == TimeUnit::kMicroseconds) &&
-                         value >= 0 && lastWhole_ < kTurn;
-  if (isCounter && lastWhole_ - value > kTurn / 2) {
-    base_ += kTurn;
-    ++restarts_;
-  }
-  lastWhole_ = value;
-  const std::int64_t total = value + base_;
+bool TimeReader::mayRestart(std::int64_t whole) const noexcept {
+  const bool isCounter = unit_ == TimeUnit::kMilliseconds || unit_ == TimeUnit::kMicroseconds;
+  return isCounter && whole >= 0 && whole < kNearTurn && keptWhole_ &&
+         *keptWhole_ >= kCounterTurn - kNearTurn && *keptWhole_ < kCounterTurn;
+}
+
+bool TimeReader::goesOnFrom(std::int64_t whole, std::int64_t next) noexcept {
+  return next > whole && next < whole + kNearTurn;
+}
+
+void TimeReader::restart() noexcept {
+  base_ += kCounterTurn;
+  ++restarts_;
+}
+
+std::optional<std::int64_t> TimeReader::wholeOf(const TimeCell& cell) const {
+  if (unit_ == TimeUnit::kDate) return std::nullopt;
+  return cell.state == CellState::kText ? parseInteger(cell.text) : cell.whole;
+}
+
+std::optional<std::int64_t> TimeReader::usOfWhole(std::int64_t value) const {
+  std::int64_t total = 0;
+  if (__builtin_add_overflow(value, base_, &total)) return std::nullopt;
   constexpr std::array<std::int64_t, 3> kUsPerUnit = {1'000'000, 1000, 1};
   if (unit_ == TimeUnit::kNanoseconds)  // rounded to the nearest, also before 1970
     return total / 1000 + (total % 1000 >= 500 ? 1 : 0) - (total % 1000 <= -500 ? 1 : 0);
@@ -170,22 +188,19 @@ std::optional<std::int64_t> TimeReader::usOfWhole(std::int64_t value) {
 
 std::optional<std::int64_t> TimeReader::us(const TimeCell& cell) {
   std::optional<std::int64_t> us;
-  std::optional<std::int64_t> whole = cell.whole;
+  lastWhole_ = wholeOf(cell);
   std::optional<double> number;
-  if (cell.state == CellState::kText) {
-    if (unit_ == TimeUnit::kDate) {
-      us = parseDate(trimmedCell(cell.text));
-    } else {
-      whole = parseInteger(cell.text);
-      if (!whole) number = cellNumber(cell.text, decimal_);
-    }
-  } else if (cell.state == CellState::kNumber && !whole) {
+  if (cell.state == CellState::kNumber)
     number = cell.number;
-  }
+  else if (cell.state == CellState::kText)
+    number = cellNumber(cell.text, decimal_);
   if (unit_ == TimeUnit::kDate) {
-    if (cell.state != CellState::kText) us = whole;  // datetime64: microseconds already
-  } else if (whole) {
-    us = usOfWhole(*whole);
+    bool hasOffset = false;
+    const bool isText = cell.state == CellState::kText;
+    us = isText ? parseDate(trimmedCell(cell.text), &hasOffset) : cell.whole;  // of datetime64
+    assumedUtc_ = assumedUtc_ || (us && !hasOffset);
+  } else if (lastWhole_) {
+    us = usOfWhole(*lastWhole_);
   } else if (number) {
     constexpr std::array<double, 4> kUsPerUnit = {1e6, 1e3, 1.0, 1e-3};
     const double value = *number * kUsPerUnit[static_cast<std::size_t>(unit_)];

@@ -30,6 +30,7 @@ void LineReader::restart() {
   buffer_.clear();
   begin_ = 0;
   ended_ = false;
+  endsWithinLine_ = false;
   number_ = 0;
 }
 
@@ -68,6 +69,7 @@ bool LineReader::next(std::string_view& line) {
     if (!fill()) {
       if (waiting == 0) return false;
       end = buffer_.size();
+      endsWithinLine_ = true;
       break;
     }
     searched = waiting;

@@ -18,6 +18,8 @@ class LineReader {
   // the next call. Throws FileError, FormatError (longer than kMaxLineBytes, a byte 0).
   bool next(std::string_view& line);
   std::uint64_t number() const noexcept { return number_; }  // of the last line, from 1
+  // Whether the file ends within the last line, without a line end.
+  bool endsWithinLine() const noexcept { return endsWithinLine_; }
   double fraction() const noexcept;
   void restart();
 
@@ -31,6 +33,7 @@ class LineReader {
   std::string buffer_;
   std::size_t begin_ = 0;  // of what is not yet given out
   bool ended_ = false;
+  bool endsWithinLine_ = false;
   std::uint64_t number_ = 0;
 };
 

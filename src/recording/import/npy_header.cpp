@@ -160,9 +160,18 @@ std::string NpyHeader::typeName() const {
     case NumberKind::kOther:
       break;
   }
-  return type.empty()                                            ? "structure"
-         : type.size() > 1 && (type[1] == 'U' || type[1] == 'S') ? "text"
-                                                                 : type;
+  if (type.empty()) return "structure";
+  switch (type.size() > 1 ? type[1] : '\0') {
+    case 'U':
+    case 'S':
+      return "text";
+    case 'O':
+      return "Python objects";
+    case 'c':
+      return "complex";
+    default:
+      return type;
+  }
 }
 
 std::optional<std::size_t> npyHeaderBytes(std::span<const std::byte> bytes) {

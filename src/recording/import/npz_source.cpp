@@ -165,19 +165,22 @@ void NpzSource::addColumn(const std::string& name, Array array, std::uint64_t av
                         inQuotes(name) +
                             " declares more numbers than it holds: it is cut off, or "
                             "its shape is wrong");
-    std::uint64_t width = 1;
-    for (std::size_t d = 1; d < header.shape.size(); ++d) {
-      column.shape.push_back(static_cast<std::size_t>(header.shape[d]));
-      // A dimension of 0 leaves the others unchecked by the number of bytes.
-      if (__builtin_mul_overflow(width, header.shape[d], &width))
-        throw FormatError(path_, inQuotes(name) + " has too many numbers per row");
-    }
-    if (!header.shape.empty()) column.numRows = header.shape[0];
-    if (width == 0) column.isNumeric = false;
+    // A dimension of 0 leaves the others unchecked by the number of bytes.
+    if (!column.setArrayShape(header.shape))
+      throw FormatError(path_, inQuotes(name) + " has too many numbers per row");
+    if (column.width() == 0) column.isNumeric = false;
   }
-  if (column.isNumeric && column.shape == std::vector<std::size_t>{1}) column.shape.clear();
   columns_.push_back(std::move(column));
   arrays_.push_back(std::move(array));
+}
+
+// The bytes stay where they are: reversed axes are the other order of the array.
+void NpzSource::reverseAxes(std::size_t column) {
+  NpyHeader& header = arrays_[column].header;
+  if (header.shape.size() < 2) return;
+  std::reverse(header.shape.begin(), header.shape.end());
+  header.fortranOrder = !header.fortranOrder;
+  columns_[column].setArrayShape(header.shape);
 }
 
 std::string NpzSource::form() const {

@@ -83,6 +83,30 @@ std::string RefusedRows::summary() const {
   return counted(total(), "row") + " refused: " + parts;
 }
 
+std::string OutsideValues::summary() const {
+  if (total() == 0) return {};
+  std::string parts;
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) parts += (parts.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(above, "above full scale");
+  add(below, "below 0");
+  add(notANumber, "NaN (taken as 0)");
+  return counted(total(), "value") + " outside of the hand's range: " + parts;
+}
+
+std::string ImportReport::lossText() const {
+  std::string text;
+  const auto add = [&](const std::string& summary, const std::string& first) {
+    if (summary.empty()) return;
+    text += (text.empty() ? "" : "; ") + summary + "; the first: " + first;
+  };
+  add(refused.summary(), refused.first);
+  if (refused.notLater > 0) text += "; where times repeat, --rate keeps all rows";
+  add(outside.summary(), outside.first);
+  return text;
+}
+
 ImportReport importRecording(const fs::path& data,
                              const HandDescription& hand,
                              const ImportMapping& mapping,
@@ -134,8 +158,8 @@ ImportPreview previewImport(const fs::path& data,
       preview.choices.insert(
           preview.choices.end(), series.description.begin(), series.description.end());
     preview.time = plan.timeDescription;
-    preview.notes = plan.notes;
     preview.sample = rows.report();
+    preview.notes = preview.sample.notes;
     preview.isWhole = rows.atEnd();
     if (preview.sample.frames == 0)
       preview.problem =

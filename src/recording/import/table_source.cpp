@@ -30,6 +30,17 @@ std::size_t TableColumn::width() const noexcept {
   return numbers;
 }
 
+bool TableColumn::setArrayShape(std::span<const std::uint64_t> sizes) {
+  if (sizes.empty()) return true;
+  numRows = sizes[0];
+  shape.assign(sizes.begin() + 1, sizes.end());
+  std::uint64_t numbers = 1;
+  for (const std::uint64_t size : sizes.subspan(1))
+    if (__builtin_mul_overflow(numbers, size, &numbers)) return false;
+  if (shape == std::vector<std::size_t>{1}) shape.clear();
+  return true;
+}
+
 std::string_view delimiterName(char delimiter) {
   for (const auto& [letter, name] : kDelimiterNames)
     if (letter == delimiter) return name;

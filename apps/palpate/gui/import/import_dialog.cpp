@@ -58,9 +58,7 @@ QString sampleText(const ImportPreview& preview) {
                           QString::fromStdString(counted(sample.frames, "frame")),
                           QString::number(sample.meanRateHz, 'f', 1),
                           QString::fromStdString(counted(sample.gaps, "gap")));
-  if (sample.refused.total() > 0)
-    text += "\n" + QString::fromStdString(sample.refused.summary()) +
-            "; the first: " + QString::fromStdString(sample.refused.first);
+  if (sample.isPartial()) text += "\n" + QString::fromStdString(sample.lossText());
   return text;
 }
 

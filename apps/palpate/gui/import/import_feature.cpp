@@ -47,8 +47,8 @@ void ImportFeature::importNow(const ImportRequest& request) {
           const Progress& progress) { *report = runImport(request, folders, progress); },
       [this, report, request] {
         const QString text = textOf(*report, request.out);
-        // What was refused stays in the banner until it is closed.
-        if (report->refused.total() > 0)
+        // What was lost stays in the banner until it is closed.
+        if (report->isPartial())
           state().messages.fail(text);
         else
           state().messages.flash(text);

@@ -70,9 +70,7 @@ QString textOf(const ImportReport& report, const QString& out) {
   if (report.absentFrames > 0)
     text += ", " + QString::fromStdString(counted(report.absentFrames, "frame")) +
             " without an active taxel are not in the list";
-  if (report.refused.total() > 0)
-    text += ", " + QString::fromStdString(report.refused.summary()) +
-            "; the first: " + QString::fromStdString(report.refused.first);
+  if (report.isPartial()) text += ", " + QString::fromStdString(report.lossText());
   return text;
 }
 
