@@ -392,11 +392,15 @@ std::size_t Planner::finestOf(std::size_t time) {
         nameWithoutUnit(columns_[c].name) != nameWithoutUnit(columns_[time].name) ||
         !sameRows(columns_[c], columns_[time]))
       continue;
-    const auto rows = sampleValues({finest, c});
-    const bool same = !rows.empty() && std::all_of(rows.begin(), rows.end(), [&](const auto& row) {
-      return std::abs(row[0] * coarse - row[1] * fine) < coarse;
-    });
-    if (same) finest = c;
+    const std::vector<double> coarseTimes = sampleValues(finest, 0);
+    const std::vector<double> fineTimes = sampleValues(c, 0);
+    const auto isSame = [&](double a, double b) {
+      return std::abs(a * coarse - b * fine) < coarse;
+    };
+    if (!fineTimes.empty() &&
+        std::equal(
+            coarseTimes.begin(), coarseTimes.end(), fineTimes.begin(), fineTimes.end(), isSame))
+      finest = c;
   }
   return finest;
 }
