@@ -121,6 +121,16 @@ w.close()
   EXPECT_EQ(palpate({"signals", in("a.mcap")}).exitCode, 3);
   EXPECT_EQ(palpate({"recover", in("a.mcap"), in("d.palpate"), "--topic", "/pad"}).exitCode, 3);
   EXPECT_EQ(palpate({"convert", in("a.mcap"), "-o", in("{name}.npz")}).exitCode, 3);
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"derive", in("a.mcap"), "m0_sum"},
+                                             {"calibrate", "tare", in("a.mcap")},
+                                             {"render", in("a.mcap"), "-o", in("a.svg")},
+                                             {"render", in("a.mcap"), "-o", in("{name}.png")}}) {
+    const auto result = palpate(words);
+    EXPECT_EQ(result.exitCode, 3) << words.front() << ": " << result.err;
+    EXPECT_NE(result.err.find("2 values of the topic \"/pad\" are taken as 0"), std::string::npos)
+        << words.front() << ": " << result.err;
+  }
   expectOneLineError(palpate({"convert", in("a.mcap"), in("e.npz"), "--topic", "/camera"}),
                      1,
                      {"\"/camera\" can't be read"});

@@ -73,8 +73,8 @@ TEST(RecordStream, ValuesOverTheFullScaleAreKeptAndTold) {
   }
   const ProgramResult result = recordText(folder, text, smallPad(folder));
   EXPECT_EQ(result.exitCode, 3);
-  EXPECT_NE(result.err.find("36 frames with values that the description of the hand excludes (the "
-                            "last: line 40: value 1 is 9360, not in 0..1023 counts)"),
+  EXPECT_NE(result.err.find("36 frames with values outside the hand's range (the last: line 40: "
+                            "value 1 is 9360, not in 0..1023 counts)"),
             std::string::npos)
       << result.err;
   EXPECT_NE(result.err.find("full_scale in hand.json"), std::string::npos) << result.err;

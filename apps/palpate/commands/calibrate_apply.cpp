@@ -12,6 +12,7 @@
 
 #include "commands/calibrate_commands.h"
 #include "commands/calibrated_frames.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -93,6 +94,7 @@ int calibrateApply(const Arguments& words) {
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openRecording(file, progress.callback());
   progress.wipe();
+  reportOpened(file, profile, given.quiet());
   CalibratedFrames frames(*choice, file, profile);
   // Without the pressures' forces the result is not whole: that is said with --quiet, too.
   const bool noForces = !frames.areaKnown() && !outPath;

@@ -9,6 +9,7 @@
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 
@@ -37,6 +38,7 @@ int calibrateNoise(const Arguments& words) {
   const Profile profile = openRecording(file, progress.callback());
   const NoiseFloor floor = fitNoiseFloor(profile, options, progress.callback());
   progress.wipe();
+  reportOpened(file, profile, given.quiet());
   const auto out = given.text("output");
   const bool xml = out && std::filesystem::path(*out).extension() == ".xml";
   if (xml) {

@@ -15,6 +15,7 @@
 
 #include "commands/calibrate_commands.h"
 #include "commands/hand_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -73,7 +74,10 @@ int calibratePressure(const Arguments& words) {
     ProgressLine line("reading", given.quiet());
     const auto open = [&](const fs::path& file, const Progress& progress) {
       line.setLabel("reading " + file.string());
-      return CalibrationSource{openRecording(file, progress), sha256OfFile(file)};
+      CalibrationSource source{openRecording(file, progress), sha256OfFile(file)};
+      line.wipe();
+      reportOpened(file, source.profile, given.quiet());
+      return source;
     };
     all = collectCalibrationSteps(rows, table.parent_path(), open, gather, line.callback());
   }

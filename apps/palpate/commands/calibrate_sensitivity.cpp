@@ -10,6 +10,7 @@
 
 #include "commands/calibrate_commands.h"
 #include "commands/hand_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -66,6 +67,7 @@ int calibrateSensitivity(const Arguments& words) {
   requireWithinFullScale("threshold", threshold, profile.hand());
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();
+  reportOpened(file, profile, given.quiet());
   const std::size_t n = report.steps.size();
   const std::vector<double> named = sensitivitiesGiven(given, n);
   std::vector<SensitivityPoint> points;

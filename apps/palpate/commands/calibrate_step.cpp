@@ -5,6 +5,7 @@
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 
@@ -46,6 +47,7 @@ int calibrateStep(const Arguments& words) {
   requireMatrix(file, profile.layout().numMatrices(), matrix);
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();
+  reportOpened(file, profile, given.quiet());
   Json json = provenance("step");
   json.set("file", file.string()).set("sha256", sha256OfFile(file));
   const Json found = jsonOf(report);

@@ -11,6 +11,7 @@
 
 #include "commands/calibrate_commands.h"
 #include "commands/hand_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -78,6 +79,7 @@ int calibrateTare(const Arguments& words) {
   requireWithinFullScale("most", options.maxRestCounts, profile.hand());
   const Tare tare = findTare(profile, options, progress.callback());
   progress.wipe();
+  reportOpened(file, profile, given.quiet());
   std::size_t found = 0;
   for (const MatrixTare& matrix : tare.matrices) found += matrix.valid ? 1 : 0;
   if (given.has("apply")) {

@@ -160,7 +160,7 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
   }
   if (words_.size() > spec.maxArguments)
     throw UsageError("'" + words_[spec.maxArguments] +
-                     "' is one word too many; usage: " + inOneLine(spec.synopsis));
+                     "' is one argument too many; usage: " + inOneLine(spec.synopsis));
   if (words_.size() < spec.minArguments) throw UsageError("usage: " + inOneLine(spec.synopsis));
 }
 

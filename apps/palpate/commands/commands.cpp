@@ -16,6 +16,7 @@
 #include "palpate/core/escaped_line.h"
 
 #include "commands/command_line.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -210,7 +211,8 @@ fs::path dataFolder() {
 
 int run(int argc, char** argv, OtherCommands others, NeedsOthers needsOthers) {
   fillClosedStreams();
-  const int code = runCaught({argv + std::min(argc, 1), argv + argc}, others, needsOthers);
+  const int code =
+      partlyDoneAfterLoss(runCaught({argv + std::min(argc, 1), argv + argc}, others, needsOthers));
   // Output that was printed but not written (a full disk, a closed pipe) is a failure.
   std::cout.flush();
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();

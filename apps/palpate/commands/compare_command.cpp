@@ -22,6 +22,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/recording_list.h"
 #include "commands/signal_options.h"
 
 namespace palpate::commands {
@@ -32,7 +33,10 @@ constexpr int kMicroseconds = 6;  // decimals: the resolution of time stamps
 
 TimedProfile opened(const std::string& file, bool quiet) {
   ProgressLine progress("reading " + file, quiet);
-  return timedProfile(openRecording(file, progress.callback()), {}, progress.callback());
+  Profile profile = openRecording(file, progress.callback());
+  progress.wipe();
+  reportOpened(file, profile, quiet);
+  return timedProfile(std::move(profile), {}, progress.callback());
 }
 
 // The grasps of a recording: as a person has corrected them, else those that are found.

@@ -15,6 +15,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -68,8 +69,10 @@ int deriveCommand(const Arguments& words) {
     if (!names.insert(one.name).second)
       throw UsageError("two columns would have the name '" + one.name + "': give another one");
   ProgressLine line("reading " + file, given.quiet());
-  const Profile profile =
-      filteredBy(recipe, openRecording(file, line.callback()), file, line.callback());
+  const Profile recorded = openRecording(file, line.callback());
+  line.wipe();
+  reportOpened(file, recorded, given.quiet());
+  const Profile profile = filteredBy(recipe, recorded, file, line.callback());
   if (profile.numFrames() == 0) throw Error(file + ": has no frames");
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
   const auto from = static_cast<std::size_t>(given.integer("from", 0, last).value_or(0));

@@ -23,6 +23,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/hand_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -112,8 +113,11 @@ std::unique_ptr<PhysicalHand> streamedHandOf(const CommandLine& given, std::uint
 }
 
 std::unique_ptr<HandModel> modelOf(const CommandLine& given, std::uint64_t seed) {
-  if (const auto recording = given.text("replay"))
-    return std::make_unique<ReplayedHand>(openRecording(*recording));
+  if (const auto recording = given.text("replay")) {
+    Profile profile = openRecording(*recording);
+    reportOpened(*recording, profile, given.quiet());
+    return std::make_unique<ReplayedHand>(std::move(profile));
+  }
   const Scene scene = loadScene(given.text("scene").value_or("empty"), dataFolder() / "scenes");
   PhysicalHandOptions options;
   options.seed = seed;

@@ -28,6 +28,7 @@ int importLabels(const CommandLine& given, const std::string& file, const std::s
     ProgressLine progress("reading " + file, given.quiet());
     return openRecording(file, progress.callback());
   }();
+  reportOpened(file, profile, given.quiet());
   const EventsReport present = readEvents(file);
   const LabelTable table = [&] {
     try {

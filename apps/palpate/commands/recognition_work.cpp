@@ -12,6 +12,8 @@
 #include "palpate/core/number_text.h"
 #include "palpate/recording/recording.h"
 
+#include "commands/recording_list.h"
+
 namespace palpate::commands {
 
 void sayLine(const std::string& message) {
@@ -58,7 +60,9 @@ std::optional<EmptyHandZero> zeroGiven(const CommandLine& given) {
   if (!path) return std::nullopt;
   EmptyHandZero zero;
   runInterruptibly(given, "empty hand", [&](const Progress& progress) {
-    zero = emptyHandZero(openRecording(*path), {}, progress);
+    const Profile profile = openRecording(*path);
+    reportOpened(*path, profile, given.quiet());
+    zero = emptyHandZero(profile, {}, progress);
     zero.sha256 = sha256OfFile(*path);
   });
   if (!zero.problem.empty()) throw FileError(*path, "no zero of the empty hand: " + zero.problem);

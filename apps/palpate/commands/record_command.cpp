@@ -176,9 +176,10 @@ std::string recordJsonText(const RecordingReport& report,
       .set("angles", report.angles)
       .set("temperatures", report.temperatures)
       .set("bad_checksums", static_cast<std::int64_t>(badChecksumsOf(device)))
-      .set("suspect", static_cast<std::int64_t>(device.tactile.suspect))
+      .set("suspect",
+           stream ? countOf(report, "suspect") : static_cast<std::int64_t>(device.tactile.suspect))
       .set("last_refused", textOrNull(stream ? stream->lastFault() : std::string()))
-      .set("out_of_range", static_cast<std::int64_t>(device.tactile.outOfRange))
+      .set("out_of_range", countOf(report, "out_of_range"))
       .set("last_out_of_range", textOrNull(stream ? stream->lastOutOfRange() : std::string()))
       .set("lost", countOf(report, "lost") + report.lost)
       .set("lost_estimated", countOf(report, "lost_estimated"))
@@ -225,8 +226,8 @@ CommandSpec recordSpec() {
           "a serial device, a /dev/serial/by-id name, a pty, or tcp:HOST:PORT. OUT may hold "
           "{date}, {time}, {operator}, {object}, {run} (next free number). With --remote it "
           "records only when another program asks for it (palpate remote start); OUT is then a "
-          "folder, or a folder with a template of file names. Exit code 3: something is missing in "
-          "a recording (lost frames, refused lines), or has values that the hand can't have.",
+          "folder, or a folder with a template of file names. Exit code 3: the recorder lost "
+          "something, or a stream lost or refused frames or sent values outside the hand's range.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"output,o", "OUT.palpate", "where to record"},

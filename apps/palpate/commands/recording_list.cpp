@@ -1,6 +1,7 @@
 #include "commands/recording_list.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -23,6 +24,8 @@
 namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
+
+std::atomic<bool> lossReported = false;
 
 void sayRecordingList(const std::string& message) {
   std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
@@ -308,8 +311,11 @@ int reportOpened(const fs::path& file, const Profile& profile, bool quiet) {
   const std::string lost = lostLine(file, profile);
   if (lost.empty()) return kDone;
   sayRecordingList(lost);
+  lossReported = true;
   return kPartlyDone;
 }
+
+int partlyDoneAfterLoss(int code) { return code == kDone && lossReported ? kPartlyDone : code; }
 
 int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work) {
   return ListRun(list, quiet).through(work);

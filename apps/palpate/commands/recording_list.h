@@ -68,6 +68,9 @@ std::string lostLine(const std::filesystem::path& file, const Profile& profile);
 // Prints on standard error what was guessed, unless quiet, and what was lost when a recording of
 // another program was opened. Returns kPartlyDone where something was lost, else kDone.
 int reportOpened(const std::filesystem::path& file, const Profile& profile, bool quiet);
+// `code`, the exit code of the program; kPartlyDone in the place of kDone after a loss that
+// reportOpened() has printed.
+int partlyDoneAfterLoss(int code);
 
 // Runs `work` for every file, one at a time, and prints on standard error one line for each file
 // that failed. Returns the exit code: 0 all done; 1 none done (or no file); 3 some done, also after

@@ -78,9 +78,10 @@ int recordRemotely(const CommandLine& given,
   RemoteRecorderOptions options = remoteRecordingOptionsOf(given, std::move(each));
   std::atomic<bool> whole = true;
   options.onFinished = [&](const RecordingReport& report) {
-    const bool isWhole = report.complete && leftOutText(report, streamOf(session)).empty();
-    if (!isWhole && !report.paths.empty()) whole = false;
+    const std::string leftOut = leftOutText(report, streamOf(session));
+    if ((!report.complete || !leftOut.empty()) && !report.paths.empty()) whole = false;
     if (given.has("json") || !given.quiet()) sayRemoteRecording(report, given.has("json"));
+    if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
   };
   session.start();
   {
@@ -88,8 +89,8 @@ int recordRemotely(const CommandLine& given,
     const RemoteServer server(remoteSocketOf(given), recorder);
     std::printf("remote=%s\n", escapedLine(server.socket().string()).c_str());
     std::fflush(stdout);
-    while (!interruption.waitForSignal(kRemoteRecordingLookMs)) {
-    }
+    StreamNotice notice(streamOf(session), given.quiet());
+    while (!interruption.waitForSignal(kRemoteRecordingLookMs)) notice.show();
   }
   session.stop();
   return whole ? kDone : kPartlyDone;

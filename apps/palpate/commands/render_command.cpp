@@ -24,6 +24,7 @@
 #include "commands/display.h"
 #include "commands/filter_options.h"
 #include "commands/picture_size.h"
+#include "commands/recording_list.h"
 #include "commands/render_hand.h"
 #include "commands/render_movie.h"
 #include "gui/matrices/matrices_frame_painter.h"
@@ -180,7 +181,6 @@ gui::FrameSpan chosenSpan(const CommandLine& given,
   const auto from = given.integer("from", 0, INT64_MAX).value_or(0);
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
   const auto to = given.integer("to", 0, INT64_MAX).value_or(last);
-  if (given.has("to") && from > to) throw UsageError("--from is after --to");
   if (from > to || to > last)
     throw Error(file + ": has no frames " + std::to_string(from) + ".." + std::to_string(to) +
                 ", only 0.." + std::to_string(last));
@@ -288,15 +288,14 @@ BatchTask renderTask(const CommandLine& given, const CommandSpec& spec, const Re
                                  std::size_t threads) {
             const bool isMovie = isMovieName(item.target.string());
             const std::string file = item.source.string();
-            const Profile profile =
-                filteredBy(page.filters,
-                           openRecording(
-                               item.source,
-                               [&](double fraction) {
-                                 return !progress || progress(fraction * (isMovie ? 0.1 : 0.9));
-                               },
-                               threads),
-                           item.source);
+            const Profile recorded = openRecording(
+                item.source,
+                [&](double fraction) {
+                  return !progress || progress(fraction * (isMovie ? 0.1 : 0.9));
+                },
+                threads);
+            const std::string lost = lostLine(item.source, recorded);
+            const Profile profile = filteredBy(page.filters, recorded, item.source);
             gui::MatricesPictureOptions options = page.options;
             gui::PicturePaper paper = page.sheet.paper;
             options.title = QString::fromStdString(item.source.filename().string());
@@ -314,7 +313,7 @@ BatchTask renderTask(const CommandLine& given, const CommandSpec& spec, const Re
                   paper,
                   overwrite,
                   [&](double fraction) { return !progress || progress(0.1 + 0.9 * fraction); });
-              return BatchAnswer{.said = counted(span.count(), "frame")};
+              return BatchAnswer{.said = counted(span.count(), "frame"), .problem = lost};
             }
             const std::size_t frame =
                 chosenFrame(given.integer("frame", 0, INT64_MAX), file, profile);
@@ -326,7 +325,7 @@ BatchTask renderTask(const CommandLine& given, const CommandSpec& spec, const Re
                 [&](QPainter& painter) { paint(painter, frame); },
                 paper,
                 overwrite);
-            return BatchAnswer{.said = "frame " + std::to_string(frame)};
+            return BatchAnswer{.said = "frame " + std::to_string(frame), .problem = lost};
           }};
 }
 
@@ -339,6 +338,8 @@ bool isRenderBatch(const CommandLine& given) {
 
 // Checks the options without reading a file.
 void checkUsage(const CommandLine& given, bool isSeries) {
+  if (given.has("to") && given.integer("from", 0, INT64_MAX) > given.integer("to", 0, INT64_MAX))
+    throw UsageError("--from is after --to");
   const auto out = given.text("output");
   if (!out)
     throw UsageError(
@@ -453,7 +454,10 @@ int renderCommand(const Arguments& words) {
   const std::string& file = given.words()[0];
   const Profile profile = [&] {
     ProgressLine progress("reading " + file, given.quiet());
-    return filteredBy(recipe, openRecording(file, progress.callback()), file);
+    Profile recorded = openRecording(file, progress.callback());
+    progress.wipe();
+    reportOpened(file, recorded, given.quiet());
+    return filteredBy(recipe, std::move(recorded), file);
   }();
   options.title = QString::fromStdString(fs::path(file).filename().string());
   sheet.paper.title = options.title;

@@ -23,6 +23,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
+#include "commands/recording_list.h"
 #include "commands/signal_options.h"
 
 namespace palpate::commands {
@@ -361,7 +362,7 @@ int spectrumCommand(const Arguments& words) {
   const bool oneLine = given.has("welch") || given.has("peaks");
   if (given.has("welch") && given.has("peaks"))
     throw UsageError("--welch and --peaks are two tables of one spectrum: give one of them");
-  if (twoSignals && oneLine) throw UsageError("give --coherence, or --welch and --peaks, not both");
+  if (twoSignals && oneLine) throw UsageError("--coherence doesn't go with --welch or --peaks");
   if (twoSignals)
     for (const char* one : {"matrix", "x", "y", "signal"})
       if (given.has(one))
@@ -370,8 +371,10 @@ int spectrumCommand(const Arguments& words) {
   const Recipe recipe = recipeOf(given);
   const std::string& file = given.words().front();
   ProgressLine line("reading " + file, given.quiet());
-  const Profile profile =
-      filteredBy(recipe, openRecording(file, line.callback()), file, line.callback());
+  const Profile recorded = openRecording(file, line.callback());
+  line.wipe();
+  reportOpened(file, recorded, given.quiet());
+  const Profile profile = filteredBy(recipe, recorded, file, line.callback());
   if (twoSignals) return writeCoherence(given, profile, options, line);
   const Series series =
       seriesOf(given, profile, choiceOf(given, profile.layout()), line.callback());

@@ -142,9 +142,14 @@ Profile playedRecording(const CommandLine& given, std::string& damage) {
   }
 }
 
-// Describes what could not be read during the replay.
-std::string playedDamage(const CaptureSession& session, const CommandLine& given) {
+// Describes what could not be read during the replay, or was lost of a received stream.
+std::string sessionLosses(const CaptureSession& session, const CommandLine& given) {
   const DeviceStatus status = session.device().status();
+  if (given.has("stream"))
+    return leftOutText(StreamLosses{.lost = status.tactile.lost,
+                                    .refused = status.tactile.suspect,
+                                    .outOfRange = status.tactile.outOfRange},
+                       *streamOf(session));
   const std::uint64_t lost = status.tactile.lost + (status.motion ? status.motion->lost : 0);
   if (given.words().empty() || lost == 0) return {};
   return given.words()[0] + ": " + std::to_string(lost) +
@@ -172,13 +177,12 @@ void runSession(const CommandLine& given,
   const auto* replay = dynamic_cast<const Replay*>(&session.device());
   const StreamDevice* const stream = streamOf(session);
   StreamNotice notice(stream, given.quiet());
-  while (!interruption.waitForSignal(kStreamLookMs)) {
-    notice.show();
-    if (replay && replay->finished()) return;
-    if (stream && stream->finished()) return;
-    if (over()) return;
-    if (static_cast<double>(systemClock().monotonicUs() - beginUs) >= durationS * 1e6) return;
-  }
+  const auto ends = [&] {
+    return (replay && replay->finished()) || (stream && stream->finished()) || over() ||
+           static_cast<double>(systemClock().monotonicUs() - beginUs) >= durationS * 1e6;
+  };
+  while (!interruption.waitForSignal(kStreamLookMs) && !ends()) notice.show();
+  notice.show();
 }
 
 void requireFrames(const CaptureSession& session, const CommandLine& given) {
@@ -210,7 +214,7 @@ int streamToPrograms(const CommandLine& given, StreamTargets targets) {
   if (const std::string failure = streams.failure(); !failure.empty()) throw Error(failure);
   if (!given.quiet())
     for (const std::string& line : streams.lines()) std::printf("%s\n", escapedLine(line).c_str());
-  return endOf(damage.empty() ? playedDamage(session, given) : damage);
+  return endOf(damage.empty() ? sessionLosses(session, given) : damage);
 }
 
 // Prints the lines of the whole recording as fast as possible.

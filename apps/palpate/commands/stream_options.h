@@ -37,8 +37,13 @@ class StreamNotice {
   bool placeShown_ = false;
   std::size_t remarksShown_ = 0;
 };
-// What the recording of a stream lacks, or has beyond the description of the hand: "31 frames lost,
-// 2 refused (the last: line 812: ..)"; empty: nothing, or `stream` is null.
+struct StreamLosses {
+  std::uint64_t lost = 0, refused = 0, outOfRange = 0;  // frames
+};
+// What a stream lacks, or has beyond the description of the hand: "31 frames lost, 2 refused (the
+// last: line 812: ..)"; empty: nothing.
+std::string leftOutText(const StreamLosses& losses, const StreamDevice& stream);
+// The same of the recording of a stream; empty also where `stream` is null.
 std::string leftOutText(const RecordingReport& report, const StreamDevice* stream);
 
 }  // namespace palpate::commands
