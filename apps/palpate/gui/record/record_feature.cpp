@@ -238,6 +238,16 @@ void RecordFeature::connectTake() {
             plan_.rename(from, to);
             offerTake("Renamed: " + QString::fromStdString(to.filename().string()));
           });
+  connect(&take_,
+          &RecordedTake::beginsWith,
+          this,
+          [this](const std::filesystem::path& part, const std::filesystem::path& gone) {
+            const bool asked = doubted_ == gone;
+            plan_.rename(gone, part);
+            if (!asked) return;
+            doubted_ = part;
+            askAbout(part, *offer_);
+          });
   connect(&take_, &RecordedTake::discarded, this, [this](const std::filesystem::path& path) {
     plan_.forget(path);
     offer_->dismiss();
