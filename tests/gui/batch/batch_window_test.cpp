@@ -11,8 +11,10 @@
 #include "gui/batch/batch_dialog.h"
 #include "gui/batch/batch_feature.h"
 #include "gui/batch/batch_fields.h"
+#include "gui/batch/batch_pictures.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/opening_strip.h"
+#include "recording/import_samples.h"
 #include "testing/program.h"
 
 namespace palpate::gui::batch_window_test {
@@ -107,6 +109,28 @@ TEST_F(BatchWindowTest, MakesTheBytesOfTheCommand) {
     const auto again = command(each.words);
     EXPECT_NE(again.out.find("skipped            2\n"), std::string::npos) << again.out;
   }
+}
+
+// A file of another program of which two messages can't be read.
+TEST_F(BatchWindowTest, APictureOfAPartOfARecordingSaysWhatIsMissing) {
+  testing::runPython(folder_, R"(
+import sys
+sys.path.insert(0, ')" PALPATE_MCAP_CHECK_FOLDER R"(')
+sys.dont_write_bytecode = True
+import mcap_check as m
+w = m.Writer(sys.argv[1] + '/a.mcap')
+for at, rows in enumerate([[[7, 2]], [[1], [2]], [[9, 2]], [[1], [2]]], 1):
+  image = m.cdr_image(at * 10**6, rows, 'mono16')
+  w.message('/pad', 'sensor_msgs/msg/Image', image, at * 10**6)
+w.close()
+)");
+  const BatchTask task = picturesTask({}, "png");
+  const BatchItem item{.source = folder_ / "a.mcap", .target = folder_ / "a.png"};
+  const BatchAnswer answer = task.work(item, Overwrite::kRefuse, {}, 1);
+  EXPECT_TRUE(fs::exists(item.target));
+  EXPECT_NE(answer.problem.find("a.mcap: 2 messages of the topic \"/pad\" are left out"),
+            std::string::npos)
+      << answer.problem;
 }
 
 TEST_F(BatchWindowTest, CancelKeepsWhatIsDoneAndStartGoesOn) {

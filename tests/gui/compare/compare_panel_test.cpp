@@ -37,6 +37,36 @@ TEST_F(ComparePanelTest, InASmallWindowTheChartIsSeenBesideTheHeatMaps) {
       << compare().chart().height();
 }
 
+// On a screen with twice the pixels.
+class FineCompareView : public CompareView {
+ public:
+  int painted = 0;
+
+ protected:
+  int metric(PaintDeviceMetric which) const override {
+    if (which == PdmDevicePixelRatio) return 2;
+    if (which == PdmDevicePixelRatioScaled) return static_cast<int>(2.0 * devicePixelRatioFScale());
+    return CompareView::metric(which);
+  }
+  void paintEvent(QPaintEvent* event) override {
+    ++painted;
+    CompareView::paintEvent(event);
+  }
+};
+
+TEST(CompareView, IsPaintedOnceOnAScreenWithMorePixels) {
+  FineCompareView view;
+  ASSERT_EQ(view.devicePixelRatioF(), 2.0);
+  view.resize(900, 400);
+  view.setHands({sdh2(), sdh2(), sdh2()});
+  view.show();
+  for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+  view.painted = 0;
+  view.setHands({sdh2(), sdh2(), sdh2()});
+  for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+  EXPECT_EQ(view.painted, 1);
+}
+
 TEST_F(ComparePanelTest, TheOtherAlignments) {
   open({"early.dsa", "late.dsa"});
   compareNow();

@@ -68,6 +68,15 @@ TEST_F(StreamShownTest, CountsWhatIsLostAndNamesWhatIsRefused) {
   EXPECT_EQ(linkFact("suspect"), "1");
 }
 
+TEST_F(StreamShownTest, CountsFramesThatAreOutOfRange) {
+  show("flat_pad_16x16", padValues());
+  std::vector<float> high = padValues();
+  high[1] = 5880.0F;
+  sendFrame(high);
+  EXPECT_TRUE(await([&] { return linkFact("out of range").startsWith("1 frame, the last: "); }))
+      << linkFact("out of range").toStdString();
+}
+
 TEST_F(StreamShownTest, ASenderThatComesBackIsShownAgain) {
   show("flat_pad_16x16", padValues());
   unplug();

@@ -46,7 +46,7 @@ TEST_F(ExportRequestTest, IsRememberedButNotThatFilesMayBeReplaced) {
 TEST_F(ExportRequestTest, AChartIsHalfAsHighAsWideAndEachViewKeepsItsSize) {
   ExportedView chart, matrices;
   chart.name = "Chart";
-  chart.leastHeight = kChartHeight;
+  chart.minHeightShare = kChartHeight;
   chart.size = [] { return QSizeF(1350, 160); };
   matrices.name = "Matrices";
   matrices.size = [] { return QSizeF(800, 400); };

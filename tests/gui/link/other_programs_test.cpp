@@ -3,6 +3,8 @@
 #include "gui/link/other_programs.h"
 
 #include <QLabel>
+#include <QPlainTextEdit>
+#include <QSignalSpy>
 #include <chrono>
 #include <future>
 
@@ -153,6 +155,28 @@ TEST_F(OtherProgramsTest, APortThatIsTakenSwitchesFoxgloveOff) {
   actions().at("streamFoxglove")->trigger();
   EXPECT_FALSE(actions().at("streamFoxglove")->isChecked());
   EXPECT_FALSE(live().source()->foxglove->on());
+}
+
+TEST_F(OtherProgramsTest, WebPagesThatAreRefusedByTurnsAreLoggedOnceEach) {
+  const std::uint16_t port = freeTcpPort();
+  set("streams/foxglove_port", port);
+  start();
+  connectEmulated();
+  actions().at("streamFoxglove")->trigger();
+  for (int i = 0; i < 3; ++i)
+    for (const std::string page : {"https://one.example", "https://two.example"}) {
+      testing::WebSocketClient client(port);
+      EXPECT_NE(client
+                    .handshake(testing::WebSocketClient::request("foxglove.sdk.v1",
+                                                                 "Origin: " + page + "\r\n"))
+                    .find(" 403 "),
+                std::string::npos);
+      QSignalSpy refreshed(&live(), &LiveController::refreshed);
+      ASSERT_TRUE(await([&] { return refreshed.size() > 1; }));
+    }
+  const QString log = find<QPlainTextEdit>("linkLog")->toPlainText();
+  EXPECT_EQ(log.count("may not read the hand"), 2) << log.toStdString();
+  EXPECT_TRUE(log.contains("https://one.example") && log.contains("https://two.example"));
 }
 
 TEST_F(OtherProgramsTest, StreamsAreRememberedRemoteControlIsNot) {

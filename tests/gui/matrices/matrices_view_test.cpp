@@ -81,18 +81,36 @@ TEST_F(MatricesViewTest, IsSharpOnAScreenWithMorePixels) {
   }
   moved.grab();
   moved.ratio = 2.0;
+  ASSERT_EQ(moved.devicePixelRatioF(), 2.0);
   EXPECT_EQ(moved.grab().toImage(), there.grab().toImage());
 }
 
-// Counts the pixels that a paint event covers.
+// Counts the pixels that paint events cover, and the events.
 class PaintedArea : public QObject {
  public:
   bool eventFilter(QObject*, QEvent* event) override {
-    if (event->type() == QEvent::Paint) region += static_cast<QPaintEvent*>(event)->region();
+    if (event->type() != QEvent::Paint) return false;
+    region += static_cast<QPaintEvent*>(event)->region();
+    ++times;
     return false;
   }
   QRegion region;
+  int times = 0;
 };
+
+TEST_F(MatricesViewTest, IsPaintedOnceOnAScreenWithMorePixels) {
+  OnAnotherScreen view;
+  view.ratio = 2.0;
+  view.resize(700, 600);
+  view.setHand(sdh2());
+  view.show();
+  for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+  PaintedArea painted;
+  view.installEventFilter(&painted);
+  view.setLook({.range = {0.0, 100.0}});
+  for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+  EXPECT_EQ(painted.times, 1);
+}
 
 TEST_F(MatricesViewTest, RepaintsOnlyMatricesThatChanged) {
   QCoreApplication::processEvents();

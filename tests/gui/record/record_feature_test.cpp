@@ -2,6 +2,7 @@
 #include "gui/record/record_feature.h"
 
 #include <QAction>
+#include <QFile>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -120,6 +121,62 @@ TEST_F(RecordFeatureTest, WhatTheConnectionLostIsSaid) {
   EXPECT_TRUE(feature_.strips().back().widget->property("warning").toBool());
   endRecording();
   EXPECT_FALSE(feature_.strips().back().widget->property("warning").toBool());
+}
+
+TEST_F(RecordFeatureTest, WhatAStreamRefusedOrHadOutOfRangeIsSaid) {
+  for (const auto& [name, said] :
+       {std::pair("suspect", "1 refused"),
+        std::pair("out_of_range",
+                  "1 frame with values that the description of the hand excludes")}) {
+    RecordingReport report;
+    report.paths = {folder_ / "run_001.palpate"};
+    report.frames = 316;
+    report.complete = true;
+    report.counters = {{name, 1}};
+    emit windowState_->live.recordingEnded(report);
+    EXPECT_TRUE(offered().endsWith(said)) << offered().toStdString();
+    EXPECT_TRUE(feature_.strips().back().widget->property("warning").toBool()) << name;
+  }
+}
+
+// The plan knew it by the part that is in the trash.
+TEST_F(RecordFeatureTest, ATakeThatIsDiscardedInTwoStepsCountsNoLonger) {
+  namespace fs = std::filesystem;
+  const fs::path first = folder_ / "run_001.palpate", second = folder_ / "run_001_2.palpate";
+  for (const fs::path& part : {first, second}) testing::writeFile(part, "");
+  feature_.plan().addRow({.object = "ball"});
+  feature_.plan().begin(std::nullopt);
+  RecordingReport report;
+  report.paths = {first, second};
+  emit windowState_->live.recordingEnded(report);
+  feature_.plan().settle();
+  QCoreApplication::processEvents();
+  int asked = 0;
+  windowState_->prompts.confirmed = [&](const QString&, const QString&) { return ++asked != 2; };
+  feature_.lastTake().moveToTrash = [&](const QString& path) {
+    return (asked > 2 || !path.endsWith("_2.palpate")) && QFile::remove(path);
+  };
+  feature_.lastTake().discard();
+  ASSERT_EQ(feature_.plan().plan().rows()[0].takes.size(), 1u);
+  EXPECT_EQ(feature_.plan().plan().rows()[0].takes[0].file, second);
+  EXPECT_TRUE(offered().startsWith("run_001_2.palpate: ")) << offered().toStdString();
+  feature_.lastTake().discard();
+  EXPECT_TRUE(feature_.plan().plan().rows()[0].takes.empty());
+}
+
+// The recording of the plan could not begin; that of another program is none of it.
+TEST_F(RecordFeatureTest, ARecordingThatIsNoneOfThePlanIsNotSaidToBeMissingInIt) {
+  connectEmulated();
+  RecordingSettings settings;
+  settings.folder = QString::fromStdString(folder_.path().string());
+  saveRecordingSettings(settings, windowState_->settings);
+  feature_.plan().addRow({.object = "ball"});
+  feature_.plan().setFollowed(true);
+  windowState_->actions.at("record")->trigger();
+  emit windowState_->live.recordingFailed("the disk is full");
+  endRecording();
+  EXPECT_FALSE(offered().contains("not counted")) << offered().toStdString();
+  disconnect();
 }
 
 TEST_F(RecordFeatureTest, AFileIsNamedOnce) {

@@ -2,6 +2,8 @@
 
 #include <QSignalSpy>
 
+#include <palpate/core/error.h>
+
 #include "gui/window_state/window_state_fixture.h"
 
 namespace palpate::gui::recorded_take_test {
@@ -113,9 +115,74 @@ TEST_F(RecordedTakeTest, OfATakeThatIsHalfInTheTrashTheRestIsNamedAndKept) {
             "Only run_001.palpate, run_001.mcap could be moved to the trash. Delete the rest of "
             "run_001.palpate and 1 more part for good?");
   EXPECT_EQ(failed_,
-            QStringList("Discarded in part: in the trash: run_001.palpate, run_001.mcap; kept: "
+            QStringList("Partly discarded; in the trash: run_001.palpate, run_001.mcap; kept: "
                         "run_001_2.palpate"));
   EXPECT_EQ(take_.paths(), std::vector<fs::path>{folder_ / "run_001_2.palpate"});
+}
+
+TEST_F(RecordedTakeTest, ItIsSaidByWhichPartATakeIsKnownNow) {
+  testing::writeFile(folder_ / "run_001_2.palpate", "");
+  const fs::path first = folder_ / "run_001.palpate", second = folder_ / "run_001_2.palpate";
+  take_.set({first, second});
+  std::vector<fs::path> told, gone;
+  QObject::connect(&take_,
+                   &RecordedTake::beginsWith,
+                   &actionsOf_,
+                   [&](const fs::path& part, const fs::path& before) {
+                     told = {part, before};
+                   });
+  QObject::connect(&take_, &RecordedTake::discarded, &actionsOf_, [&](const fs::path& path) {
+    gone.push_back(path);
+  });
+  fails_ = "run_001_2.palpate";
+  int asked = 0;
+  windowState_->prompts.confirmed = [&](const QString&, const QString&) { return ++asked == 1; };
+  take_.discard();
+  EXPECT_EQ(told, (std::vector{second, first}));
+  EXPECT_TRUE(gone.empty());
+  fails_ = "none";
+  asked = 0;
+  take_.discard();
+  EXPECT_EQ(gone, std::vector{second});
+}
+
+// The rest can't be deleted either: a folder has taken its place.
+TEST_F(RecordedTakeTest, WhatIsInTheTrashIsSaidAlsoWhereTheRestCantBeDeleted) {
+  const fs::path second = folder_ / "run_001_2.palpate";
+  testing::writeFile(second, "");
+  take_.set({folder_ / "run_001.palpate", second});
+  fails_ = "run_001_2.palpate";
+  int asked = 0;
+  windowState_->prompts.confirmed = [&](const QString&, const QString&) {
+    if (++asked == 2) {
+      fs::remove(second);
+      fs::create_directories(second / "full");
+    }
+    return true;
+  };
+  take_.discard();
+  ASSERT_EQ(failed_.size(), 1);
+  EXPECT_TRUE(failed_[0].startsWith("Partly discarded: ")) << failed_[0].toStdString();
+  EXPECT_TRUE(
+      failed_[0].endsWith("; in the trash: run_001.palpate, run_001.mcap; kept: "
+                          "run_001_2.palpate"))
+      << failed_[0].toStdString();
+}
+
+TEST_F(RecordedTakeTest, ATakeWhoseFilesAreGoneIsDiscarded) {
+  QSignalSpy discarded(&take_, &RecordedTake::discarded);
+  trash_ = false;
+  windowState_->prompts.confirmed = [&](const QString& text, const QString&) {
+    titles_ << text;
+    if (titles_.size() < 2) return true;
+    for (const char* name : {"run_001.palpate", "run_001.mcap"}) fs::remove(folder_ / name);
+    throw FileError(folder_ / "run_001.palpate", "is gone");
+  };
+  take_.discard();
+  EXPECT_EQ(discarded.size(), 1);
+  EXPECT_TRUE(take_.paths().empty());
+  ASSERT_EQ(failed_.size(), 1);
+  EXPECT_TRUE(failed_[0].endsWith("is gone")) << failed_[0].toStdString();
 }
 
 }  // namespace

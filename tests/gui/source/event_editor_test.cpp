@@ -43,6 +43,17 @@ TEST_F(EventEditorTest, KeepsEventsInOrderOfTime) {
   EXPECT_THROW(editor_.remove(2, "x"), std::out_of_range);
 }
 
+// Bars of one span would change their places when one of them is named.
+TEST_F(EventEditorTest, AmongEventsOfOneTimeAChangedOneKeepsItsPlace) {
+  editor_.add(label(10, "b"), "a label");
+  RecordingEvent named = editor_.events()[0];
+  named.text = "x";
+  editor_.change(0, named, "naming");
+  EXPECT_EQ(texts(), "xbc");
+  editor_.undoStack().undo();
+  EXPECT_EQ(texts(), "abc");
+}
+
 TEST_F(EventEditorTest, EveryChangeIsUndoneAndRedone) {
   editor_.add(label(20, "b"), "a label");
   editor_.remove(0, "deleting");

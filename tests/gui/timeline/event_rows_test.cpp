@@ -107,6 +107,50 @@ TEST_F(EventRowsTest, OfTwoOfOneSpanTheChosenOneStaysChosen) {
   EXPECT_FALSE(rows_.chosen()) << "it was removed: Del would remove the other one";
 }
 
+// Del would otherwise remove the other one.
+TEST_F(EventRowsTest, OfTwoOfOneSpanTheRenamedOneStaysChosen) {
+  const EventMark first = mark(EventLane::kLabels, 1.0, 2.0, "g1");
+  const EventMark second = mark(EventLane::kLabels, 1.0, 2.0, "g2");
+  rows_.setMarks({mark(EventLane::kLabels, 1.0, 2.0, "g2"), second});
+  rows_.choose(0);
+  rows_.setMarks({first, second});
+  EXPECT_EQ(rows_.chosen(), 0u) << "its name was that of the other one";
+  rows_.setMarks({mark(EventLane::kLabels, 1.0, 2.0, "pinch"), second});
+  EXPECT_EQ(rows_.chosen(), 0u);
+  rows_.setMarks({first, second});
+  EXPECT_EQ(rows_.chosen(), 0u) << "undone";
+}
+
+TEST_F(EventRowsTest, OfTwoOfOneSpanBothAreSeenInAnyPartOfIt) {
+  rows_.setMarks(
+      {mark(EventLane::kLabels, 1.0, 2.0, "g1"), mark(EventLane::kLabels, 1.0, 2.0, "g2")});
+  rows_.setScale(1.5, 2.5, 100, 1100);
+  EXPECT_NEAR(rows_.barOf(0).left(), 100.0, 0.5);
+  EXPECT_NEAR(rows_.barOf(1).left(), 350.0, 0.5);
+  EXPECT_NEAR(rows_.barOf(1).right(), 600.0, 1.5);
+  rows_.setScale(0.5, 1.5, 100, 1100);
+  EXPECT_NEAR(rows_.barOf(0).left(), 600.0, 0.5);
+  EXPECT_NEAR(rows_.barOf(1).right(), 1100.0, 1.5);
+  rows_.setScale(2.5, 3.5, 100, 1100);
+  EXPECT_TRUE(rows_.barOf(0).isEmpty() && rows_.barOf(1).isEmpty());
+}
+
+// The end of the span lies in the bar of the other one.
+TEST_F(EventRowsTest, OfTwoOfOneSpanTheEndOfTheChosenOneIsDragged) {
+  rows_.setMarks(
+      {mark(EventLane::kLabels, 1.0, 2.0, "g1"), mark(EventLane::kLabels, 1.0, 2.0, "g2")});
+  rows_.choose(0);
+  const QPoint end(298, middleOf(0).y());
+  drag(end, end + QPoint(50, 0));
+  EXPECT_EQ(rows_.chosen(), 0u);
+  ASSERT_EQ(moved_.size(), 1);
+  EXPECT_EQ(moved_[0][0].toULongLong(), 0u);
+  EXPECT_NEAR(moved_[0][1].toDouble(), 1.0, 1e-9);
+  EXPECT_NEAR(moved_[0][2].toDouble(), 2.5, 0.011);
+  QTest::mouseClick(&rows_, Qt::LeftButton, {}, middleOf(1));
+  EXPECT_EQ(rows_.chosen(), 1u) << "its middle is its own";
+}
+
 TEST_F(EventRowsTest, AClickChooses) {
   QTest::mouseClick(&rows_, Qt::LeftButton, {}, middleOf(1));
   EXPECT_EQ(rows_.chosen(), 1u);

@@ -106,6 +106,9 @@ TEST_F(ActiveFiltersTest, ARecipeGivenForOneDayIsNotRememberedForTheNext) {
                       windowState_->messages,
                       windowState_->settings);
   today.restore(parseRecipe(std::vector<std::string>{"median:size=3"}));
+  today.lend(parseRecipe(std::vector<std::string>{"gaussian:size=7"}));
+  today.giveBack();
+  EXPECT_EQ(today.text(), "median:size=3");
   ActiveFilters tomorrow(windowState_->displayed,
                          windowState_->events,
                          windowState_->live,

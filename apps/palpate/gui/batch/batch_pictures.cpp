@@ -59,6 +59,8 @@ BatchAnswer drawBatchPicture(const BatchPictureOptions& batch,
   const Profile whole =
       openRecording(item.source, batchPicturePart(progress, 0.0, kBatchReading), threads);
   const Profile profile = filteredRecording(batch.filters, whole, item.source);
+  const std::string lost = lostText(whole);
+  const std::string problem = lost.empty() ? lost : item.source.string() + ": " + lost;
   if (profile.numFrames() == 0) throw FileError(item.source, "has no frame to draw");
   options.title = pathText(item.source.filename());
   PicturePaper paper;
@@ -71,7 +73,7 @@ BatchAnswer drawBatchPicture(const BatchPictureOptions& batch,
     const auto paint = batchPainter(profile, options);
     writePicture(
         item.target, [&](QPainter& painter) { paint(painter, frame); }, paper, overwrite);
-    return {.said = "frame " + std::to_string(frame)};
+    return {.said = "frame " + std::to_string(frame), .problem = problem};
   }
   paper.dpi = kBatchMovieDpi;
   options.pixelRatio = paper.scale();
@@ -86,7 +88,7 @@ BatchAnswer drawBatchPicture(const BatchPictureOptions& batch,
              paper,
              overwrite,
              batchPicturePart(progress, kBatchReading, 1.0));
-  return {.said = counted(span.count(), "frame")};
+  return {.said = counted(span.count(), "frame"), .problem = problem};
 }
 
 }  // namespace

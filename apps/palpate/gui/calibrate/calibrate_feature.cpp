@@ -236,7 +236,7 @@ std::vector<DockSpec> CalibrateFeature::docks() {
 std::vector<ExportedView> CalibrateFeature::views() {
   ExportedView view;
   view.name = "Calibrate";
-  view.leastHeight = kChartHeight;
+  view.minHeightShare = kChartHeight;
   view.widget = panel_;
   view.isThere = [this] { return panel_->page().shown(); };
   view.fileName = [this] { return state().recordingStem() + "_" + panel_->pageName().toLower(); };

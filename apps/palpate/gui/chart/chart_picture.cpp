@@ -20,7 +20,7 @@ constexpr double kEntryGap = 18.0;            // [units] between entries
 // Line spacing of the legend.
 constexpr double kLineSpacing = 1.3;
 constexpr double kLeastContrast = 3.0;
-constexpr double kLeastAxisLines = 3.0;  // shortest axis [lines of text]
+constexpr double kMinAxisLines = 3.0;  // shortest axis [lines of text]
 
 double luminance(const QColor& color) {
   const auto linear = [](double channel) {
@@ -279,8 +279,8 @@ double heightOfHead(const PictureLook& look,
 struct ChartBody {
   QPicture picture;
   QRectF axes = {};  // place of the first ones
-  // Of the axes with the least room; below 0 where there is none.
-  QSizeF least = {};
+  // Of the smallest axes; below 0 where there is none.
+  QSizeF smallest = {};
 };
 
 ChartBody chartBodyOf(QCustomPlot& plot, const PictureLook& look, double head) {
@@ -289,10 +289,10 @@ ChartBody chartBodyOf(QCustomPlot& plot, const PictureLook& look, double head) {
   const QMetaObject::Connection laidOut =
       QObject::connect(&plot, &QCustomPlot::afterLayout, &plot, [&] {
         body.axes = plot.axisRect()->rect();
-        body.least = body.axes.size();
+        body.smallest = body.axes.size();
         for (const QCPAxisRect* rect : plot.axisRects())
-          body.least = {std::min<double>(body.least.width(), rect->width()),
-                        std::min<double>(body.least.height(), rect->height())};
+          body.smallest = {std::min<double>(body.smallest.width(), rect->width()),
+                           std::min<double>(body.smallest.height(), rect->height())};
       });
   const Restyled restyled(plot, look, chartPictureFont(look, plot));
   QCPPainter chart(&body.picture);
@@ -313,12 +313,12 @@ double enlargement(const PictureLook& look,
                    const QCustomPlot& plot,
                    double head,
                    const ChartBody& body) {
-  const double least = kLeastAxisLines * QFontMetricsF(chartPictureFont(look, plot)).height();
+  const double wanted = kMinAxisLines * QFontMetricsF(chartPictureFont(look, plot)).height();
   // Axes that lie below each other share what is added.
   const auto numAxes = static_cast<double>(plot.axisRectCount());
-  const double width = look.size.width() + least - body.least.width();
+  const double width = look.size.width() + wanted - body.smallest.width();
   const double height =
-      std::max(look.size.height(), head + 1.0) + numAxes * (least - body.least.height());
+      std::max(look.size.height(), head + 1.0) + numAxes * (wanted - body.smallest.height());
   return std::max({1.0, width / look.size.width(), height / look.size.height()});
 }
 
@@ -333,9 +333,9 @@ QRectF paintChart(QPainter& painter,
   ChartBody body = chartBodyOf(plot, inner, head);
   double larger = 1.0;
   // More than once where axes share what is added unevenly.
-  constexpr int kMostTries = 5;
+  constexpr int kMaxTries = 5;
   constexpr double kEnough = 1.001;
-  for (int i = 0; i < kMostTries; ++i) {
+  for (int i = 0; i < kMaxTries; ++i) {
     const double factor = enlargement(inner, plot, head, body);
     if (factor < kEnough) break;
     larger *= factor;

@@ -134,7 +134,7 @@ std::vector<ExportedView> CompareFeature::views() {
   view.name = "Compare";
   view.rank = 3;
   view.widget = panel_;
-  view.leastHeight = 2 * kChartHeight;  // heat maps above the chart
+  view.minHeightShare = 2 * kChartHeight;  // heat maps above the chart
   view.isThere = [this, &windowState] { return windowState.comparison.on() && panel_->hasPair(); };
   view.fileName = [this, &windowState] {
     return windowState.recordingStem() + "_and_" +

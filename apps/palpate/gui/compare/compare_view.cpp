@@ -73,7 +73,7 @@ void CompareView::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
   if (!hands_) return painter.fillRect(event->rect(), colorsOf(options_.look.theme).window);
   // The window may have moved to another screen.
-  if (background_.devicePixelRatio() != devicePixelRatioF()) renew();
+  if (!background_.isNull() && background_.devicePixelRatio() != devicePixelRatioF()) renew();
   if (background_.isNull()) {
     background_ = QPixmap(size() * devicePixelRatioF());
     background_.setDevicePixelRatio(devicePixelRatioF());

@@ -31,10 +31,10 @@ const QString kExportSizesGroup = "export/sizes/";  // and the name of the view
 ExportSize loadExportSize(const QSettings& settings,
                           const QString& group,
                           const ExportSize& usual) {
-  const auto number = [&](const char* key, double otherwise, double least, double most) {
+  const auto number = [&](const char* key, double otherwise, double minimum, double maximum) {
     bool good = false;
     const double read = settings.value(group + key, otherwise).toDouble(&good);
-    return good && read >= least && read <= most ? read : otherwise;
+    return good && read >= minimum && read <= maximum ? read : otherwise;
   };
   ExportSize size = usual;
   const QString preset = settings.value(group + "size").toString();
@@ -281,10 +281,9 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
 
 QString heightHintOf(const ExportRequest& request, const ExportedView& view) {
   const bool onPaper = request.form != ExportFormat::kCsv && request.preset != kScreenPreset &&
-                       view.leastHeight > 0.0;
-  if (!onPaper || request.sizeMm.height() >= kLeastChartMm) return {};
-  return QString("Below %1 mm the text of a chart may become smaller than typed.")
-      .arg(kLeastChartMm);
+                       view.minHeightShare > 0.0;
+  if (!onPaper || request.sizeMm.height() >= kMinChartMm) return {};
+  return QString("Below %1 mm the text of a chart may become smaller than typed.").arg(kMinChartMm);
 }
 
 QString spaceProblemOf(const ExportRequest& request, double bytes) {

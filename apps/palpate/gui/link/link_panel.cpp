@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 
 #include <palpate/core/escaped_line.h>
+#include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
@@ -119,8 +120,8 @@ std::vector<Fact> factsOf(const StreamDevice& stream) {
                      !stream.status().tactile.message.empty()});
   if (const std::string value = stream.lastOutOfRange(); !value.empty())
     facts.push_back({"out of range",
-                     QString::number(stream.status().tactile.outOfRange) +
-                         " frames, the last: " + QString::fromStdString(escapedLine(value)),
+                     QString::fromStdString(counted(stream.status().tactile.outOfRange, "frame")) +
+                         ", the last: " + QString::fromStdString(escapedLine(value)),
                      true});
   return facts;
 }

@@ -1,6 +1,7 @@
 #include "gui/link/other_programs.h"
 
-#include <utility>
+#include <QMetaObject>
+#include <QPointer>
 
 #include <palpate/core/error.h>
 
@@ -47,7 +48,6 @@ OtherPrograms::OtherPrograms(const OtherProgramsOptions& options, QObject* paren
   connect(&live_, &LiveController::sourceOpened, this, &OtherPrograms::useStreams);
   connect(&live_, &LiveController::ended, this, &OtherPrograms::changed);
   connect(&live_, &LiveController::refreshed, this, &OtherPrograms::changed);
-  connect(&live_, &LiveController::refreshed, this, &OtherPrograms::logRefusal);
 }
 
 QAction* OtherPrograms::actionOf(StreamKind kind) const {
@@ -83,6 +83,16 @@ void OtherPrograms::switchFoxglove(bool on) {
     options.server.port = foxglovePort();
     for (const QString& origin : settings_.value("streams/foxglove_origins").toStringList())
       options.server.origins.push_back(origin.toStdString());
+    // From the server's thread: the live controller, whose source has it, outlives it.
+    options.server.onRefusedOrigin = [live = &live_,
+                                      self = QPointer(this)](const std::string& why) {
+      QMetaObject::invokeMethod(
+          live,
+          [self, why] {
+            if (self) emit self->logged("Foxglove: " + QString::fromStdString(why));
+          },
+          Qt::QueuedConnection);
+    };
     source->foxglove->switchOn(std::move(options));
   } catch (const Error& error) {
     actions_.streamFoxglove->setChecked(false);
@@ -98,14 +108,6 @@ void OtherPrograms::reportFoxglove(bool on) {
   emit logged(on ? "streaming to Foxglove at ws://127.0.0.1:" + QString::number(foxglovePort())
                  : QString("no longer streaming to Foxglove"));
   emit changed();
-}
-
-void OtherPrograms::logRefusal() {
-  const LiveSource* source = live_.source();
-  const auto stats = source ? source->foxglove->stats() : std::nullopt;
-  const std::string refusal = stats ? stats->lastRefusal : std::string();
-  if (std::exchange(loggedRefusal_, refusal) != refusal && !refusal.empty())
-    emit logged("Foxglove: " + QString::fromStdString(refusal));
 }
 
 void OtherPrograms::switchStream(StreamKind kind, bool on) {

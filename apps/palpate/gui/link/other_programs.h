@@ -60,8 +60,6 @@ class OtherPrograms : public QObject {
   // Opens or closes the WebSocket of the source that is connected.
   void switchFoxglove(bool on);
   void reportFoxglove(bool on);
-  // Logs why the WebSocket refused a connection.
-  void logRefusal();
   std::uint16_t foxglovePort() const;
   void switchRemote(bool on);
   void logRequest(const RemoteRequest& request, const RemoteAnswer& answer);
@@ -70,7 +68,6 @@ class OtherPrograms : public QObject {
   LiveController& live_;
   QSettings& settings_;
   RemoteController controller_;
-  std::string loggedRefusal_;
   // null: off
   std::unique_ptr<RemoteServer> server_;
 };

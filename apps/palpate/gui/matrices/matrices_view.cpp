@@ -98,7 +98,7 @@ void MatricesView::paintEvent(QPaintEvent* event) {
     return;
   }
   // The window may have moved to another screen.
-  if (background_.devicePixelRatio() != devicePixelRatioF()) renew();
+  if (!background_.isNull() && background_.devicePixelRatio() != devicePixelRatioF()) renew();
   const MatricesPictureOptions options = pictureOptions();
   if (background_.isNull()) {
     background_ = QPixmap(size() * devicePixelRatioF());

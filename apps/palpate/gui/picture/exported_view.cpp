@@ -14,13 +14,13 @@ QSizeF ExportedView::sizeOnScreen() const {
 QSizeF ExportedView::proportionsNow() const {
   if (proportions) return proportions();
   const QSizeF shown = sizeOnScreen();
-  return {shown.width(), std::max(shown.height(), leastHeight * shown.width())};
+  return {shown.width(), std::max(shown.height(), minHeightShare * shown.width())};
 }
 
 QSizeF ExportedView::sizeOnPaperMm(double widthMm) const {
   const QSizeF shown = proportionsNow();
   const double heightMm = widthMm * shown.height() / shown.width();
-  return {widthMm, leastHeight > 0.0 ? std::max(heightMm, kLeastChartMm) : heightMm};
+  return {widthMm, minHeightShare > 0.0 ? std::max(heightMm, kMinChartMm) : heightMm};
 }
 
 std::vector<ExportedTable> ExportedView::tablesNow() const {

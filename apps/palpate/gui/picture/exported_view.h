@@ -22,7 +22,7 @@ namespace palpate::gui {
 // Height of a chart on paper, of its width: curves in a low dock would be flat lines.
 inline constexpr double kChartHeight = 0.5;
 // Smallest height of a chart on paper [mm].
-inline constexpr double kLeastChartMm = 40.0;
+inline constexpr double kMinChartMm = 40.0;
 
 // How a picture looks. The painter works in units; their size on paper is set by PicturePaper.
 struct PictureLook {
@@ -92,8 +92,8 @@ struct ExportedView {
   // Size of the picture as on screen [px]; empty: that of the widget.
   std::function<QSizeF()> size = {};
   // Of a chart on paper: its smallest height, of its width (kChartHeight); 0: it has no chart.
-  double leastHeight = 0.0;
-  // Size whose proportions a picture on paper has [px]; empty: that on screen, with leastHeight.
+  double minHeightShare = 0.0;
+  // Size whose proportions a picture on paper has [px]; empty: that on screen, with minHeightShare.
   std::function<QSizeF()> proportions = {};
   // Empty: the view has no picture.
   std::function<void(QPainter&, const PictureLook&)> paint = {};

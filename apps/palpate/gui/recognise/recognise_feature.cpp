@@ -361,7 +361,7 @@ std::vector<ExportedView> RecogniseFeature::views() {
   view.name = "Recognise";
   view.rank = 2;
   view.widget = panel_;
-  view.leastHeight = kChartHeight;
+  view.minHeightShare = kChartHeight;
   view.isThere = [this] {
     return panel_->isVisible() && (panel_->check().shown() || panel_->grasps().shown() ||
                                    !panel_->controller().answer().name().isEmpty());

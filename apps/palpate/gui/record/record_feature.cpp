@@ -98,6 +98,7 @@ std::int64_t counterOf(const RecordingReport& report, const char* name) {
 
 bool missesSomething(const RecordingReport& report) {
   return !report.complete || report.lost > 0 || report.gaps > 0 || counterOf(report, "lost") > 0 ||
+         counterOf(report, "suspect") > 0 || counterOf(report, "out_of_range") > 0 ||
          !report.mcapFailure.empty();
 }
 
@@ -113,12 +114,19 @@ QString summaryOf(const RecordingReport& report) {
   if (notReceived > 0)
     text += ", " + countedText(notReceived, "frame") + " lost on the way from the hand";
   if (badChecksums > 0) text += ", " + countedText(badChecksums, "bad checksum");
+  const std::int64_t suspect = counterOf(report, "suspect");
+  const std::int64_t outOfRange = counterOf(report, "out_of_range");
+  if (suspect > 0) text += ", " + QString::number(suspect) + " refused";
+  if (outOfRange > 0)
+    text += ", " + countedText(outOfRange, "frame") +
+            " with values that the description of the hand excludes";
   if (report.lost > 0) text += ", " + QString::number(report.lost) + " lost by the recorder";
   if (report.gaps > 0)
     text +=
         (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
         " in which no frame arrived" + missingText(report);
-  if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0)
+  if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0 && suspect == 0 &&
+      outOfRange == 0)
     text += ", nothing lost";
   if (!report.mcapFailure.empty())
     text += "; the MCAP file is not whole: " + QString::fromStdString(report.mcapFailure);
@@ -237,6 +245,16 @@ void RecordFeature::connectTake() {
           [this](const std::filesystem::path& from, const std::filesystem::path& to) {
             plan_.rename(from, to);
             offerTake("Renamed: " + QString::fromStdString(to.filename().string()));
+          });
+  connect(&take_,
+          &RecordedTake::beginsWith,
+          this,
+          [this](const std::filesystem::path& part, const std::filesystem::path& gone) {
+            const bool asked = doubted_ == gone;
+            plan_.rename(gone, part);
+            if (!asked) return;
+            doubted_ = part;
+            askAbout(part, *offer_);
           });
   connect(&take_, &RecordedTake::discarded, this, [this](const std::filesystem::path& path) {
     plan_.forget(path);
@@ -384,6 +402,7 @@ void RecordFeature::connectRecorder() {
     state().messages.failAbout(kRecordingTopic, "Not recording: " + message);
     state().messages.logLink("not recording: " + message);
     plan_.end({});
+    isPlanned_ = false;
     showState();
   });
   connect(&live, &LiveController::recordingEnded, this, &RecordFeature::offer);
@@ -510,7 +529,7 @@ bool RecordFeature::isPlanSure() {
     if (answer == UserPrompts::Plan::kCancel) return false;
     if (answer == UserPrompts::Plan::kLeave) {
       plan_.setFollowed(false);
-      state().messages.flash("The plan is followed no longer");
+      state().messages.flash("The plan is no longer followed");
       return true;
     }
   }
@@ -664,7 +683,7 @@ void RecordFeature::offer(const RecordingReport& report) {
       counts && plan_.followed() ? " · " + plan_.progressText() + ", " + plan_.nextText()
       : !counts && isPlanned     ? QString(
                                    " · not counted in the plan: its row was removed, or the plan "
-                                       "is followed no longer")
+                                       "is no longer followed")
                              : QString();
   offerTake("Recorded " + summary + plan);
   if (offering_ && missesSomething(report)) offer_->warn(true);

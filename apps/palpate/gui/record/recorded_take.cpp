@@ -93,18 +93,31 @@ void RecordedTake::rename() {
 }
 
 QStringList RecordedTake::keepWhatIsThere() {
+  const fs::path first = paths_.front();
   std::erase_if(paths_, [](const fs::path& part) { return filesOfRecording(part).empty(); });
   QStringList names;
   for (const fs::path& part : paths_)
     for (const fs::path& file : filesOfRecording(part)) names << pathText(file.filename());
+  if (paths_.empty())
+    emit discarded(first);
+  else if (paths_.front() != first)
+    emit beginsWith(paths_.front(), first);
   emit changed();
   return names;
 }
 
-bool RecordedTake::discardFiles() {
+void RecordedTake::keepRest(const QString& why, const QStringList& moved) {
+  QString text = moved.isEmpty() ? "Not discarded" : "Partly discarded";
+  if (!why.isEmpty()) text += ": " + why;
+  if (!moved.isEmpty()) text += "; in the trash: " + moved.join(", ");
+  if (const QStringList kept = keepWhatIsThere(); !kept.isEmpty())
+    text += "; kept: " + kept.join(", ");
+  windowState_.messages.fail(text);
+}
+
+bool RecordedTake::discardFiles(QStringList& moved) {
   requireNotBeingWritten(paths_);
   bool trashed = true;
-  QStringList moved;
   for (const fs::path& path : paths_)
     for (const fs::path& file : filesOfRecording(path)) {
       trashed = trashed && moveToTrash(pathText(file));
@@ -121,12 +134,7 @@ bool RecordedTake::discardFiles() {
                 nameOfTake(paths_)
           : "Only " + moved.join(", ") + " could be moved to the trash. Delete the rest of " +
                 nameOfTake(paths_);
-  if (!windowState_.prompts.confirmed(why + " for good?", "Delete")) {
-    if (!moved.isEmpty())
-      windowState_.messages.fail("Discarded in part: in the trash: " + moved.join(", ") +
-                                 "; kept: " + keepWhatIsThere().join(", "));
-    return false;
-  }
+  if (!windowState_.prompts.confirmed(why + " for good?", "Delete")) return false;
   deleteRecording(paths_);
   windowState_.messages.flash("deleted: " + nameOfTake(paths_));
   return true;
@@ -137,17 +145,20 @@ void RecordedTake::discard() {
   if (!windowState_.prompts.confirmed(
           "Discard " + nameOfTake(paths_) + "? It is moved to the trash.", "Discard"))
     return;
+  QStringList moved;
   try {
     requireNotBeingWritten(paths_);
     close(opened());
-    if (!discardFiles()) return;
+    if (!discardFiles(moved)) {
+      if (!moved.isEmpty()) keepRest({}, moved);
+      return;
+    }
     windowState_.messages.logLink("discarded " + nameOfTake(paths_));
     const fs::path gone = std::exchange(paths_, {}).front();
     emit discarded(gone);
     emit changed();
   } catch (const Error& error) {
-    windowState_.messages.fail("Not discarded: " + QString::fromUtf8(error.what()) +
-                               "; kept: " + keepWhatIsThere().join(", "));
+    keepRest(QString::fromUtf8(error.what()), moved);
   }
 }
 

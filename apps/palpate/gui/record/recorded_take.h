@@ -34,14 +34,18 @@ class RecordedTake : public QObject {
   // paths() has changed: the recording was made, renamed, or discarded.
   void changed();
   void renamed(const std::filesystem::path& from, const std::filesystem::path& to);
+  // Its first part is gone: it is known by the next one from now on.
+  void beginsWith(const std::filesystem::path& part, const std::filesystem::path& gone);
   void discarded(const std::filesystem::path& path);
 
  private:
   // The opened ones among the parts.
   std::vector<OpenedRecordingPtr> opened() const;
   void close(const std::vector<OpenedRecordingPtr>& recordings);
-  // False: not all of it was discarded; paths() are what is left.
-  bool discardFiles();
+  // `moved` becomes the names of the files that are in the trash. False: the user keeps the others.
+  bool discardFiles(QStringList& moved);
+  // Says why not all of it was discarded (may be empty); paths() become what is left.
+  void keepRest(const QString& why, const QStringList& moved);
   // Drops the parts of which no file is left; returns the names of the files that are.
   QStringList keepWhatIsThere();
 

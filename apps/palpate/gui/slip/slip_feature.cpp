@@ -137,7 +137,7 @@ std::vector<DockSpec> SlipFeature::docks() {
 std::vector<ExportedView> SlipFeature::views() {
   ExportedView view;
   view.name = "Slip";
-  view.leastHeight = kChartHeight;
+  view.minHeightShare = kChartHeight;
   view.widget = panel_;
   view.isThere = [this] { return panel_->shown(); };
   view.fileName = [this] { return state().recordingStem() + "_slip"; };

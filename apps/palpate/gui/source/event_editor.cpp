@@ -58,7 +58,14 @@ void EventEditor::apply(const std::optional<RecordingEvent>& out,
                         const std::optional<RecordingEvent>& in) {
   if (out) {
     const auto at = std::find(events_.begin(), events_.end(), *out);
-    if (at != events_.end()) events_.erase(at);
+    if (at != events_.end()) {
+      // Among events of the same time it keeps its place.
+      if (in && in->tUs == out->tUs) {
+        *at = *in;
+        return;
+      }
+      events_.erase(at);
+    }
   }
   if (in) {
     const auto at = std::upper_bound(

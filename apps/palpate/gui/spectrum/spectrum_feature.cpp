@@ -88,7 +88,7 @@ std::vector<DockSpec> SpectrumFeature::docks() {
 std::vector<ExportedView> SpectrumFeature::views() {
   ExportedView view;
   view.name = "Spectrum";
-  view.leastHeight = kChartHeight;
+  view.minHeightShare = kChartHeight;
   view.widget = panel_;
   view.isThere = [this] { return panel_->shown(); };
   view.fileName = [this] { return state().recordingStem() + "_spectrum"; };

@@ -44,6 +44,12 @@ constexpr int kLongestText = 2000;  // [characters]
 // Longest name beside a short bar [px].
 constexpr int kMaxTextLength = 300;
 
+// Row and span of a mark; to the microsecond, as they are stored.
+using EventRowsSpan = std::tuple<EventLane, long long, long long>;
+EventRowsSpan eventRowsSpanOf(const EventMark& mark) {
+  return {mark.lane, std::llround(mark.fromS * kUsPerS), std::llround(mark.toS * kUsPerS)};
+}
+
 }  // namespace
 
 EventRows::EventRows(QWidget* parent) : QWidget(parent) {
@@ -74,8 +80,7 @@ void EventRows::setMarks(std::vector<EventMark> marks) {
   drag_ = Part::kNone;
   arrange();
   const auto again = [&](std::optional<std::size_t> index) {
-    return index && *index < before.size() ? indexOf(before[*index], shares[*index].count)
-                                           : std::nullopt;
+    return index && *index < before.size() ? indexOf(before[*index], shares[*index]) : std::nullopt;
   };
   chosen_ = again(chosen_);
   edited_ = again(edited_);
@@ -86,32 +91,22 @@ void EventRows::setMarks(std::vector<EventMark> marks) {
   emit marksChanged();
 }
 
-std::optional<std::size_t> EventRows::indexOf(const EventMark& before,
-                                              std::size_t numOfSpan) const {
-  std::optional<std::size_t> other;
-  std::size_t numNow = 0;
+std::optional<std::size_t> EventRows::indexOf(const EventMark& before, const Share& share) const {
+  std::optional<std::size_t> named;
   for (std::size_t i = 0; i < marks_.size(); ++i) {
+    // Also one with another text: it was renamed.
+    if (shares_[i] == share && eventRowsSpanOf(marks_[i]) == eventRowsSpanOf(before)) return i;
     const EventMark& mark = marks_[i];
-    if (mark.lane != before.lane ||
-        std::abs(mark.fromS - before.fromS) + std::abs(mark.toS - before.toS) >= 1e-3)
-      continue;
-    if (mark.text == before.text) return i;
-    other = i;
-    ++numNow;
+    const bool near = std::abs(mark.fromS - before.fromS) + std::abs(mark.toS - before.toS) < 1e-3;
+    if (!named && near && mark.lane == before.lane && mark.text == before.text) named = i;
   }
-  // Another text: it was renamed. One that was removed isn't replaced by another of its span.
-  return numNow >= numOfSpan ? other : std::nullopt;
+  // One that was removed isn't replaced by another of its span.
+  return named;
 }
 
 void EventRows::arrange() {
-  // Of marks with the same span; to the microsecond, as they are stored.
-  const auto spanOf = [this](std::size_t i) {
-    const EventMark& mark = marks_[i];
-    return std::tuple(
-        mark.lane, std::llround(mark.fromS * kUsPerS), std::llround(mark.toS * kUsPerS));
-  };
-  std::map<decltype(spanOf(0)), std::vector<std::size_t>> spans;
-  for (std::size_t i = 0; i < marks_.size(); ++i) spans[spanOf(i)].push_back(i);
+  std::map<EventRowsSpan, std::vector<std::size_t>> spans;
+  for (std::size_t i = 0; i < marks_.size(); ++i) spans[eventRowsSpanOf(marks_[i])].push_back(i);
   shares_.assign(marks_.size(), {});
   for (const auto& [span, same] : spans)
     for (std::size_t i = 0; i < same.size(); ++i) shares_[same[i]] = {i, same.size()};
@@ -149,6 +144,11 @@ QRectF EventRows::barOf(std::size_t index) const {
   double from = pixelOf(dragged ? dragFromS_ : mark.fromS);
   double to = std::max(pixelOf(dragged ? dragToS_ : mark.toS), from + kLeastBar);
   if (const auto [place, count] = shares_[index]; count > 1 && !dragged) {
+    // Each has a share of what is visible.
+    if (from < right_ && to > left_) {
+      from = std::max<double>(from, left_);
+      to = std::min<double>(to, right_);
+    }
     const double width = std::max((to - from) / static_cast<double>(count), kLeastBar + 1.0);
     const double all = static_cast<double>(count) * width;
     // Moments at the right border lie before it.
@@ -273,10 +273,14 @@ void EventRows::paintEvent(QPaintEvent*) {
 
 std::optional<std::size_t> EventRows::markAt(const QPointF& at) const {
   // The mark painted last is on top, but the ends of the chosen one take precedence over all
-  // others.
-  if (chosen_ && *chosen_ < marks_.size() &&
-      barOf(*chosen_).adjusted(-kReach, 0, kReach, 0).contains(at))
-    return chosen_;
+  // others. An end of its span may lie in the bar of another one of this span.
+  if (chosen_ && *chosen_ < marks_.size()) {
+    const QRectF bar = barOf(*chosen_);
+    const bool inRow = at.y() >= bar.top() && at.y() < bar.bottom();
+    if (bar.adjusted(-kReach, 0, kReach, 0).contains(at) ||
+        (inRow && endAt(*chosen_, at.x()) != Part::kNone))
+      return chosen_;
+  }
   // Bars beside each other are told exactly; around them there is a pixel more.
   for (const double around : {0.0, 1.0})
     for (auto i = order_.rbegin(); i != order_.rend(); ++i)
@@ -284,14 +288,19 @@ std::optional<std::size_t> EventRows::markAt(const QPointF& at) const {
   return std::nullopt;
 }
 
-EventRows::Part EventRows::partAt(std::size_t index, const QPointF& at) const {
+EventRows::Part EventRows::endAt(std::size_t index, double x) const {
   const EventMark& mark = marks_[index];
-  if (!mark.editable || chosen_ != index) return Part::kBody;
-  const double from = std::abs(at.x() - pixelOf(mark.fromS));
-  const double to = std::abs(at.x() - pixelOf(mark.toS));
-  if (std::min(from, to) > kReach || pixelOf(mark.toS) - pixelOf(mark.fromS) < 2.0)
-    return Part::kBody;
+  const double from = std::abs(x - pixelOf(mark.fromS));
+  const double to = std::abs(x - pixelOf(mark.toS));
+  if (!mark.editable || std::min(from, to) > kReach ||
+      pixelOf(mark.toS) - pixelOf(mark.fromS) < 2.0)
+    return Part::kNone;
   return from < to ? Part::kFrom : Part::kTo;
+}
+
+EventRows::Part EventRows::partAt(std::size_t index, const QPointF& at) const {
+  const Part end = chosen_ == index ? endAt(index, at.x()) : Part::kNone;
+  return end == Part::kNone ? Part::kBody : end;
 }
 
 void EventRows::choose(std::optional<std::size_t> mark) {

@@ -71,6 +71,12 @@ class EventRows : public QWidget {
 
  private:
   enum class Part { kNone, kBody, kFrom, kTo };
+  // The place of a mark among those of the same span in its row.
+  struct Share {
+    std::size_t index = 0;
+    std::size_t count = 1;
+    bool operator==(const Share&) const = default;
+  };
   int rowHeight() const;
   double pixelOf(double seconds) const;
   double secondsAt(double pixel) const;
@@ -78,10 +84,12 @@ class EventRows : public QWidget {
   std::vector<std::size_t> rowOfChosen() const;
   std::vector<std::size_t> rowOf(std::optional<EventLane> lane) const;
   // The mark of `before`, which was among the marks before they were replaced, or the one that
-  // replaced it; `numOfSpan`: how many marks had its span.
-  std::optional<std::size_t> indexOf(const EventMark& before, std::size_t numOfSpan) const;
+  // replaced it; `share`: its place then.
+  std::optional<std::size_t> indexOf(const EventMark& before, const Share& share) const;
   void arrange();
   std::optional<std::size_t> markAt(const QPointF& at) const;
+  // The end of the mark's span that can be taken there; kNone: none.
+  Part endAt(std::size_t mark, double x) const;
   Part partAt(std::size_t mark, const QPointF& at) const;
   // What limits the name of a mark that is painted beside its bar.
   struct Neighbours {
@@ -93,12 +101,7 @@ class EventRows : public QWidget {
   QColor colorOf(const EventMark& mark) const;
 
   std::vector<EventMark> marks_;
-  // Of each mark: its place among those of the same span in its row.
-  struct Share {
-    std::size_t index = 0;
-    std::size_t count = 1;
-  };
-  std::vector<Share> shares_;
+  std::vector<Share> shares_;  // of each mark
   // The marks in the order in which they are painted: short ones above long ones.
   std::vector<std::size_t> order_;
   // Lanes that have a mark.

@@ -660,7 +660,7 @@ std::vector<ExportedView> TimelineFeature::views() {
   ExportedView view;
   view.name = "Timeline";
   view.widget = charts_;
-  view.leastHeight = kChartHeight;
+  view.minHeightShare = kChartHeight;
   view.isThere = [&windowState] { return windowState.currentFrame.hasFrame(); };
   view.fileName = [&windowState] {
     return windowState.recordingStem() + "_" +

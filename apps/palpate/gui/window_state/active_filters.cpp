@@ -112,10 +112,13 @@ void ActiveFilters::lend(const Recipe& recipe) {
 
 void ActiveFilters::giveBack() {
   const bool unchanged = isLent();
-  const auto lent = std::exchange(lent_, std::nullopt);
-  if (!unchanged) return;
-  editor_.setRecipe(lent->own);
-  setOn(lent->ownOn);
+  if (unchanged) {
+    // What the settings remember stays: the user's filters may be those of the command line.
+    lent_->recipe = lent_->own;
+    editor_.setRecipe(lent_->own);
+    setOn(lent_->ownOn);
+  }
+  lent_.reset();
 }
 
 void ActiveFilters::setOn(bool on) {
