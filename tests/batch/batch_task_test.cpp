@@ -145,7 +145,7 @@ TEST_F(BatchTasks, UnitsStandInTheSecondRow) {
   EXPECT_EQ(secondRow(made(slipTask({.segments = true, .unitsRow = true}), "w.csv")),
             kSlipSegmentUnits);
   EXPECT_EQ(secondRow(made(convertTask({.choices = {.unitsRow = true}}), "x.csv")),
-            ",ms,,,,counts");
+            ",ms,,,,counts,us");
   EXPECT_NE(signalsTask({.unitsRow = true}).options, signalsTask({}).options);
   EXPECT_NE(slipTask({.unitsRow = true}).options, slipTask({}).options);
   EXPECT_NE(convertTask({.choices = {.unitsRow = true}}).options, convertTask().options);

@@ -290,7 +290,7 @@ TEST(CalibrateCommand, AThresholdIsBoundedByTheFullScaleOfTheHand) {
     for (int i = 0; i < 100; ++i)
       builder.addFrame(i * 30'000, std::vector<float>{5000.5F, 0.0F, 0.0F, 0.0F});
     const std::string file = folder / (numberText(fullScale) + ".palpate");
-    saveRecording(builder.finish({}), {}, file);
+    saveRecording(builder.finish(handMeta(hand)), {}, file);
     const auto tare = palpate({"calibrate", "tare", file, "--most", "6000"});
     if (fullScale > 6000.0F) {
       EXPECT_EQ(tare.exitCode, 0) << tare.err;

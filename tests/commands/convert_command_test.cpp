@@ -181,10 +181,10 @@ TEST_F(ConvertCommand, theUnitsStandInTheSecondRowWhereTheyAreAskedFor) {
     const std::size_t begin = text.find('\n') + 1;
     return text.substr(begin, text.find('\n', begin) - begin);
   };
-  EXPECT_EQ(secondRow("a.csv"), ",ms,,,,counts");
-  EXPECT_EQ(secondRow("a.csv.angles.csv"), ",ms,deg,deg,deg,deg,deg,deg,deg");
+  EXPECT_EQ(secondRow("a.csv"), ",ms,,,,counts,us");
+  EXPECT_EQ(secondRow("a.csv.angles.csv"), ",ms,deg,deg,deg,deg,deg,deg,deg,us");
   EXPECT_EQ(secondRow("a.csv.temperatures.csv"),
-            ",ms,degC,degC,degC,degC,degC,degC,degC,degC,degC");
+            ",ms,degC,degC,degC,degC,degC,degC,degC,degC,degC,us");
   expectOneLineError(
       palpate({"convert", in("a.dsa"), in("a.npz"), "--units-row"}), 2, {"is for .csv"});
 }

@@ -213,7 +213,8 @@ TEST(SpectrumCommand, OneLineWithItsPeaks) {
   EXPECT_NEAR(json.at("peaks").at(0).at("amplitude").asDouble(), 400.0, 2.0);
   EXPECT_EQ(json.at("psd").size(), 33u);
   expectOneLineError(with({"--welch", "--window", "2000"}), 1, {"smaller --window"});
-  expectOneLineError(with({"--welch", "--coherence", "1:mean,2:mean"}), 2, {"not both"});
+  expectOneLineError(
+      with({"--welch", "--coherence", "1:mean,2:mean"}), 2, {"--coherence doesn't go with"});
 }
 
 TEST(SpectrumCommand, CoherenceOfTwoSignals) {

@@ -73,8 +73,7 @@ TEST(StreamShape, NamesTheValueThatIsOutOfRange) {
   EXPECT_EQ(arranged({0, -3, 1}), "value 2 is -3, not in 0..4095 counts");
   EXPECT_EQ(arranged({0, 1, 4096}), "value 3 is 4096, not in 0..4095 counts");
   EXPECT_EQ(arranged({NAN, 1, 2}), "value 1 is nan: 0 is kept");
-  EXPECT_EQ(arranged({1, 2, std::numeric_limits<float>::infinity()}),
-            "value 3 is inf: 0 is kept");
+  EXPECT_EQ(arranged({1, 2, std::numeric_limits<float>::infinity()}), "value 3 is inf: 0 is kept");
 }
 
 TEST(StreamShape, TheRangeIsInTheUnitOfTheHand) {

@@ -44,7 +44,8 @@ Calibration tenth(double indenterAreaMm2 = 50.0) {
                                      .driftCountsPerS = 0.0,
                                      .nearestDegC = t,
                                      .activeAreaMm2 = 100.0});
-  calibration.pressure = fitPressureModel(calibration.samples, {.indenterAreaMm2 = indenterAreaMm2});
+  calibration.pressure =
+      fitPressureModel(calibration.samples, {.indenterAreaMm2 = indenterAreaMm2});
   return calibration;
 }
 
@@ -182,8 +183,7 @@ TEST_F(CalibrateForceTest, WithoutTheAreaOfTheIndenterForcesAreUpperLimits) {
   ForcePage& page = panel_->force();
   ASSERT_TRUE(page.shown()) << why().toStdString();
   page.setPosition(5.0);
-  for (const int row : {3, 6})
-    EXPECT_TRUE(cell("forceTable", row, 4).startsWith("≤ ")) << row;
+  for (const int row : {3, 6}) EXPECT_TRUE(cell("forceTable", row, 4).startsWith("≤ ")) << row;
   const QString notes = find<QLabel>("forceNotes")->text();
   EXPECT_TRUE(notes.contains("the area of the indenter is not known")) << notes.toStdString();
   const std::size_t row = 6 * page.found()->frameAt(5.0) + 3;

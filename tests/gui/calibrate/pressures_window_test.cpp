@@ -87,9 +87,9 @@ TEST_F(PressuresWindowTest, AnAppliedOneTellsForcesOfEveryFrame) {
   for (const std::size_t frame : {strongest, std::size_t{3}, strongest + 1}) {
     playback().seekFrame(frame);
     // The calibration was made without the area of an indenter.
-    EXPECT_EQ(force(6),
-              (series.forceN(frame) > 0.0 ? "≤ " : "") +
-                  QString::number(series.forceN(frame), 'f', 2))
+    EXPECT_EQ(
+        force(6),
+        (series.forceN(frame) > 0.0 ? "≤ " : "") + QString::number(series.forceN(frame), 'f', 2))
         << frame;
   }
   playback().seekFrame(strongest);
