@@ -209,7 +209,8 @@ void StreamLineParser::takeText(std::string_view line, const Sink& sink) {
     if (line.empty()) return refuse("an empty list");
   }
   if (line.front() == '>') line = trimmed(line.substr(1), " \t");
-  if (!line.empty() && isLetter(line.front()) && std::ranges::count(line, ':') > 1)
+  if (line.empty()) return refuse("nothing stands behind '>'");
+  if (isLetter(line.front()) && std::ranges::count(line, ':') > 1)
     readLabelled(line, sink);
   else
     readNumbers(line, sink);
@@ -225,7 +226,7 @@ bool StreamLineParser::readHead(std::string_view line, Head& head) {
   const char* const end = line.data() + line.size();
   std::string_view name = tokenAt(at, end);
   head.values = at;
-  if (!isLetter(*at) || isNonFinite(name)) return true;
+  if (at == end || !isLetter(*at) || isNonFinite(name)) return true;
   if (const std::size_t colon = name.find(':'); colon != std::string_view::npos) {
     name = name.substr(0, colon + 1);
     head.hasColon = true;
