@@ -100,15 +100,27 @@ void readTactileMatrices(const Json& matrices,
   }
 }
 
-// The next end of a line; null when there is none.
-const char* nextLineEnd(const char* at, const char* end) {
-  const auto find = [&](char c, const char* until) {
-    return static_cast<const char*>(std::memchr(at, c, static_cast<std::size_t>(until - at)));
-  };
-  const char* const feed = find('\n', end);
-  const char* const carriage = find('\r', feed != nullptr ? feed : end);
-  return carriage != nullptr ? carriage : feed;
-}
+// Finds the ends of lines. The next '\n' is kept, so that each byte is looked at twice at most,
+// whatever ends the lines.
+class LineEnds {
+ public:
+  LineEnds(const char* begin, const char* end) : end_(end), feed_(find('\n', begin, end)) {}
+  // The next end of a line at or behind `at`, which must not go back; the end of all when there is
+  // none.
+  const char* next(const char* at) {
+    if (feed_ < at) feed_ = find('\n', at, end_);
+    return find('\r', at, feed_);
+  }
+
+ private:
+  // `end` when there is none.
+  static const char* find(char c, const char* at, const char* end) {
+    const void* const found = std::memchr(at, c, static_cast<std::size_t>(end - at));
+    return found != nullptr ? static_cast<const char*>(found) : end;
+  }
+  const char* end_;
+  const char* feed_;
+};
 
 }  // namespace
 
@@ -123,51 +135,67 @@ StreamLineParser::StreamLineParser(StreamShape shape, const StreamLineOptions& o
       rowsBegin_(!options.startsInside) {}
 
 void StreamLineParser::push(std::span<const std::byte> bytes, const Sink& sink) {
+  if (bytes.empty()) return;
   const char* at = reinterpret_cast<const char*>(bytes.data());
   const char* const end = at + bytes.size();
+  LineEnds ends(at, end);
   while (at != end) {
-    // "\r\n" and "\n\r" end one line.
-    if (lastEnd_ != '\0' && *at != lastEnd_ && (*at == '\n' || *at == '\r')) {
-      lastEnd_ = '\0';
-      ++stats_.lineBytes;
+    if (continuesEnd(*at, sink)) {
       ++at;
       continue;
     }
-    const char* const stop = nextLineEnd(at, end);
-    const char* const pieceEnd = stop != nullptr ? stop : end;
-    const auto piece = static_cast<std::size_t>(pieceEnd - at);
-    const std::size_t withEnd = piece + (stop != nullptr ? 1 : 0);
-    lastEnd_ = stop != nullptr ? *stop : '\0';
-    if (!skipping_ && pending_.size() + piece > longestLine_) {
-      refuse(stats_.lines + 1,
-             "longer than " + std::to_string(longestLine_) + " bytes: no line of this hand is");
-      stats_.skippedBytes += pending_.size();
-      pending_.clear();
-      skipping_ = true;
-    }
-    if (skipping_) {
-      stats_.skippedBytes += withEnd;
-      if (stop != nullptr) {
-        ++stats_.lines;
-        skipping_ = false;
-      }
-    } else if (stop == nullptr) {
-      pending_.append(at, piece);
-    } else if (pending_.empty()) {
-      stats_.lineBytes += withEnd;
-      takeLine({at, piece}, sink);
-    } else {
-      pending_.append(at, piece);
-      stats_.lineBytes += pending_.size() + 1;
-      takeLine(pending_, sink);
-      pending_.clear();
-    }
-    at += withEnd;
+    const char* const stop = ends.next(at);
+    const bool ended = stop != end;
+    if (ended) lastEnd_ = *stop;
+    takePiece({at, static_cast<std::size_t>(stop - at)}, ended, sink);
+    at = ended ? stop + 1 : end;
+  }
+}
+
+// Whether `c` belongs to the end of the line before: "\r\n", "\n\r" and "\r\r\n" end one line. What
+// follows a second '\r' says whether it was an empty line.
+bool StreamLineParser::continuesEnd(char c, const Sink& sink) {
+  const char last = std::exchange(lastEnd_, '\0');
+  if (std::exchange(heldReturn_, false) && c != '\n') takeLine({}, sink);
+  if (last == '\0' || (c != '\n' && c != '\r') || (c == '\n' && last == '\n')) return false;
+  if (c == last) {
+    lastEnd_ = c;
+    heldReturn_ = true;
+  }
+  ++stats_.lineBytes;
+  return true;
+}
+
+// Takes a line, or the part of it that came, without its end.
+void StreamLineParser::takePiece(std::string_view piece, bool ended, const Sink& sink) {
+  if (!skipping_ && pending_.size() + piece.size() > longestLine_) {
+    refuse(stats_.lines + 1,
+           "longer than " + std::to_string(longestLine_) + " bytes: no line of this hand is");
+    stats_.skippedBytes += pending_.size();
+    pending_.clear();
+    skipping_ = true;
+  }
+  if (skipping_) {
+    stats_.skippedBytes += piece.size() + (ended ? 1 : 0);
+    if (!ended) return;
+    ++stats_.lines;
+    skipping_ = false;
+  } else if (!ended) {
+    pending_.append(piece);
+  } else if (pending_.empty()) {
+    stats_.lineBytes += piece.size() + 1;
+    takeLine(piece, sink);
+  } else {
+    pending_.append(piece);
+    stats_.lineBytes += pending_.size() + 1;
+    takeLine(pending_, sink);
+    pending_.clear();
   }
 }
 
 void StreamLineParser::endLine(const Sink& sink) {
   lastEnd_ = '\0';
+  if (std::exchange(heldReturn_, false)) takeLine({}, sink);
   if (skipping_) {
     ++stats_.lines;
     skipping_ = false;

@@ -202,6 +202,7 @@ TEST(StreamLineForms, ListsInBracketsAreNumbers) {
 TEST(StreamLineForms, AnyEndOfALineAndAByteOrderMark) {
   for (const char* text : {"0,1,2,3,4,5\r10,11,12,13,14,15\r",
                            "0,1,2,3,4,5\n\r10,11,12,13,14,15\n\r",
+                           "0,1,2,3,4,5\r\r\n10,11,12,13,14,15\r\r\n",
                            "\xEF\xBB\xBF"
                            "0,1,2,3,4,5\r\n10,11,12,13,14,15\r\n"})
     for (const std::size_t chunk : {std::size_t{1}, std::size_t{5}, SIZE_MAX}) {
@@ -210,6 +211,35 @@ TEST(StreamLineForms, AnyEndOfALineAndAByteOrderMark) {
       EXPECT_EQ(reading.stats.refused, 0u) << reading.fault;
       EXPECT_EQ(reading.stats.lines, 2u) << text;
     }
+}
+
+// println() into a file that Windows opened as text ends a line with "\r\r\n"; "\r\r" is an empty
+// line between two frames.
+TEST(StreamLineForms, ASecondReturnIsAnEmptyLineUnlessAFeedFollows) {
+  const std::pair<const char*, std::uint64_t> kTexts[]{
+      {"0,1,2\r\r\n3,4,5\r\r\n10,11,12\r\r\n13,14,15\r\r\n", 4},
+      {"0,1,2\r\r\n3,4,5\r\r\n\r\r\n10,11,12\r\r\n13,14,15\r\r\n", 5},
+      {"0,1,2\r3,4,5\r\r10,11,12\r13,14,15\r", 5},
+      {"0,1,2\r3,4,5\r\r\r10,11,12\r13,14,15\r", 6}};
+  for (const auto& [text, lines] : kTexts)
+    for (const std::size_t chunk : {std::size_t{1}, std::size_t{5}, SIZE_MAX}) {
+      const FormReading reading = readForm(text, padHand({{2, 3}}), {}, chunk);
+      EXPECT_EQ(reading.frames, kTwoFrames) << text;
+      EXPECT_EQ(reading.stats.refused, 0u) << reading.fault;
+      EXPECT_EQ(reading.stats.lines, lines) << text;
+    }
+  const FormReading missing = readForm("0,1,2\r\r10,11,12\r13,14,15\r", padHand({{2, 3}}));
+  EXPECT_EQ(missing.fault, "line 2: a frame of 1 row instead of 2");
+  EXPECT_EQ(missing.frames, std::vector<Values>{kTwoFrames[1]});
+}
+
+// Each line once searched the whole rest of what was read for the other end.
+TEST(StreamLineForms, AMillionLinesOfReturnsAreReadInOneRead) {
+  std::string text;
+  for (int i = 0; i < 1'000'000; ++i) text += "#\r";
+  const FormReading reading = readForm(text + "0,1,2,3,4,5\r", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames, std::vector<Values>{kTwoFrames[0]});
+  EXPECT_EQ(reading.stats.lines, 1'000'001u);
 }
 
 // --- Values and times

@@ -85,6 +85,8 @@ class StreamLineParser {
     std::optional<std::uint32_t> sequence;
     const char* values = nullptr;  // where the numbers begin
   };
+  bool continuesEnd(char c, const Sink& sink);
+  void takePiece(std::string_view piece, bool ended, const Sink& sink);
   void takeLine(std::string_view line, const Sink& sink);
   void takeText(std::string_view line, const Sink& sink);
   void readNumbers(std::string_view line, const Sink& sink);
@@ -140,6 +142,7 @@ class StreamLineParser {
   std::string pending_;           // a line without its end yet; never longer than longestLine_
   bool skipping_ = false;         // until the end of a line that is not used
   char lastEnd_ = '\0';           // '\n' or '\r' directly before, of which no pair was made yet
+  bool heldReturn_ = false;       // a second '\r' came, which may belong to "\r\r\n"
   std::string plain_;             // the present line without its brackets
   std::vector<double> numbers_;   // of the present line, as many as an item has at most
   std::string_view firstNumber_;  // as it was written
