@@ -92,8 +92,8 @@ void StreamLineParser::readLabelled(std::string_view line, const Sink& sink) {
     if (!unit)
       return refuse("one value more than the hand has, and the first is " +
                     inQuotes(lineLabels_.front()) + "; a time is called t, time, s, ms or us");
-    if (!readTime(kFrame, options_.time == StreamTime::kAuto ? *unit : options_.time, count, item))
-      return;
+    const StreamTime chosen = options_.time == StreamTime::kAuto ? *unit : options_.time;
+    if (!readTime(chosen, count, /*beginsFrame=*/true, item)) return;
   }
   const std::size_t from = withTime ? 1 : 0;
   if (!labelsLearned_) {

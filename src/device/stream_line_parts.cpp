@@ -32,7 +32,8 @@ bool StreamLineParser::takePad(const Head& head, std::size_t count, const Sink& 
   if (!isCountOf(matrix, given)) return false;
   StreamItem item;
   item.sequence = head.sequence;
-  if (withTime && !readTime(head.kind, options_.time, count, item)) return true;
+  if (!firstPad_) firstPad_ = options_.startsInside ? 0 : *index;
+  if (withTime && !readTime(options_.time, count, *index == *firstPad_, item)) return true;
   if (!continuesPads(*index, head, item)) return true;
   const std::size_t at = layout.offset(*index);
   std::size_t next = withTime ? 1 : 0;
@@ -52,8 +53,6 @@ bool StreamLineParser::takePad(const Head& head, std::size_t count, const Sink& 
 // Whether the line of this matrix belongs to the frame that is being read; begins a frame with the
 // matrix that came first. Of a sender that was running already this is matrix 0.
 bool StreamLineParser::continuesPads(std::size_t matrix, const Head& head, const StreamItem& item) {
-  const bool isFirstLine = !firstPad_;
-  if (isFirstLine) firstPad_ = options_.startsInside ? 0 : matrix;
   if (matrix == *firstPad_) {
     dropPart();
     partSeen_.assign(shape_.layout().numMatrices(), false);

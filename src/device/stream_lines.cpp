@@ -21,10 +21,14 @@ using namespace line_tokens;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 // Equal times in a row of a clock in milliseconds: 10,000 frames/s.
-constexpr int kMostEqualTimes = 10;
+constexpr int kMaxEqualTimes = 10;
 // A clock goes back where it wraps or its sender starts anew; a taxel does so all the time.
-constexpr int kMostTimesBack = 3;
+constexpr int kMaxTimesBack = 3;
 constexpr int kTimesForgetting = 50;
+// After so many times that only ascend a number is taken for a time again.
+constexpr int kTimesTrusting = 100;
+// More frames with the same number are those of a sender that does not count.
+constexpr int kMaxSameNumber = 2;
 
 constexpr std::size_t kShortestLimit = 4096;
 constexpr std::size_t kBytesPerNumber = 25;
@@ -330,23 +334,43 @@ bool StreamLineParser::hasTime(bool fits, bool fitsWithout) const noexcept {
   return options_.time != StreamTime::kNone;
 }
 
-// Whether guessed times ascend, as those of a clock do.
-bool StreamLineParser::ascends(double us) {
-  if (lastTimeUs_ && !isNoTime_) {
-    timesEqual_ = us == *lastTimeUs_ ? timesEqual_ + 1 : 0;
-    if (us < *lastTimeUs_) ++timesBack_;
-    if (us > *lastTimeUs_ && ++timesForward_ % kTimesForgetting == 0 && timesBack_ > 0)
-      --timesBack_;
-    isNoTime_ = timesEqual_ > kMostEqualTimes || timesBack_ >= kMostTimesBack;
-  }
-  lastTimeUs_ = us;
-  return !isNoTime_;
+// Whether the time of a frame with this number can be compared with the one before: not where the
+// frame was overtaken, came twice, or is that of a second sender, whose numbers are behind.
+bool StreamLineParser::isNewer(std::optional<std::uint32_t> sequence) {
+  if (!sequence) return true;
+  const auto step =
+      newestSequence_ ? static_cast<std::int32_t>(*sequence - *newestSequence_) : std::int32_t{1};
+  if (step == 0 && numSameNumber_ <= kMaxSameNumber) ++numSameNumber_;
+  if (step <= 0) return step == 0 && numSameNumber_ > kMaxSameNumber;
+  newestSequence_ = sequence;
+  numSameNumber_ = 0;
+  return true;
 }
 
-// Reads the time, which is the first of `count` numbers. Returns false when it was refused.
-bool StreamLineParser::readTime(StreamItemKind kind,
-                                StreamTime unit,
+// Finds out whether guessed times ascend, as those of a clock do.
+void StreamLineParser::watchTime(double us) {
+  const double before = std::exchange(lastTimeUs_, us).value_or(us - 1.0);
+  timesEqual_ = us == before ? std::min(timesEqual_ + 1, kMaxEqualTimes + 1) : 0;
+  const bool stands = timesEqual_ > kMaxEqualTimes;
+  if (us < before) timesBack_ = std::min(timesBack_ + 1, kMaxTimesBack);
+  if (us < before || stands) timesAscending_ = 0;
+  if (us > before) {
+    timesAscending_ = std::min(timesAscending_ + 1, kTimesTrusting);
+    timesForward_ = (timesForward_ + 1) % kTimesForgetting;
+    if (timesForward_ == 0 && timesBack_ > 0) --timesBack_;
+  }
+  if (isNoTime_ && timesAscending_ == kTimesTrusting) {
+    isNoTime_ = false;
+    timesBack_ = 0;
+  }
+  if (stands || timesBack_ >= kMaxTimesBack) isNoTime_ = true;
+}
+
+// Reads the time, which is the first of `count` numbers. Returns false when it was refused. Of a
+// frame of several lines only the times of the first ones are compared.
+bool StreamLineParser::readTime(StreamTime unit,
                                 std::size_t count,
+                                bool beginsFrame,
                                 StreamItem& item) {
   const double perUnit = unitUs(unit, firstNumber_);
   const double us = numbers_[0] * perUnit;
@@ -355,16 +379,17 @@ bool StreamLineParser::readTime(StreamItemKind kind,
     return false;
   }
   item.deviceUs = std::llround(us);
-  if (unit != StreamTime::kAuto || kind != StreamItemKind::kFrame) return true;
+  if (unit != StreamTime::kAuto || item.kind != StreamItemKind::kFrame) return true;
+  if (beginsFrame && isNewer(item.sequence)) watchTime(us);
   const std::string first = "the first of " + std::to_string(count) + " numbers";
-  if (!ascends(us)) {
+  if (isNoTime_) {
     refuse(first + " does not ascend (" + shortened(firstNumber_) +
            "), so it is not the time for which it was taken in " + counted(numGuessed_, "frame") +
            ": name the unit of the time (--time s), or send " + std::to_string(count - 1) +
            " numbers without a time (--time none)");
     return false;
   }
-  if (numGuessed_++ == 0)
+  if (beginsFrame && numGuessed_++ == 0)
     guess_ = first + " of a frame is taken for its time in " +
              (perUnit > 1e3 ? "seconds" : "milliseconds") +
              "; if it is not, name its unit (--time s, ms or us) or --time none";
@@ -384,7 +409,7 @@ void StreamLineParser::deliver(const Head& head, std::size_t count, const Sink& 
   StreamItem item;
   item.kind = head.kind;
   item.sequence = head.sequence;
-  if (withTime && !readTime(head.kind, options_.time, count, item)) return;
+  if (withTime && !readTime(options_.time, count, /*beginsFrame=*/true, item)) return;
   const std::span<const double> numbers = std::span(numbers_).subspan(withTime ? 1 : 0, given);
   if (head.kind == StreamItemKind::kFrame) {
     endParts();

@@ -1,6 +1,7 @@
 // Forms of lines that sketches and programs print: rows, a line per matrix, labels, lists; times
 // that were guessed; values outside of the description.
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -292,6 +293,78 @@ TEST(StreamLineForms, ClocksThatWrapOrAreCoarseAscend) {
   }
   EXPECT_EQ(readForm(coarse, padHand({{1, 3}})).frames.size(), 2000u);
   EXPECT_EQ(readForm(wrapping, padHand({{1, 3}})).frames.size(), 2000u);
+}
+
+// `frames` frames of a line per matrix; all lines of frame i have the time timeMs(i).
+std::string padLines(int matrices, int frames, const std::function<int(int)>& timeMs) {
+  std::string text;
+  for (int i = 0; i < frames; ++i)
+    for (int k = 1; k <= matrices; ++k)
+      text += "p" + std::to_string(k) + "," + std::to_string(timeMs(i)) + ",1,2\n";
+  return text;
+}
+
+HandDescription namedPads(int matrices) {
+  HandDescription hand =
+      padHand(std::vector<std::pair<int, int>>(static_cast<std::size_t>(matrices), {1, 2}));
+  for (MatrixDescription& matrix : hand.matrices) matrix.shortName.insert(0, "p");
+  return hand;
+}
+
+// Each of the lines of a frame has its time: that of one of them is compared.
+TEST(StreamLineForms, MatricesOfAFrameHaveOneTime) {
+  const FormReading twelve =
+      readForm(padLines(12, 50, [](int i) { return 10 * i; }), namedPads(12));
+  EXPECT_EQ(twelve.frames.size(), 50u) << twelve.fault;
+  EXPECT_EQ(twelve.timesUs.back(), 490'000);
+  const FormReading six = readForm(padLines(6, 200, [](int i) { return i / 2; }), namedPads(6));
+  EXPECT_EQ(six.frames.size(), 200u) << six.fault;
+  const FormReading constant = readForm(padLines(6, 50, [](int) { return 7; }), namedPads(6));
+  EXPECT_EQ(constant.frames.size(), 11u);
+  EXPECT_NE(constant.fault.find("taken in 11 frames"), std::string::npos) << constant.fault;
+}
+
+std::string numberedLine(int number, int timeMs) {
+  return "f#" + std::to_string(number) + "," + std::to_string(timeMs) + ",1,2,3\n";
+}
+
+TEST(StreamLineForms, TimesOfOvertakenFramesAreNotCompared) {
+  std::string overtaken, twice;
+  for (int n = 0; n < 400; n += 4) {
+    for (const int k : {1, 0, 3, 2}) overtaken += numberedLine(n + k, 10 * (n + k));
+    for (const int k : {0, 0, 0, 1, 3, 3, 2, 2}) twice += numberedLine(n + k, 10 * (n + k));
+  }
+  EXPECT_EQ(readForm(overtaken, padHand({{1, 3}})).frames.size(), 400u);
+  EXPECT_EQ(readForm(twice, padHand({{1, 3}})).frames.size(), 800u);
+}
+
+TEST(StreamLineForms, TheClocksOfTwoNumberedSendersAreNotCompared) {
+  for (const int ahead : {0, 7, 12'000}) {
+    std::string text;
+    for (int n = 0; n < 500; ++n)
+      text += numberedLine(n + ahead, 10 * n) + numberedLine(n, 3'000'000 + 10 * n);
+    const FormReading reading = readForm(text, padHand({{1, 3}}));
+    EXPECT_EQ(reading.frames.size(), 1000u) << ahead << reading.fault;
+  }
+}
+
+TEST(StreamLineForms, FramesWithOneNumberForAllAreCompared) {
+  std::string text;
+  for (int i = 0; i < 40; ++i) text += numberedLine(0, i * 7 % 11);
+  EXPECT_NE(readForm(text, padHand({{1, 3}})).fault.find("does not ascend"), std::string::npos);
+}
+
+// A second sender without numbers was stopped: the times ascend again.
+TEST(StreamLineForms, TimesThatAscendAgainAreTaken) {
+  std::string text;
+  for (int i = 0; i < 50; ++i)
+    text += std::to_string(10 * i) + ",1,2,3\n" + std::to_string(50'000 + 10 * i) + ",1,2,3\n";
+  const std::size_t mixed = readForm(text, padHand({{1, 3}})).frames.size();
+  EXPECT_LT(mixed, 10u);
+  for (int i = 50; i < 350; ++i) text += std::to_string(10 * i) + ",1,2,3\n";
+  const FormReading reading = readForm(text, padHand({{1, 3}}));
+  EXPECT_EQ(reading.frames.size(), mixed + 300 - 100);
+  EXPECT_EQ(reading.timesUs.back(), 3'490'000);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class Json;
 enum class StreamTime {
   // A time is there if the line has exactly one number more than the item has values. It is in
   // seconds when it is written with a decimal point or an exponent, otherwise in milliseconds;
-  // guess() says so. Lines whose first number turns out not to ascend are refused.
+  // guess() says so. Lines whose first number turns out not to ascend are refused, until it ascends
+  // for a while.
   kAuto,
   kNone,
   kSeconds,
@@ -102,8 +103,9 @@ class StreamLineParser {
 
   // The time before the values.
   bool hasTime(bool fits, bool fitsWithout) const noexcept;
-  bool readTime(StreamItemKind kind, StreamTime unit, std::size_t count, StreamItem& item);
-  bool ascends(double us);
+  bool readTime(StreamTime unit, std::size_t count, bool beginsFrame, StreamItem& item);
+  bool isNewer(std::optional<std::uint32_t> sequence);
+  void watchTime(double us);
 
   // A line per matrix.
   bool takePad(const Head& head, std::size_t count, const Sink& sink);
@@ -151,9 +153,12 @@ class StreamLineParser {
   std::optional<double> lastTimeUs_;
   int timesEqual_ = 0;
   int timesBack_ = 0;
-  int timesForward_ = 0;
+  int timesForward_ = 0;    // since a time that went back was forgotten
+  int timesAscending_ = 0;  // since one went back or stood
   bool isNoTime_ = false;
-  std::uint64_t numGuessed_ = 0;
+  std::uint64_t numGuessed_ = 0;  // frames
+  std::optional<std::uint32_t> newestSequence_;
+  int numSameNumber_ = 0;        // frames with this number again
   bool hasWholeFrames_ = false;  // frames come in one line each
   // A frame of which only some matrices came yet.
   std::size_t numPartMatrices_ = 0;  // 0: none
