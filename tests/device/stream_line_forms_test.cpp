@@ -124,6 +124,28 @@ TEST(StreamLineForms, AWordIsRefusedWhereNoRowsFollow) {
   EXPECT_EQ(reading.fault, "line 1: 0 numbers instead of 6");
 }
 
+// A sketch that prints what went wrong beside its frames.
+TEST(StreamLineForms, AnotherWordThanTheSeparatorIsRefused) {
+  const std::string frames =
+      "START\n0,1,2\nERROR\n3,4,5\nSTART\n10,11,12\noverflow\nERROR\n13,14,15\n";
+  const FormReading reading = readForm(frames, padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames, kTwoFrames);
+  EXPECT_EQ(reading.stats.refused, 3u);
+  EXPECT_EQ(reading.fault, "line 8: \"ERROR\" is not \"START\", which separates frames");
+  const FormReading late =
+      readForm("0,1,2\n3,4,5\nEND\n10,11,12\n13,14,15\nEND\nbad\nbad\n", padHand({{2, 3}}));
+  EXPECT_EQ(late.frames, kTwoFrames);
+  EXPECT_EQ(late.stats.refused, 2u);
+}
+
+TEST(StreamLineForms, AGreetingIsNotTheSeparatorForLong) {
+  const FormReading reading = readForm(
+      "Ready\n0,1,2\n3,4,5\nEND\n10,11,12\n13,14,15\nEND\n1,2,3\nEND\n", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames, kTwoFrames);
+  EXPECT_EQ(reading.stats.refused, 2u);
+  EXPECT_EQ(reading.fault, "line 9: a frame of 1 row instead of 2");
+}
+
 // --- A line per matrix
 
 TEST(StreamLineForms, AFrameMayHaveALinePerMatrix) {
@@ -176,6 +198,30 @@ TEST(StreamLineForms, LabelsOfARunningSenderAreOrderedByTheirNumbers) {
   EXPECT_EQ(reading.frames[0], (Values{24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35}));
   EXPECT_EQ(readForm("half\nb:1\nc:2\na:3\nb:4\n", padHand({{1, 3}}), {.startsInside = true}).fault,
             "line 5: the order of the values is not known: send all of a frame in one line");
+}
+
+// Each label of the second frame is looked up: none stands where it stood in the first one.
+TEST(StreamLineForms, AHundredThousandLabelsMayComeInAnyOrder) {
+  constexpr int kCount = 100'000;
+  std::string lines, ofEach;
+  Values expected;
+  for (int i = 0; i < kCount; ++i) {
+    lines += "A" + std::to_string(i) + ":0,";
+    ofEach += "A" + std::to_string(i) + ":0\n";
+    expected.push_back(static_cast<float>(i % 4096));
+  }
+  lines += "\n";
+  ofEach += "A0:0\n";
+  for (int i = kCount - 1; i >= 0; --i) {
+    const std::string value = "A" + std::to_string(i) + ":" + std::to_string(i % 4096);
+    lines += value + ",";
+    if (i > 0) ofEach += value + "\n";
+  }
+  for (const std::string& text : {lines + "\n", ofEach}) {
+    const FormReading reading = readForm(text, padHand({{250, 400}}));
+    ASSERT_EQ(reading.frames.size(), 2u) << reading.fault;
+    EXPECT_EQ(reading.frames[1], expected);
+  }
 }
 
 TEST(StreamLineForms, WrongLabelsAreNamed) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -114,6 +115,7 @@ class StreamLineParser {
   // A line per row.
   bool mayBeRows() const noexcept;
   bool takeWord(const Head& head, std::size_t count);
+  bool isSeparator(std::string_view word);
   bool takeRow(const Head& head, std::size_t count, const Sink& sink);
   bool isRow(const Head& head, std::size_t count) const noexcept;
   void addRow(const Sink& sink);
@@ -129,6 +131,7 @@ class StreamLineParser {
   void takeLabel(std::string_view label, double value, const Sink& sink);
   bool endsFirstLabels(std::string_view label, const Sink& sink);
   void dropLabels();
+  void forgetLabels();
   std::optional<std::size_t> placeOfLabel(std::string_view label, std::size_t likely) const;
 
   void refuse(const std::string& why) { refuse(stats_.lines, why); }
@@ -176,8 +179,12 @@ class StreamLineParser {
   bool rowBroken_ = false;      // a row of this frame was refused
   std::size_t numUnplacedRows_ = 0;
   std::optional<std::pair<std::uint64_t, std::string>> heldWord_;  // line and fault
+  std::string separator_;       // the word between two frames; empty: none came
+  bool separatorSure_ = false;  // it also came behind a row
+  std::string otherWord_;       // the last other one
   // Labels in the order of the values, and those of the present line.
   std::vector<std::string> labels_;
+  std::map<std::string, std::size_t, std::less<>> placeOf_;
   bool labelsLearned_ = false;
   std::vector<std::string_view> lineLabels_;
   std::vector<bool> labelSeen_;  // of a frame with a line per label
