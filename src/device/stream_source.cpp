@@ -150,6 +150,7 @@ class ListenedChannel final : public ByteChannel {
   void interrupt() noexcept override { connection_->interrupt(); }
   const std::string& name() const noexcept override { return connection_->name(); }
   bool isNetwork() const noexcept override { return true; }
+  bool atEnd() const noexcept override { return connection_->atEnd(); }
 
  private:
   StreamSource& source_;
