@@ -201,8 +201,8 @@ TEST(StreamLineForms, LabelsOfARunningSenderAreOrderedByTheirNumbers) {
 }
 
 // Each label of the second frame is looked up: none stands where it stood in the first one.
-TEST(StreamLineForms, AHundredThousandLabelsMayComeInAnyOrder) {
-  constexpr int kCount = 100'000;
+TEST(StreamLineForms, ManyLabelsMayComeInAnyOrder) {
+  constexpr int kCount = 64'000;
   std::string lines, ofEach;
   Values expected;
   for (int i = 0; i < kCount; ++i) {
@@ -218,7 +218,7 @@ TEST(StreamLineForms, AHundredThousandLabelsMayComeInAnyOrder) {
     if (i > 0) ofEach += value + "\n";
   }
   for (const std::string& text : {lines + "\n", ofEach}) {
-    const FormReading reading = readForm(text, padHand({{250, 400}}));
+    const FormReading reading = readForm(text, padHand({{250, 256}}));
     ASSERT_EQ(reading.frames.size(), 2u) << reading.fault;
     EXPECT_EQ(reading.frames[1], expected);
   }
@@ -345,7 +345,7 @@ TEST(StreamLineForms, ClocksThatWrapOrAreCoarseAscend) {
 std::string padLines(int matrices, int frames, const std::function<int(int)>& timeMs) {
   std::string text;
   for (int i = 0; i < frames; ++i)
-    for (int k = 1; k <= matrices; ++k)
+    for (int k = 0; k < matrices; ++k)
       text += "p" + std::to_string(k) + "," + std::to_string(timeMs(i)) + ",1,2\n";
   return text;
 }
