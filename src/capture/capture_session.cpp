@@ -134,18 +134,20 @@ void CaptureSession::startRecording(RecordingOptions options) {
       std::make_shared<std::map<std::string, std::int64_t>>(countersOf(device_->status()));
   const auto waits = std::make_shared<bool>(options.startOnContact);
   const auto given = options.counters;
-  const auto missingAtEnd = std::make_shared<std::int64_t>(0);
-  options.openGaps = [this, missingAtEnd](std::int64_t untilUs) {
+  // What the link counted when the recording ended: a gap that was open then and ends later is
+  // counted by the link, too.
+  const auto atEnd = std::make_shared<std::optional<std::map<std::string, std::int64_t>>>();
+  options.openGaps = [this, atEnd](std::int64_t untilUs) {
+    auto& counters = atEnd->emplace(countersOf(device_->status()));
     std::vector<RecordingEvent> gaps;
     if (auto gap = device_->openGap(untilUs)) gaps.push_back(recordingEventOf(std::move(*gap)));
     for (const RecordingLoss& loss : lossesOf(gaps))
-      *missingAtEnd += static_cast<std::int64_t>(loss.lost);
+      for (const char* name : {"lost", "lost_estimated"})
+        counters[name] += static_cast<std::int64_t>(loss.lost);
     return gaps;
   };
-  options.counters = [this, before, given, missingAtEnd] {
-    auto counters = countersOf(device_->status());
-    if (*missingAtEnd > 0)
-      for (const char* name : {"lost", "lost_estimated"}) counters[name] += *missingAtEnd;
+  options.counters = [this, before, given, atEnd] {
+    auto counters = *atEnd ? **atEnd : countersOf(device_->status());
     for (auto& [name, value] : counters) {
       const auto earlier = before->find(name);
       if (earlier != before->end() && earlier->second <= value) value -= earlier->second;

@@ -63,7 +63,10 @@ std::size_t DescriptorChannel::take(std::span<std::byte> into, short events) {
     }
     gone(errno);
   }
-  if (isSocket_) gone(0);
+  if (isSocket_) {
+    atEnd_ = true;
+    gone(0);
+  }
   // A tty returns zero bytes when there is nothing to read (VMIN 0) as well as after a hang-up.
   int waiting = 0;
   if ((events & (POLLHUP | POLLERR)) != 0 || ::ioctl(fd_, FIONREAD, &waiting) != 0) gone(0);

@@ -18,10 +18,12 @@ class DescriptorChannel : public ByteChannel {
   void write(std::span<const std::byte> bytes) override;
   void interrupt() noexcept override;
   const std::string& name() const noexcept override { return name_; }
+  bool atEnd() const noexcept override { return atEnd_; }
   int descriptor() const noexcept override { return fd_; }
 
  protected:
-  // Throws DeviceError when the system has no descriptor left.
+  // `isSocket`: a read of no bytes is the end. Throws DeviceError when the system has no descriptor
+  // left.
   DescriptorChannel(std::string name, int fd, bool isSocket);
   // Reads what is there, as ::read() does.
   virtual ssize_t receive(std::span<std::byte> into);
@@ -33,6 +35,7 @@ class DescriptorChannel : public ByteChannel {
   std::string name_;
   int fd_;
   bool isSocket_;
+  bool atEnd_ = false;
   FileDescriptor wake_;  // eventfd
 };
 

@@ -10,7 +10,7 @@ namespace {
 // Frames that arrive this many numbers late were overtaken; further back the sender restarted.
 constexpr std::int32_t kMaxLate = 64;
 // More frames with the same number are those of a sender that does not count any more.
-constexpr int kMostRepeated = 2;
+constexpr int kMaxRepeated = 2;
 // Frames that may be missing beyond what the time could have held.
 constexpr double kSpareFrames = 64.0;
 constexpr double kTimeMargin = 2.0;
@@ -35,7 +35,11 @@ FrameNumbers::Step FrameNumbers::next(std::uint32_t number,
   }
   const auto step = static_cast<std::int32_t>(number - *last_);
   // A sender that does not count, or no longer.
-  if (step == 0) return {.repeated = counts_ && ++numRepeated_ <= kMostRepeated};
+  if (step == 0) {
+    const bool repeated = counts_ && numRepeated_ < kMaxRepeated;
+    if (repeated) ++numRepeated_;
+    return {.repeated = repeated};
+  }
   numRepeated_ = 0;
   if (isMissing(step)) {
     came_ |= std::uint64_t{1} << -step;

@@ -35,7 +35,7 @@ class FrameNumbers {
   std::uint64_t came_ = 1;
   std::int32_t numKnown_ = 1;
   bool counts_ = false;                 // the numbers grow
-  int numRepeated_ = 0;                 // frames with the last number
+  int numRepeated_ = 0;                 // frames with the last number that were left out
   std::optional<std::int64_t> timeUs_;  // of the last frame
   // Numbers and time of the last seconds; older ones weigh less.
   double recentNumbers_ = 0.0;

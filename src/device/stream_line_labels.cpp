@@ -92,8 +92,8 @@ void StreamLineParser::readLabelled(std::string_view line, const Sink& sink) {
     if (!unit)
       return refuse("one value more than the hand has, and the first is " +
                     inQuotes(lineLabels_.front()) + "; a time is called t, time, s, ms or us");
-    if (!readTime(kFrame, options_.time == StreamTime::kAuto ? *unit : options_.time, count, item))
-      return;
+    const StreamTime chosen = options_.time == StreamTime::kAuto ? *unit : options_.time;
+    if (!readTime(chosen, count, /*beginsFrame=*/true, item)) return;
   }
   const std::size_t from = withTime ? 1 : 0;
   if (!labelsLearned_) {
@@ -114,11 +114,13 @@ bool StreamLineParser::learnLabels(bool mayBeInside) {
   else if (mayBeInside && !areNumbered(labels_))
     why = "the order of the values is not known: send all of a frame in one line";
   if (!why.empty()) {
-    labels_.clear();
+    forgetLabels();
     refuse(why);
     return false;
   }
   if (mayBeInside) labels_ = std::move(sorted);
+  placeOf_.clear();
+  for (std::size_t i = 0; i < labels_.size(); ++i) placeOf_.emplace(labels_[i], i);
   labelsLearned_ = true;
   labelSeen_.assign(labels_.size(), false);
   numLabelsSeen_ = 0;
@@ -128,9 +130,14 @@ bool StreamLineParser::learnLabels(bool mayBeInside) {
 std::optional<std::size_t> StreamLineParser::placeOfLabel(std::string_view label,
                                                           std::size_t likely) const {
   if (likely < labels_.size() && labels_[likely] == label) return likely;
-  const auto found = std::ranges::find(labels_, label);
-  if (found == labels_.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - labels_.begin());
+  const auto found = placeOf_.find(label);
+  if (found == placeOf_.end()) return std::nullopt;
+  return found->second;
+}
+
+void StreamLineParser::forgetLabels() {
+  labels_.clear();
+  placeOf_.clear();
 }
 
 // Delivers the frame of a line; its first value is that of label `from`.
@@ -161,6 +168,7 @@ void StreamLineParser::takeLabel(std::string_view label, double value, const Sin
   if (!labelsLearned_ && !endsFirstLabels(label, sink)) {
     if (labels_.size() == shape_.numPlaces()) return dropLabels();
     partValues_[labels_.size()] = static_cast<float>(value);
+    placeOf_.emplace(label, labels_.size());
     labels_.emplace_back(label);
     return;
   }
@@ -208,7 +216,7 @@ void StreamLineParser::dropLabels() {
   if (labelsLearned_ || labels_.empty()) return;
   refuse(counted(labels_.size(), "value") + " with labels instead of " +
          shape_.expected(StreamItemKind::kFrame));
-  labels_.clear();
+  forgetLabels();
 }
 
 }  // namespace palpate

@@ -32,7 +32,8 @@ bool StreamLineParser::takePad(const Head& head, std::size_t count, const Sink& 
   if (!isCountOf(matrix, given)) return false;
   StreamItem item;
   item.sequence = head.sequence;
-  if (withTime && !readTime(head.kind, options_.time, count, item)) return true;
+  if (!firstPad_) firstPad_ = options_.startsInside ? 0 : *index;
+  if (withTime && !readTime(options_.time, count, *index == *firstPad_, item)) return true;
   if (!continuesPads(*index, head, item)) return true;
   const std::size_t at = layout.offset(*index);
   std::size_t next = withTime ? 1 : 0;
@@ -52,8 +53,6 @@ bool StreamLineParser::takePad(const Head& head, std::size_t count, const Sink& 
 // Whether the line of this matrix belongs to the frame that is being read; begins a frame with the
 // matrix that came first. Of a sender that was running already this is matrix 0.
 bool StreamLineParser::continuesPads(std::size_t matrix, const Head& head, const StreamItem& item) {
-  const bool isFirstLine = !firstPad_;
-  if (isFirstLine) firstPad_ = options_.startsInside ? 0 : matrix;
   if (matrix == *firstPad_) {
     dropPart();
     partSeen_.assign(shape_.layout().numMatrices(), false);
@@ -86,20 +85,41 @@ bool StreamLineParser::isRow(const Head& head, std::size_t count) const noexcept
          count == static_cast<std::size_t>(shape_.layout().matrix(0).columns);
 }
 
-// Takes a word without numbers: it may stand between frames of rows. Before the first row it isn't
-// known whether the stream is one of rows.
+// Takes a word without numbers: one stands between frames of rows, any other one is refused. Before
+// the first row it isn't known whether the stream is one of rows.
 bool StreamLineParser::takeWord(const Head& head, std::size_t count) {
   if (count > 0 || head.kind != StreamItemKind::kFrame || head.name.empty() || !mayBeRows())
     return false;
+  if (hasRows_ && !isSeparator(head.name)) {
+    refuse(inQuotes(head.name) + " is not " + inQuotes(separator_) + ", which separates frames");
+    return true;
+  }
   separateRows();
   if (hasRows_) return true;
   refuseHeldWord();
+  separator_ = head.name;
   heldWord_.emplace(stats_.lines, countFault(head, count));
   return true;
 }
 
+// Whether this word stands between frames. The one before the first row may be a greeting: then the
+// first other word that comes again behind a whole frame takes its place.
+bool StreamLineParser::isSeparator(std::string_view word) {
+  const bool isOther = !separator_.empty() && word != separator_;
+  if (isOther && (separatorSure_ || numRows_ > 0 || word != otherWord_)) {
+    otherWord_ = word;
+    return false;
+  }
+  separator_ = word;
+  separatorSure_ = true;
+  return true;
+}
+
 void StreamLineParser::refuseHeldWord() {
-  if (const auto word = std::exchange(heldWord_, std::nullopt)) refuse(word->first, word->second);
+  const auto word = std::exchange(heldWord_, std::nullopt);
+  if (!word) return;
+  separator_.clear();
+  refuse(word->first, word->second);
 }
 
 // Takes the line if it is a row, or a line of another length in a stream of rows.

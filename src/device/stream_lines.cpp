@@ -21,10 +21,14 @@ using namespace line_tokens;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 // Equal times in a row of a clock in milliseconds: 10,000 frames/s.
-constexpr int kMostEqualTimes = 10;
+constexpr int kMaxEqualTimes = 10;
 // A clock goes back where it wraps or its sender starts anew; a taxel does so all the time.
-constexpr int kMostTimesBack = 3;
+constexpr int kMaxTimesBack = 3;
 constexpr int kTimesForgetting = 50;
+// After so many times that only ascend a number is taken for a time again.
+constexpr int kTimesTrusting = 100;
+// More frames with the same number are those of a sender that does not count.
+constexpr int kMaxSameNumber = 2;
 
 constexpr std::size_t kShortestLimit = 4096;
 constexpr std::size_t kBytesPerNumber = 25;
@@ -100,15 +104,27 @@ void readTactileMatrices(const Json& matrices,
   }
 }
 
-// The next end of a line; null when there is none.
-const char* nextLineEnd(const char* at, const char* end) {
-  const auto find = [&](char c, const char* until) {
-    return static_cast<const char*>(std::memchr(at, c, static_cast<std::size_t>(until - at)));
-  };
-  const char* const feed = find('\n', end);
-  const char* const carriage = find('\r', feed != nullptr ? feed : end);
-  return carriage != nullptr ? carriage : feed;
-}
+// Finds the ends of lines. The next '\n' is kept, so that each byte is looked at twice at most,
+// whatever ends the lines.
+class LineEnds {
+ public:
+  LineEnds(const char* begin, const char* end) : end_(end), feed_(find('\n', begin, end)) {}
+  // The next end of a line at or behind `at`, which must not go back; the end of all when there is
+  // none.
+  const char* next(const char* at) {
+    if (feed_ < at) feed_ = find('\n', at, end_);
+    return find('\r', at, feed_);
+  }
+
+ private:
+  // `end` when there is none.
+  static const char* find(char c, const char* at, const char* end) {
+    const void* const found = std::memchr(at, c, static_cast<std::size_t>(end - at));
+    return found != nullptr ? static_cast<const char*>(found) : end;
+  }
+  const char* end_;
+  const char* feed_;
+};
 
 }  // namespace
 
@@ -123,51 +139,67 @@ StreamLineParser::StreamLineParser(StreamShape shape, const StreamLineOptions& o
       rowsBegin_(!options.startsInside) {}
 
 void StreamLineParser::push(std::span<const std::byte> bytes, const Sink& sink) {
+  if (bytes.empty()) return;
   const char* at = reinterpret_cast<const char*>(bytes.data());
   const char* const end = at + bytes.size();
+  LineEnds ends(at, end);
   while (at != end) {
-    // "\r\n" and "\n\r" end one line.
-    if (lastEnd_ != '\0' && *at != lastEnd_ && (*at == '\n' || *at == '\r')) {
-      lastEnd_ = '\0';
-      ++stats_.lineBytes;
+    if (continuesEnd(*at, sink)) {
       ++at;
       continue;
     }
-    const char* const stop = nextLineEnd(at, end);
-    const char* const pieceEnd = stop != nullptr ? stop : end;
-    const auto piece = static_cast<std::size_t>(pieceEnd - at);
-    const std::size_t withEnd = piece + (stop != nullptr ? 1 : 0);
-    lastEnd_ = stop != nullptr ? *stop : '\0';
-    if (!skipping_ && pending_.size() + piece > longestLine_) {
-      refuse(stats_.lines + 1,
-             "longer than " + std::to_string(longestLine_) + " bytes: no line of this hand is");
-      stats_.skippedBytes += pending_.size();
-      pending_.clear();
-      skipping_ = true;
-    }
-    if (skipping_) {
-      stats_.skippedBytes += withEnd;
-      if (stop != nullptr) {
-        ++stats_.lines;
-        skipping_ = false;
-      }
-    } else if (stop == nullptr) {
-      pending_.append(at, piece);
-    } else if (pending_.empty()) {
-      stats_.lineBytes += withEnd;
-      takeLine({at, piece}, sink);
-    } else {
-      pending_.append(at, piece);
-      stats_.lineBytes += pending_.size() + 1;
-      takeLine(pending_, sink);
-      pending_.clear();
-    }
-    at += withEnd;
+    const char* const stop = ends.next(at);
+    const bool ended = stop != end;
+    if (ended) lastEnd_ = *stop;
+    takePiece({at, static_cast<std::size_t>(stop - at)}, ended, sink);
+    at = ended ? stop + 1 : end;
+  }
+}
+
+// Whether `c` belongs to the end of the line before: "\r\n", "\n\r" and "\r\r\n" end one line. What
+// follows a second '\r' says whether it was an empty line.
+bool StreamLineParser::continuesEnd(char c, const Sink& sink) {
+  const char last = std::exchange(lastEnd_, '\0');
+  if (std::exchange(heldReturn_, false) && c != '\n') takeLine({}, sink);
+  if (last == '\0' || (c != '\n' && c != '\r') || (c == '\n' && last == '\n')) return false;
+  if (c == last) {
+    lastEnd_ = c;
+    heldReturn_ = true;
+  }
+  ++stats_.lineBytes;
+  return true;
+}
+
+// Takes a line, or the part of it that came, without its end.
+void StreamLineParser::takePiece(std::string_view piece, bool ended, const Sink& sink) {
+  if (!skipping_ && pending_.size() + piece.size() > longestLine_) {
+    refuse(stats_.lines + 1,
+           "longer than " + std::to_string(longestLine_) + " bytes: no line of this hand is");
+    stats_.skippedBytes += pending_.size();
+    pending_.clear();
+    skipping_ = true;
+  }
+  if (skipping_) {
+    stats_.skippedBytes += piece.size() + (ended ? 1 : 0);
+    if (!ended) return;
+    ++stats_.lines;
+    skipping_ = false;
+  } else if (!ended) {
+    pending_.append(piece);
+  } else if (pending_.empty()) {
+    stats_.lineBytes += piece.size() + 1;
+    takeLine(piece, sink);
+  } else {
+    pending_.append(piece);
+    stats_.lineBytes += pending_.size() + 1;
+    takeLine(pending_, sink);
+    pending_.clear();
   }
 }
 
 void StreamLineParser::endLine(const Sink& sink) {
   lastEnd_ = '\0';
+  if (std::exchange(heldReturn_, false)) takeLine({}, sink);
   if (skipping_) {
     ++stats_.lines;
     skipping_ = false;
@@ -209,7 +241,8 @@ void StreamLineParser::takeText(std::string_view line, const Sink& sink) {
     if (line.empty()) return refuse("an empty list");
   }
   if (line.front() == '>') line = trimmed(line.substr(1), " \t");
-  if (!line.empty() && isLetter(line.front()) && std::ranges::count(line, ':') > 1)
+  if (line.empty()) return refuse("nothing stands behind '>'");
+  if (isLetter(line.front()) && std::ranges::count(line, ':') > 1)
     readLabelled(line, sink);
   else
     readNumbers(line, sink);
@@ -225,7 +258,7 @@ bool StreamLineParser::readHead(std::string_view line, Head& head) {
   const char* const end = line.data() + line.size();
   std::string_view name = tokenAt(at, end);
   head.values = at;
-  if (!isLetter(*at) || isNonFinite(name)) return true;
+  if (at == end || !isLetter(*at) || isNonFinite(name)) return true;
   if (const std::size_t colon = name.find(':'); colon != std::string_view::npos) {
     name = name.substr(0, colon + 1);
     head.hasColon = true;
@@ -301,23 +334,43 @@ bool StreamLineParser::hasTime(bool fits, bool fitsWithout) const noexcept {
   return options_.time != StreamTime::kNone;
 }
 
-// Whether guessed times ascend, as those of a clock do.
-bool StreamLineParser::ascends(double us) {
-  if (lastTimeUs_ && !isNoTime_) {
-    timesEqual_ = us == *lastTimeUs_ ? timesEqual_ + 1 : 0;
-    if (us < *lastTimeUs_) ++timesBack_;
-    if (us > *lastTimeUs_ && ++timesForward_ % kTimesForgetting == 0 && timesBack_ > 0)
-      --timesBack_;
-    isNoTime_ = timesEqual_ > kMostEqualTimes || timesBack_ >= kMostTimesBack;
-  }
-  lastTimeUs_ = us;
-  return !isNoTime_;
+// Whether the time of a frame with this number can be compared with the one before: not where the
+// frame was overtaken, came twice, or is that of a second sender, whose numbers are behind.
+bool StreamLineParser::isNewer(std::optional<std::uint32_t> sequence) {
+  if (!sequence) return true;
+  const auto step =
+      newestSequence_ ? static_cast<std::int32_t>(*sequence - *newestSequence_) : std::int32_t{1};
+  if (step == 0 && numSameNumber_ <= kMaxSameNumber) ++numSameNumber_;
+  if (step <= 0) return step == 0 && numSameNumber_ > kMaxSameNumber;
+  newestSequence_ = sequence;
+  numSameNumber_ = 0;
+  return true;
 }
 
-// Reads the time, which is the first of `count` numbers. Returns false when it was refused.
-bool StreamLineParser::readTime(StreamItemKind kind,
-                                StreamTime unit,
+// Finds out whether guessed times ascend, as those of a clock do.
+void StreamLineParser::watchTime(double us) {
+  const double before = std::exchange(lastTimeUs_, us).value_or(us - 1.0);
+  timesEqual_ = us == before ? std::min(timesEqual_ + 1, kMaxEqualTimes + 1) : 0;
+  const bool stands = timesEqual_ > kMaxEqualTimes;
+  if (us < before) timesBack_ = std::min(timesBack_ + 1, kMaxTimesBack);
+  if (us < before || stands) timesAscending_ = 0;
+  if (us > before) {
+    timesAscending_ = std::min(timesAscending_ + 1, kTimesTrusting);
+    timesForward_ = (timesForward_ + 1) % kTimesForgetting;
+    if (timesForward_ == 0 && timesBack_ > 0) --timesBack_;
+  }
+  if (isNoTime_ && timesAscending_ == kTimesTrusting) {
+    isNoTime_ = false;
+    timesBack_ = 0;
+  }
+  if (stands || timesBack_ >= kMaxTimesBack) isNoTime_ = true;
+}
+
+// Reads the time, which is the first of `count` numbers. Returns false when it was refused. Of a
+// frame of several lines only the times of the first ones are compared.
+bool StreamLineParser::readTime(StreamTime unit,
                                 std::size_t count,
+                                bool beginsFrame,
                                 StreamItem& item) {
   const double perUnit = unitUs(unit, firstNumber_);
   const double us = numbers_[0] * perUnit;
@@ -326,16 +379,17 @@ bool StreamLineParser::readTime(StreamItemKind kind,
     return false;
   }
   item.deviceUs = std::llround(us);
-  if (unit != StreamTime::kAuto || kind != StreamItemKind::kFrame) return true;
+  if (unit != StreamTime::kAuto || item.kind != StreamItemKind::kFrame) return true;
+  if (beginsFrame && isNewer(item.sequence)) watchTime(us);
   const std::string first = "the first of " + std::to_string(count) + " numbers";
-  if (!ascends(us)) {
+  if (isNoTime_) {
     refuse(first + " does not ascend (" + shortened(firstNumber_) +
            "), so it is not the time for which it was taken in " + counted(numGuessed_, "frame") +
            ": name the unit of the time (--time s), or send " + std::to_string(count - 1) +
            " numbers without a time (--time none)");
     return false;
   }
-  if (numGuessed_++ == 0)
+  if (beginsFrame && numGuessed_++ == 0)
     guess_ = first + " of a frame is taken for its time in " +
              (perUnit > 1e3 ? "seconds" : "milliseconds") +
              "; if it is not, name its unit (--time s, ms or us) or --time none";
@@ -355,7 +409,7 @@ void StreamLineParser::deliver(const Head& head, std::size_t count, const Sink& 
   StreamItem item;
   item.kind = head.kind;
   item.sequence = head.sequence;
-  if (withTime && !readTime(head.kind, options_.time, count, item)) return;
+  if (withTime && !readTime(options_.time, count, /*beginsFrame=*/true, item)) return;
   const std::span<const double> numbers = std::span(numbers_).subspan(withTime ? 1 : 0, given);
   if (head.kind == StreamItemKind::kFrame) {
     endParts();

@@ -32,7 +32,7 @@ constexpr std::int64_t kClockAgainUs = 10'000'000;
 constexpr std::int64_t kLossEveryUs = 100'000;
 // Frames that waited longer than this in a connection are told.
 constexpr std::int64_t kPileUs = 300'000;
-constexpr std::size_t kMostRemarks = 100;
+constexpr std::size_t kMaxRemarks = 100;
 constexpr double kImplausibleSpeed = 10.0;
 constexpr double kSecondUs = 1e6;
 constexpr double kRateWeight = 0.05;
@@ -141,6 +141,7 @@ void StreamLink::connect(ByteChannel& channel) {
   if (format_ == StreamFormat::kAuto || format_ == StreamFormat::kBinary)
     packets_ = std::make_unique<StreamPacketParser>(shape_);
   session_.lastFrameUs = clock_.monotonicUs();
+  session_.connectedUs = time_.nowUs();
   session_.frameSinceConnect = false;
   session_.silent = false;
   session_.closedUs.reset();
@@ -163,8 +164,7 @@ void StreamLink::disconnected() {
   lines_.reset();
   packets_.reset();
   tellLoss(/*atOnce=*/true);
-  // The end of a connection or of an input is its sender's, that of a port is not.
-  const bool isClosed = channel_->isNetwork() || options_.isInput;
+  const bool isClosed = channel_->atEnd();
   if (isClosed) session_.closedUs = time_.nowUs();
   channel_ = nullptr;
   beginGap(isClosed);
@@ -454,7 +454,7 @@ void StreamLink::showFault(const std::string& text,
 void StreamLink::remark(const std::string& text, const std::string& kind) {
   eventNow(kind, text);
   std::lock_guard lock(mutex_);
-  if (remarks_.size() < kMostRemarks) remarks_.push_back(text);
+  if (remarks_.size() < kMaxRemarks) remarks_.push_back(text);
 }
 
 void StreamLink::watchRemarks() {
@@ -487,6 +487,7 @@ void StreamLink::watchSilence() {
   if (packets_) packets_->flush([this](const StreamItem& item) { take(item); });
   if (nowUs - session_.lastFrameUs < limitUs) return;
   session_.silent = true;
+  if (session_.gapFromUs && session_.gapIsEnd) beginGapOfConnection();
   beginGap(/*isEnd=*/false);
   setState(PortState::kSilent,
            port_ + ": no frames for " + secondsText(nowUs - session_.lastFrameUs) + "; " +
@@ -509,6 +510,13 @@ void StreamLink::beginGap(bool isEnd) {
     session_.gapIsEnd = isEnd;
   }
   publishGap();
+}
+
+// The sender closed its connection and came back, but sends nothing: frames are missing since then.
+void StreamLink::beginGapOfConnection() {
+  const std::int64_t fromUs = std::max(session_.connectedUs, *session_.gapFromUs);
+  endGap(fromUs, std::nullopt, /*frameReceived=*/false);
+  session_.gapFromUs = fromUs;
 }
 
 void StreamLink::publishGap() {

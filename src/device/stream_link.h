@@ -81,6 +81,7 @@ class StreamLink : public PortLink {
   void measureRate(std::int64_t monotonicUs);
   void measureAge(std::int64_t hostUs, std::int64_t deviceUs);
   void beginGap(bool isEnd);
+  void beginGapOfConnection();
   void publishGap();
   void endGap(std::int64_t nowUs, std::optional<std::uint64_t> missing, bool frameReceived);
   void noteLoss(std::int64_t fromUs, std::int64_t toUs, std::uint64_t missing);
@@ -135,6 +136,7 @@ class StreamLink : public PortLink {
     std::int64_t lastAnglesUs = 0;
     std::int64_t lastTemperaturesUs = 0;
     std::int64_t lastFrameUs = 0;  // monotonic time of the newest frame, or of the connection
+    std::int64_t connectedUs = 0;  // host time of the connection
     bool frameSinceConnect = false;
     bool silent = false;
     std::optional<std::int64_t> gapFromUs;  // host time of the last frame before the silence

@@ -30,7 +30,7 @@ constexpr std::string_view kListenPrefix = "listen:";
 constexpr std::string_view kUdpPrefix = "udp:";
 constexpr int kUdpBufferBytes = 1 << 22;
 constexpr int kBacklog = 8;
-constexpr std::size_t kMostWaiting = 8;
+constexpr std::size_t kMaxWaiting = 8;
 constexpr std::int64_t kAcceptEveryUs = 100'000;
 constexpr std::int64_t kHolderSilentUs = 1'000'000;
 // A sender that comes back this soon after another one sent is a second sender, no successor.
@@ -150,6 +150,7 @@ class ListenedChannel final : public ByteChannel {
   void interrupt() noexcept override { connection_->interrupt(); }
   const std::string& name() const noexcept override { return connection_->name(); }
   bool isNetwork() const noexcept override { return true; }
+  bool atEnd() const noexcept override { return connection_->atEnd(); }
 
  private:
   StreamSource& source_;
@@ -308,11 +309,25 @@ void StreamSource::acceptWaiting() {
     FileDescriptor sender(
         ::accept4(listening_.get(), peer.get(), &peer.size, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (sender.get() < 0) return;
-    if (waiting_.size() == kMostWaiting) waiting_.erase(waiting_.begin());
+    if (waiting_.size() == kMaxWaiting) makeRoom();
     waiting_.push_back({std::move(sender), addressText(peer), nowUs});
     if (!holder_.empty())
-      remark(waiting_.back().peer + " is connected, too, and waits: " + holderText());
+      remark(nextRemarkUs_,
+             waiting_.back().peer + " is connected, too, and waits: " + holderText());
   }
+}
+
+// Forgets those that closed their connection and sent nothing, or else the sender that waits
+// longest.
+void StreamSource::makeRoom() {
+  std::erase_if(waiting_, [](const Waiting& each) { return !hasSent(each.connection); });
+  if (waiting_.size() < kMaxWaiting) return;
+  ++numDropped_;
+  remark(nextDropRemarkUs_,
+         counted(numDropped_, "sender") + " lost the connection while waiting, at last " +
+             waiting_.front().peer + ": only " + std::to_string(kMaxWaiting) +
+             " can wait; what was sent is not read");
+  waiting_.erase(waiting_.begin());
 }
 
 bool StreamSource::someWaitingSends() {
@@ -329,17 +344,19 @@ void StreamSource::noteDatagramFrom(const std::string& sender) {
   if (sender == sender_) return;
   const std::int64_t nowUs = clock_.monotonicUs();
   if (sender == otherSender_ && nowUs - otherSenderUs_ < kOtherSenderUs)
-    remark("two senders use the port, " + sender_ + " and " + sender +
-           ": their frames are mixed; stop one of them");
+    remark(nextRemarkUs_,
+           "two senders use the port, " + sender_ + " and " + sender +
+               ": their frames are mixed; stop one of them");
   otherSender_ = std::exchange(sender_, sender);
   otherSenderUs_ = nowUs;
 }
 
-void StreamSource::remark(std::string text) {
+// One remark of a kind in ten seconds; several at the same time are one text.
+void StreamSource::remark(std::int64_t& nextUs, const std::string& text) {
   const std::int64_t nowUs = clock_.monotonicUs();
-  if (nowUs < nextRemarkUs_) return;
-  nextRemarkUs_ = nowUs + kRemarkEveryUs;
-  remark_ = std::move(text);
+  if (nowUs < nextUs) return;
+  nextUs = nowUs + kRemarkEveryUs;
+  remark_ += (remark_.empty() ? "" : "; ") + text;
 }
 
 }  // namespace palpate

@@ -45,8 +45,8 @@ class StreamSource {
   std::string holderText() const;
   // How long the connection that was opened last waited for another one to end [us].
   std::int64_t waitedUs() const noexcept { return waitedUs_; }
-  // What is to be said of the senders, once: others wait, or two of them send datagrams. Empty:
-  // nothing.
+  // What is to be said of the senders, once: others wait or waited in vain, or two of them send
+  // datagrams. Empty: nothing.
   std::string takeRemark() { return std::exchange(remark_, {}); }
 
  private:
@@ -56,9 +56,10 @@ class StreamSource {
   std::unique_ptr<ByteChannel> openUdp();
   std::unique_ptr<ByteChannel> acceptSender();
   void acceptWaiting();
+  void makeRoom();
   bool someWaitingSends();
   void noteDatagramFrom(const std::string& sender);
-  void remark(std::string text);
+  void remark(std::int64_t& nextUs, const std::string& text);
   FileDescriptor boundSocket(int type);
 
   friend class ListenedChannel;
@@ -88,6 +89,8 @@ class StreamSource {
   std::int64_t otherSenderUs_ = 0;
   std::string remark_;
   std::int64_t nextRemarkUs_ = 0;
+  std::int64_t nextDropRemarkUs_ = 0;
+  std::size_t numDropped_ = 0;  // senders that waited
   bool inputOpened_ = false;
   std::atomic<int> localPort_ = 0;
   std::atomic<bool> ended_ = false;

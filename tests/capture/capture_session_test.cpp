@@ -96,6 +96,30 @@ TEST(CaptureSession, ASilenceAtTheEndOfTheRecordingIsAGap) {
   EXPECT_EQ(events[0].t1Us, kWallStartUs + 2'010'000) << "2 s from the first frame";
 }
 
+// The sender comes back while the recording ends: the link counts the frames that the gap at the
+// end told already, and those of a gap that begins later.
+TEST(CaptureSession, AGapAtTheEndIsCountedOnce) {
+  for (const bool silent : {false, true}) {
+    const TemporaryFolder folder;
+    ScriptedSession scripted;
+    PortStatus& port = scripted.device->state.tactile;
+    port.lost = 100;  // before the recording
+    scripted.session->startRecording(to(folder / "a.palpate"));
+    scripted.run(0.5);
+    port.lost += 2;
+    if (silent) scripted.device->silentSinceUs = scripted.clock.hostUs();
+    scripted.clock.pass(1'000'000);
+    scripted.device->afterOpenGap = [&] {
+      port.lost += 7;
+      port.estimatedLost += 7;
+    };
+    const auto counters = scripted.session->stopRecording().counters;
+    EXPECT_EQ(counters.at("lost"), silent ? 9 : 2);
+    EXPECT_EQ(counters.contains("lost_estimated") ? counters.at("lost_estimated") : 0,
+              silent ? 7 : 0);
+  }
+}
+
 TEST(CaptureSession, notesWhatTheDeviceSaysAboutItselfAndWhatTheLinkCounted) {
   const TemporaryFolder folder;
   ScriptedSession scripted;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -57,6 +58,8 @@ class ScriptedDevice : public Device {
   DeviceInfo says;
   // Host time since which no frame came, which is going on; 0: frames come.
   std::int64_t silentSinceUs = 0;
+  // Called when the open gap was asked for.
+  std::function<void()> afterOpenGap;
 
   ScriptedDevice() { state.tactile.port = "/dev/scripted"; }
   HandDescription hand() const override { return sdh2(); }
@@ -71,6 +74,7 @@ class ScriptedDevice : public Device {
   }
   DeviceStatus status() const override { return state; }
   std::optional<DeviceEvent> openGap(std::int64_t untilUs) const override {
+    if (afterOpenGap) afterOpenGap();
     if (silentSinceUs == 0) return std::nullopt;
     return DeviceEvent{silentSinceUs, untilUs, "gap", {}, "silent", R"({"lost":7})"};
   }

@@ -294,6 +294,23 @@ TEST(ByteChannel, CarriesEveryByteBothWaysOverTheNetwork) {
   }
 }
 
+// A connection that the other side closed has ended; one that it reset was lost.
+TEST(ByteChannel, TellsAnEndFromAReset) {
+  for (const bool resets : {false, true}) {
+    Listener listener;
+    const std::string name = "tcp:127.0.0.1:" + listener.number();
+    const auto channel = openChannel(name);
+    listener.accept();
+    EXPECT_FALSE(channel->atEnd());
+    const linger atOnce{1, 0};
+    if (resets) ::setsockopt(listener.peer(), SOL_SOCKET, SO_LINGER, &atOnce, sizeof atOnce);
+    listener.hangUp();
+    Bytes got(1);
+    EXPECT_EQ(faultOf(name, [&] { channel->read(got, 5s); }), DeviceFault::kDisconnected);
+    EXPECT_EQ(channel->atEnd(), !resets);
+  }
+}
+
 TEST(ByteChannel, ResolvesHostNames) {
   Listener listener;
   const auto channel = openChannel("tcp:localhost:" + listener.number());

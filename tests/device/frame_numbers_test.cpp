@@ -130,6 +130,15 @@ TEST(FrameNumbers, WithoutATimeAThousandMayBeMissing) {
   EXPECT_EQ(numbers.next(3001, std::nullopt, false).missing, 0u);
 }
 
+TEST(FrameNumbers, OfASenderThatStopsCountingTwoFramesAreLeftOut) {
+  FrameNumbers numbers;
+  for (std::uint32_t n = 0; n < 10; ++n) numbers.next(n, std::nullopt, false);
+  for (int i = 0; i < 1000; ++i)
+    EXPECT_EQ(numbers.next(9, std::nullopt, false).repeated, i < 2) << i;
+  EXPECT_EQ(numbers.next(10, std::nullopt, false).missing, 0u);
+  EXPECT_TRUE(numbers.next(10, std::nullopt, false).repeated);
+}
+
 TEST(FrameNumbers, TimesOfAnySizeAreTaken) {
   FrameNumbers numbers;
   numbers.next(0, INT64_MIN, false);

@@ -47,6 +47,8 @@ class ScriptedChannel : public ByteChannel {
     coming_.emplace(clock_.nowUs + delayUs, bytes);
   }
   void pullThePlug() { gone_ = true; }
+  // The other side ends the stream in order.
+  void endStream() { gone_ = atEnd_ = true; }
 
   std::size_t read(std::span<std::byte> into, std::chrono::milliseconds timeout) override {
     if (gone_) throw DeviceError(DeviceFault::kDisconnected, name_, "unplugged");
@@ -75,8 +77,11 @@ class ScriptedChannel : public ByteChannel {
   void interrupt() noexcept override {}
   const std::string& name() const noexcept override { return name_; }
   bool isNetwork() const noexcept override { return network; }
+  bool isDatagrams() const noexcept override { return datagrams; }
+  bool atEnd() const noexcept override { return atEnd_; }
 
   bool network = false;
+  bool datagrams = false;
   Bytes written;
   std::vector<Bytes> requests;
   std::size_t mostAtOnce = SIZE_MAX;
@@ -87,6 +92,7 @@ class ScriptedChannel : public ByteChannel {
   Bytes here_;
   std::multimap<std::int64_t, Bytes> coming_;
   bool gone_ = false;
+  bool atEnd_ = false;
   std::string name_ = "scripted";
 };
 

@@ -226,7 +226,7 @@ TEST(StreamDevice, TheEndOfAConnectionIsNoLoss) {
     Bench bench;
     bench.line->network = true;
     for (int i = 0; i < 100; ++i) bench.send("1,2,3\n", 10'000);
-    bench.line->pullThePlug();
+    bench.line->endStream();
     bench.link->step();
     bench.clock.nowUs += 3'000'000;
     EXPECT_FALSE(bench.link->openGap(bench.time.nowUs()));
@@ -239,6 +239,65 @@ TEST(StreamDevice, TheEndOfAConnectionIsNoLoss) {
     EXPECT_EQ(bench.status().lost, 0u);
     EXPECT_EQ(bench.numEvents("gap"), comesBack ? 1u : 0u);
   }
+}
+
+// The machine of the sender crashed, or the socket of the datagrams failed.
+TEST(StreamDevice, AConnectionThatBreaksIsLoss) {
+  for (const bool datagrams : {false, true}) {
+    Bench bench;
+    bench.line->network = true;
+    bench.line->datagrams = datagrams;
+    for (int i = 0; i < 100; ++i) bench.send("1,2,3\n", 10'000);
+    bench.line->pullThePlug();
+    bench.link->step();
+    bench.clock.nowUs += 3'000'000;
+    const auto open = bench.link->openGap(bench.time.nowUs());
+    ASSERT_TRUE(open);
+    EXPECT_EQ(Json::parse(open->json).at("lost").asInteger(), 300);
+    bench.link->step();
+    bench.send("1,2,3\n");
+    EXPECT_EQ(bench.lastEvent("gap").text, "no frames for 3.01 s, about 300 frames are missing");
+    EXPECT_EQ(bench.status().lost, 300u);
+    EXPECT_EQ(bench.status().estimatedLost, 300u);
+  }
+}
+
+// The sender closed its connection, came back 3 s later and sent nothing for 10 minutes.
+TEST(StreamDevice, ASenderThatComesBackMuteLosesSinceThen) {
+  for (const bool counts : {false, true}) {
+    Bench bench;
+    bench.line->network = true;
+    std::uint32_t next = 0;
+    const auto send = [&] { counts ? bench.frame(next++) : bench.send("1,2,3\n"); };
+    for (int i = 0; i < 100; ++i) send();
+    bench.line->endStream();
+    bench.link->step();
+    bench.clock.nowUs += 3'000'000;
+    bench.link->step();
+    const std::int64_t backUs = bench.time.nowUs();
+    bench.silence(600'000'000);
+    EXPECT_EQ(bench.lastEvent("gap").text, "no frames for 3 s, none is missing");
+    EXPECT_EQ(bench.lastEvent("gap").t1Us, backUs);
+    const auto open = bench.link->openGap(bench.time.nowUs());
+    ASSERT_TRUE(open);
+    EXPECT_EQ(open->tUs, backUs);
+    EXPECT_EQ(Json::parse(open->json).at("lost").asInteger(), 60'000);
+    send();
+    EXPECT_EQ(bench.lastEvent("gap").tUs, backUs);
+    EXPECT_EQ(bench.lostByEvents(), counts ? 0 : 60'000);
+    EXPECT_EQ(bench.status().lost, counts ? 0u : 60'000u);
+  }
+}
+
+TEST(StreamDevice, OvertakenDatagramsWithTimesGoOn) {
+  Bench bench;
+  bench.line->network = bench.line->datagrams = true;
+  for (int n = 0; n < 400; n += 4)
+    for (const int k : {1, 0, 3, 2})
+      bench.send("f#" + std::to_string(n + k) + "," + std::to_string(10 * (n + k)) + ",1,2,3\n");
+  EXPECT_EQ(bench.status().items, 200u);
+  EXPECT_EQ(bench.status().suspect, 200u);
+  EXPECT_EQ(bench.link->lastFault(), "frame 398 arrived after later ones: it was left out");
 }
 
 TEST(StreamDevice, AStallWithoutLossSaysSo) {
@@ -261,7 +320,7 @@ TEST(StreamDevice, AFrameThatArrivesAgainIsLeftOutAndCounted) {
   EXPECT_EQ(bench.link->lastFault(), "frame 48 arrived again: the second one was left out");
 }
 
-TEST(StreamDevice, ASenderThatEndsToCountIsRead) {
+TEST(StreamDevice, ASenderThatStopsCountingIsRead) {
   Bench bench;
   for (std::uint32_t n = 0; n < 10; ++n) bench.frame(n);
   for (int i = 0; i < 20; ++i) bench.frame(9);

@@ -1,6 +1,7 @@
 // Forms of lines that sketches and programs print: rows, a line per matrix, labels, lists; times
 // that were guessed; values outside of the description.
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -123,6 +124,28 @@ TEST(StreamLineForms, AWordIsRefusedWhereNoRowsFollow) {
   EXPECT_EQ(reading.fault, "line 1: 0 numbers instead of 6");
 }
 
+// A sketch that prints what went wrong beside its frames.
+TEST(StreamLineForms, AnotherWordThanTheSeparatorIsRefused) {
+  const std::string frames =
+      "START\n0,1,2\nERROR\n3,4,5\nSTART\n10,11,12\noverflow\nERROR\n13,14,15\n";
+  const FormReading reading = readForm(frames, padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames, kTwoFrames);
+  EXPECT_EQ(reading.stats.refused, 3u);
+  EXPECT_EQ(reading.fault, "line 8: \"ERROR\" is not \"START\", which separates frames");
+  const FormReading late =
+      readForm("0,1,2\n3,4,5\nEND\n10,11,12\n13,14,15\nEND\nbad\nbad\n", padHand({{2, 3}}));
+  EXPECT_EQ(late.frames, kTwoFrames);
+  EXPECT_EQ(late.stats.refused, 2u);
+}
+
+TEST(StreamLineForms, AGreetingIsNotTheSeparatorForLong) {
+  const FormReading reading = readForm(
+      "Ready\n0,1,2\n3,4,5\nEND\n10,11,12\n13,14,15\nEND\n1,2,3\nEND\n", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames, kTwoFrames);
+  EXPECT_EQ(reading.stats.refused, 2u);
+  EXPECT_EQ(reading.fault, "line 9: a frame of 1 row instead of 2");
+}
+
 // --- A line per matrix
 
 TEST(StreamLineForms, AFrameMayHaveALinePerMatrix) {
@@ -177,6 +200,30 @@ TEST(StreamLineForms, LabelsOfARunningSenderAreOrderedByTheirNumbers) {
             "line 5: the order of the values is not known: send all of a frame in one line");
 }
 
+// Each label of the second frame is looked up: none stands where it stood in the first one.
+TEST(StreamLineForms, ManyLabelsMayComeInAnyOrder) {
+  constexpr int kCount = 64'000;
+  std::string lines, ofEach;
+  Values expected;
+  for (int i = 0; i < kCount; ++i) {
+    lines += "A" + std::to_string(i) + ":0,";
+    ofEach += "A" + std::to_string(i) + ":0\n";
+    expected.push_back(static_cast<float>(i % 4096));
+  }
+  lines += "\n";
+  ofEach += "A0:0\n";
+  for (int i = kCount - 1; i >= 0; --i) {
+    const std::string value = "A" + std::to_string(i) + ":" + std::to_string(i % 4096);
+    lines += value + ",";
+    if (i > 0) ofEach += value + "\n";
+  }
+  for (const std::string& text : {lines + "\n", ofEach}) {
+    const FormReading reading = readForm(text, padHand({{250, 256}}));
+    ASSERT_EQ(reading.frames.size(), 2u) << reading.fault;
+    EXPECT_EQ(reading.frames[1], expected);
+  }
+}
+
 TEST(StreamLineForms, WrongLabelsAreNamed) {
   const std::string first = "a:1,b:2,c:3\n";
   const auto faultOf = [&](const std::string& line) {
@@ -202,6 +249,7 @@ TEST(StreamLineForms, ListsInBracketsAreNumbers) {
 TEST(StreamLineForms, AnyEndOfALineAndAByteOrderMark) {
   for (const char* text : {"0,1,2,3,4,5\r10,11,12,13,14,15\r",
                            "0,1,2,3,4,5\n\r10,11,12,13,14,15\n\r",
+                           "0,1,2,3,4,5\r\r\n10,11,12,13,14,15\r\r\n",
                            "\xEF\xBB\xBF"
                            "0,1,2,3,4,5\r\n10,11,12,13,14,15\r\n"})
     for (const std::size_t chunk : {std::size_t{1}, std::size_t{5}, SIZE_MAX}) {
@@ -210,6 +258,35 @@ TEST(StreamLineForms, AnyEndOfALineAndAByteOrderMark) {
       EXPECT_EQ(reading.stats.refused, 0u) << reading.fault;
       EXPECT_EQ(reading.stats.lines, 2u) << text;
     }
+}
+
+// println() into a file that Windows opened as text ends a line with "\r\r\n"; "\r\r" is an empty
+// line between two frames.
+TEST(StreamLineForms, ASecondReturnIsAnEmptyLineUnlessAFeedFollows) {
+  const std::pair<const char*, std::uint64_t> kTexts[]{
+      {"0,1,2\r\r\n3,4,5\r\r\n10,11,12\r\r\n13,14,15\r\r\n", 4},
+      {"0,1,2\r\r\n3,4,5\r\r\n\r\r\n10,11,12\r\r\n13,14,15\r\r\n", 5},
+      {"0,1,2\r3,4,5\r\r10,11,12\r13,14,15\r", 5},
+      {"0,1,2\r3,4,5\r\r\r10,11,12\r13,14,15\r", 6}};
+  for (const auto& [text, lines] : kTexts)
+    for (const std::size_t chunk : {std::size_t{1}, std::size_t{5}, SIZE_MAX}) {
+      const FormReading reading = readForm(text, padHand({{2, 3}}), {}, chunk);
+      EXPECT_EQ(reading.frames, kTwoFrames) << text;
+      EXPECT_EQ(reading.stats.refused, 0u) << reading.fault;
+      EXPECT_EQ(reading.stats.lines, lines) << text;
+    }
+  const FormReading missing = readForm("0,1,2\r\r10,11,12\r13,14,15\r", padHand({{2, 3}}));
+  EXPECT_EQ(missing.fault, "line 2: a frame of 1 row instead of 2");
+  EXPECT_EQ(missing.frames, std::vector<Values>{kTwoFrames[1]});
+}
+
+// Each line once searched the whole rest of what was read for the other end.
+TEST(StreamLineForms, AMillionLinesOfReturnsAreReadInOneRead) {
+  std::string text;
+  for (int i = 0; i < 1'000'000; ++i) text += "#\r";
+  const FormReading reading = readForm(text + "0,1,2,3,4,5\r", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames, std::vector<Values>{kTwoFrames[0]});
+  EXPECT_EQ(reading.stats.lines, 1'000'001u);
 }
 
 // --- Values and times
@@ -262,6 +339,78 @@ TEST(StreamLineForms, ClocksThatWrapOrAreCoarseAscend) {
   }
   EXPECT_EQ(readForm(coarse, padHand({{1, 3}})).frames.size(), 2000u);
   EXPECT_EQ(readForm(wrapping, padHand({{1, 3}})).frames.size(), 2000u);
+}
+
+// `frames` frames of a line per matrix; all lines of frame i have the time timeMs(i).
+std::string padLines(int matrices, int frames, const std::function<int(int)>& timeMs) {
+  std::string text;
+  for (int i = 0; i < frames; ++i)
+    for (int k = 0; k < matrices; ++k)
+      text += "p" + std::to_string(k) + "," + std::to_string(timeMs(i)) + ",1,2\n";
+  return text;
+}
+
+HandDescription namedPads(int matrices) {
+  HandDescription hand =
+      padHand(std::vector<std::pair<int, int>>(static_cast<std::size_t>(matrices), {1, 2}));
+  for (MatrixDescription& matrix : hand.matrices) matrix.shortName.insert(0, "p");
+  return hand;
+}
+
+// Each of the lines of a frame has its time: that of one of them is compared.
+TEST(StreamLineForms, MatricesOfAFrameHaveOneTime) {
+  const FormReading twelve =
+      readForm(padLines(12, 50, [](int i) { return 10 * i; }), namedPads(12));
+  EXPECT_EQ(twelve.frames.size(), 50u) << twelve.fault;
+  EXPECT_EQ(twelve.timesUs.back(), 490'000);
+  const FormReading six = readForm(padLines(6, 200, [](int i) { return i / 2; }), namedPads(6));
+  EXPECT_EQ(six.frames.size(), 200u) << six.fault;
+  const FormReading constant = readForm(padLines(6, 50, [](int) { return 7; }), namedPads(6));
+  EXPECT_EQ(constant.frames.size(), 11u);
+  EXPECT_NE(constant.fault.find("taken in 11 frames"), std::string::npos) << constant.fault;
+}
+
+std::string numberedLine(int number, int timeMs) {
+  return "f#" + std::to_string(number) + "," + std::to_string(timeMs) + ",1,2,3\n";
+}
+
+TEST(StreamLineForms, TimesOfOvertakenFramesAreNotCompared) {
+  std::string overtaken, twice;
+  for (int n = 0; n < 400; n += 4) {
+    for (const int k : {1, 0, 3, 2}) overtaken += numberedLine(n + k, 10 * (n + k));
+    for (const int k : {0, 0, 0, 1, 3, 3, 2, 2}) twice += numberedLine(n + k, 10 * (n + k));
+  }
+  EXPECT_EQ(readForm(overtaken, padHand({{1, 3}})).frames.size(), 400u);
+  EXPECT_EQ(readForm(twice, padHand({{1, 3}})).frames.size(), 800u);
+}
+
+TEST(StreamLineForms, TheClocksOfTwoNumberedSendersAreNotCompared) {
+  for (const int ahead : {0, 7, 12'000}) {
+    std::string text;
+    for (int n = 0; n < 500; ++n)
+      text += numberedLine(n + ahead, 10 * n) + numberedLine(n, 3'000'000 + 10 * n);
+    const FormReading reading = readForm(text, padHand({{1, 3}}));
+    EXPECT_EQ(reading.frames.size(), 1000u) << ahead << reading.fault;
+  }
+}
+
+TEST(StreamLineForms, FramesWithOneNumberForAllAreCompared) {
+  std::string text;
+  for (int i = 0; i < 40; ++i) text += numberedLine(0, i * 7 % 11);
+  EXPECT_NE(readForm(text, padHand({{1, 3}})).fault.find("does not ascend"), std::string::npos);
+}
+
+// A second sender without numbers was stopped: the times ascend again.
+TEST(StreamLineForms, TimesThatAscendAgainAreTaken) {
+  std::string text;
+  for (int i = 0; i < 50; ++i)
+    text += std::to_string(10 * i) + ",1,2,3\n" + std::to_string(50'000 + 10 * i) + ",1,2,3\n";
+  const std::size_t mixed = readForm(text, padHand({{1, 3}})).frames.size();
+  EXPECT_LT(mixed, 10u);
+  for (int i = 50; i < 350; ++i) text += std::to_string(10 * i) + ",1,2,3\n";
+  const FormReading reading = readForm(text, padHand({{1, 3}}));
+  EXPECT_EQ(reading.frames.size(), mixed + 300 - 100);
+  EXPECT_EQ(reading.timesUs.back(), 3'490'000);
 }
 
 }  // namespace

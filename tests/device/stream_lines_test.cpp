@@ -163,6 +163,12 @@ TEST(StreamLines, NamesTheFaultAndItsPlace) {
   EXPECT_EQ(faultOf("0x10,2,3\n"), "line 1: value 1 is \"0x10\", not a number");
 }
 
+TEST(StreamLines, AnArrowAloneIsRefused) {
+  for (const char* text : {">\n", "> \n", " >\t\r\n", "[>]\n", ">[]\n"})
+    EXPECT_EQ(faultOf(text), "line 1: nothing stands behind '>'") << text;
+  EXPECT_EQ(faultOf(">>\n"), "line 1: value 1 is \">\", not a number");
+}
+
 TEST(StreamLines, SaysWhatIsWrongWithDecimalCommas) {
   EXPECT_NE(faultOf("0,5;1,5;2,5\n").find("decimal points instead of decimal commas"),
             std::string::npos);

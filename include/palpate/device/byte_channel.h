@@ -32,6 +32,9 @@ class ByteChannel {
   // True when each read() returns one datagram at most, from its beginning; a buffer of 64 KiB
   // takes any.
   virtual bool isDatagrams() const noexcept { return false; }
+  // True once read() found that the other side ended the stream in order: a connection that it
+  // closed, the end of standard input. Not after an error, and never of datagrams.
+  virtual bool atEnd() const noexcept { return false; }
   // The descriptor of the port, for who writes to it when this process has died (LastStop); -1:
   // none. The channel owns it; a duplicate does not hold the lock on the port.
   virtual int descriptor() const noexcept { return -1; }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,7 +25,8 @@ class Json;
 enum class StreamTime {
   // A time is there if the line has exactly one number more than the item has values. It is in
   // seconds when it is written with a decimal point or an exponent, otherwise in milliseconds;
-  // guess() says so. Lines whose first number turns out not to ascend are refused.
+  // guess() says so. Lines whose first number turns out not to ascend are refused, until it ascends
+  // for a while.
   kAuto,
   kNone,
   kSeconds,
@@ -85,6 +87,8 @@ class StreamLineParser {
     std::optional<std::uint32_t> sequence;
     const char* values = nullptr;  // where the numbers begin
   };
+  bool continuesEnd(char c, const Sink& sink);
+  void takePiece(std::string_view piece, bool ended, const Sink& sink);
   void takeLine(std::string_view line, const Sink& sink);
   void takeText(std::string_view line, const Sink& sink);
   void readNumbers(std::string_view line, const Sink& sink);
@@ -100,8 +104,9 @@ class StreamLineParser {
 
   // The time before the values.
   bool hasTime(bool fits, bool fitsWithout) const noexcept;
-  bool readTime(StreamItemKind kind, StreamTime unit, std::size_t count, StreamItem& item);
-  bool ascends(double us);
+  bool readTime(StreamTime unit, std::size_t count, bool beginsFrame, StreamItem& item);
+  bool isNewer(std::optional<std::uint32_t> sequence);
+  void watchTime(double us);
 
   // A line per matrix.
   bool takePad(const Head& head, std::size_t count, const Sink& sink);
@@ -110,6 +115,7 @@ class StreamLineParser {
   // A line per row.
   bool mayBeRows() const noexcept;
   bool takeWord(const Head& head, std::size_t count);
+  bool isSeparator(std::string_view word);
   bool takeRow(const Head& head, std::size_t count, const Sink& sink);
   bool isRow(const Head& head, std::size_t count) const noexcept;
   void addRow(const Sink& sink);
@@ -125,6 +131,7 @@ class StreamLineParser {
   void takeLabel(std::string_view label, double value, const Sink& sink);
   bool endsFirstLabels(std::string_view label, const Sink& sink);
   void dropLabels();
+  void forgetLabels();
   std::optional<std::size_t> placeOfLabel(std::string_view label, std::size_t likely) const;
 
   void refuse(const std::string& why) { refuse(stats_.lines, why); }
@@ -140,6 +147,7 @@ class StreamLineParser {
   std::string pending_;           // a line without its end yet; never longer than longestLine_
   bool skipping_ = false;         // until the end of a line that is not used
   char lastEnd_ = '\0';           // '\n' or '\r' directly before, of which no pair was made yet
+  bool heldReturn_ = false;       // a second '\r' came, which may belong to "\r\r\n"
   std::string plain_;             // the present line without its brackets
   std::vector<double> numbers_;   // of the present line, as many as an item has at most
   std::string_view firstNumber_;  // as it was written
@@ -148,9 +156,12 @@ class StreamLineParser {
   std::optional<double> lastTimeUs_;
   int timesEqual_ = 0;
   int timesBack_ = 0;
-  int timesForward_ = 0;
+  int timesForward_ = 0;    // since a time that went back was forgotten
+  int timesAscending_ = 0;  // since one went back or stood
   bool isNoTime_ = false;
-  std::uint64_t numGuessed_ = 0;
+  std::uint64_t numGuessed_ = 0;  // frames
+  std::optional<std::uint32_t> newestSequence_;
+  int numSameNumber_ = 0;        // frames with this number again
   bool hasWholeFrames_ = false;  // frames come in one line each
   // A frame of which only some matrices came yet.
   std::size_t numPartMatrices_ = 0;  // 0: none
@@ -168,8 +179,12 @@ class StreamLineParser {
   bool rowBroken_ = false;      // a row of this frame was refused
   std::size_t numUnplacedRows_ = 0;
   std::optional<std::pair<std::uint64_t, std::string>> heldWord_;  // line and fault
+  std::string separator_;       // the word between two frames; empty: none came
+  bool separatorSure_ = false;  // it also came behind a row
+  std::string otherWord_;       // the last other one
   // Labels in the order of the values, and those of the present line.
   std::vector<std::string> labels_;
+  std::map<std::string, std::size_t, std::less<>> placeOf_;
   bool labelsLearned_ = false;
   std::vector<std::string_view> lineLabels_;
   std::vector<bool> labelSeen_;  // of a frame with a line per label
