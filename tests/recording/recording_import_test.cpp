@@ -113,6 +113,20 @@ TEST(RecordingImport, ARefusedFrameOfAListIsNotAFrameWithoutContact) {
   EXPECT_EQ(made.report.absentFrames, 1u) << "frame 3";
 }
 
+// No whole number holds this one.
+TEST(RecordingImport, AFrameOfAListFarBelowZeroIsRefused) {
+  const TemporaryFolder folder;
+  const auto made = importText(folder,
+                               "frame,time_ms,matrix,y,x,value\n"
+                               "0,10,0,0,0,1\n"
+                               "-1e30,11,0,0,0,2\n"
+                               "1,12,0,0,0,3\n",
+                               pad(1, 2));
+  EXPECT_EQ(made.report.frames, 2u);
+  EXPECT_EQ(made.report.refused.notLater, 1u);
+  EXPECT_EQ(made.report.absentFrames, 0u);
+}
+
 TEST(RecordingImport, OfTwoColumnsOfTheSameTimesTheFinerIsTaken) {
   const TemporaryFolder folder;
   const char* table = "stamp_ms,stamp_us,p0,p1\n10,10250,1,2\n10,10750,3,4\n";
@@ -445,6 +459,10 @@ TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
   choose("rcf.mat", "pad", "time_s");
   choose("frc.mat", "pad", "time_s");
   choose("within.npz", "table[1]..table[6]", "table[0]");
+  EXPECT_NE(testing::errorOf([&] {
+              choose("within.npz", "table[6]..table[1]", "table[0]");
+            }).find("the numbers \"table[6]..table[1]\" end before they begin"),
+            std::string::npos);
 }
 
 TEST(RecordingImport, ASquareOfMatlabIsTransposedAndOneOfNumpyIsNot) {
