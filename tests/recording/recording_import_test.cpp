@@ -459,6 +459,12 @@ TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
   choose("rcf.mat", "pad", "time_s");
   choose("frc.mat", "pad", "time_s");
   choose("within.npz", "table[1]..table[6]", "table[0]");
+  ImportMapping noSuchMatrix;
+  noSuchMatrix.matrices = {{7, "pad", {}, false}};
+  EXPECT_NE(testing::errorOf([&] {
+              importRecording(folder / "last.npz", pad(2, 3), noSuchMatrix, folder / "o.palpate");
+            }).find("the hand has no matrix 7"),
+            std::string::npos);
   EXPECT_NE(testing::errorOf([&] {
               choose("within.npz", "table[6]..table[1]", "table[0]");
             }).find("the numbers \"table[6]..table[1]\" end before they begin"),
@@ -498,6 +504,37 @@ np.savez(folder + 'stack.npz', pad=np.arange(40).reshape(5, 4, 2), time_s=time)
     const std::string refusal = testing::errorOf([&] { import("wrong.npz", pad(2, 6), chosen); });
     EXPECT_NE(refusal.find("pad[4][3]"), std::string::npos) << refusal;
   }
+}
+
+// As many frames as columns: the shape tells nothing.
+TEST(RecordingImport, AFirstAxisAsLongAsTheLastIsNoted) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+pad = np.arange(8).reshape(2, 2, 2)
+time = np.arange(2) * 0.01
+np.savez(folder + 'a.npz', pad=pad, time_s=time)
+with h5py.File(folder + 'a.mat', 'w', userblock_size=512) as f:
+  f['pad'] = pad
+  f['pad'].attrs['MATLAB_class'] = np.bytes_('double')
+  f['time_s'] = time
+)");
+  const auto noted = [&](const char* name, const char* chosen, const std::string& axis) {
+    ImportMapping mapping;
+    if (*chosen) mapping.matrices = {{0, chosen, {}, false}};
+    const ImportReport report = importRecording(folder / name,
+                                                pad(2, 2),
+                                                mapping,
+                                                folder / "o.palpate",
+                                                {.overwrite = Overwrite::kReplace});
+    return std::any_of(report.notes.begin(), report.notes.end(), [&](const std::string& note) {
+      return note.starts_with("the " + axis + " axis of pad is taken for the frames, but");
+    });
+  };
+  EXPECT_TRUE(noted("a.npz", "", "first"));
+  EXPECT_TRUE(noted("a.mat", "", "last"));
+  EXPECT_FALSE(noted("a.npz", "pad", "first"));
 }
 
 TEST(RecordingImport, OtherArraysSayWhyTheyAreNotUsed) {
