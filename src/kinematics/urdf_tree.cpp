@@ -68,7 +68,7 @@ urdf::ModelInterfaceSharedPtr parseModel(const std::string& text, const fs::path
     parser.finish();
     if (check.isXacro())
       throw FormatError(source,
-                        "is a xacro that is not expanded: write it anew with 'xacro IN.xacro -o "
+                        "is a xacro that is not expanded: expand it with 'xacro IN.xacro -o "
                         "hand.urdf'");
   } catch (const XmlError& error) {
     throw FormatError(source, error.what(), error.offset());

@@ -124,12 +124,12 @@ ButterworthOptions bandOf(SeriesFunctionKind kind, const std::vector<double>& nu
 
 // Throws std::invalid_argument that says what is wrong with the numbers.
 void validateNumbers(SeriesFunctionKind kind, const std::vector<double>& numbers) {
-  constexpr double kMostSamples = 100'001.0;
+  constexpr double kMaxSamples = 100'001.0;
   if (kind == SeriesFunctionKind::kDerivative) return;
   if (kind != SeriesFunctionKind::kSmooth && kind != SeriesFunctionKind::kMedian)
     return bandOf(kind, numbers).validate();
   const double samples = numbers.at(0);
-  if (!(samples >= 1.0 && samples <= kMostSamples) || std::fmod(samples, 2.0) != 1.0)
+  if (!(samples >= 1.0 && samples <= kMaxSamples) || std::fmod(samples, 2.0) != 1.0)
     throw std::invalid_argument("needs an odd number of samples, 1 to 100001");
 }
 
@@ -146,6 +146,8 @@ class MovingMean {
   }
   std::size_t count() const { return count_; }
   double value() const { return (sum_ + rest_) / static_cast<double>(count_); }
+  // False after an overflow: values that are removed would not undo it.
+  bool isSound() const { return std::isfinite(sum_); }
 
  private:
   // With the rounding error of each sum (Knuth's two-sum), so that the result does not depend on
@@ -179,6 +181,7 @@ class MovingMedian {
     const double middle = *lower_.rbegin();
     return lower_.size() > upper_.size() ? middle : (middle + *upper_.begin()) / 2.0;
   }
+  bool isSound() const { return true; }
 
  private:
   void balance() {
@@ -205,12 +208,19 @@ std::vector<double> windowed(std::span<const double> values,
     const std::size_t end = stretch < gapSamples.size() ? gapSamples[stretch] + 1 : values.size();
     Window window;
     std::size_t next = begin;  // the first one that was not added
+    const auto addFrom = [&](std::size_t first, std::size_t behind) {
+      for (next = first; next < behind; ++next)
+        if (std::isfinite(values[next])) window.add(values[next]);
+    };
     for (std::size_t i = begin; i < end; ++i) {
       reportProgress(progress, i, values.size(), kValuesPerReport);
-      for (; next < std::min(end, i + half + 1); ++next)
-        if (std::isfinite(values[next])) window.add(values[next]);
+      addFrom(next, std::min(end, i + half + 1));
       if (i > begin + half && std::isfinite(values[i - half - 1]))
         window.remove(values[i - half - 1]);
+      if (!window.isSound()) {
+        window = {};
+        addFrom(i - std::min(half, i - begin), next);
+      }
       if (window.count() > 0) result[i] = window.value();
     }
     begin = end;

@@ -111,7 +111,7 @@ TEST(ImportPlan, AnOrderThatIsGuessedIsNoted) {
   EXPECT_TRUE(hasNote(planOf("time,p[0][0],p[0][1],p[1][0],p[1][1]", pad(2, 2)), "row and column"));
   EXPECT_FALSE(hasNote(planOf("time,p_0_0,p_0_1,p_0_2,p_1_0,p_1_1,p_1_2", pad(2, 3)), "row"));
   EXPECT_TRUE(hasNote(planOf("time,r0c0,r0c1,r1c0,r1c1,r2c0,r2c1", pad(2, 3)), "exchanged"));
-  // Names with two numbers that are no rows and columns of the hand are not taken in their order.
+  // Names with two numbers that are not rows and columns of the hand aren't taken in their order.
   const std::string refusal = testing::errorOf(
       [] { planOf("time,p_0_0,p_0_1,p_0_2,p_0_3,p_1_0,p_1_1,p_1_2,p_1_3", pad(1, 8)); });
   EXPECT_NE(refusal.find("no columns fit"), std::string::npos) << refusal;
@@ -194,7 +194,7 @@ TEST(ImportPlan, SaysWhyColumnsHoldNoNumbers) {
             "no numbers: p2 (text such as \"12 mV\": a unit in the cell; put it into the name)"},
            {"\xE2\x88\x92"
             "5",
-            "its minus is no ASCII character"},
+            "its minus is not an ASCII minus"},
            {"on", "no numbers: p2 (text such as \"on\")"}}) {
     const std::string row = ",1,2," + cell + ",4\n";
     const std::string what = refusal("time_s,p0,p1,p2,p3\n0.1" + row + "0.2" + row);

@@ -199,7 +199,7 @@ def read(path):
             metadata_index.append((c.number("Q"), c.number("Q"), c.text()))
         elif opcode == 11:
             counts = [c.number(f) for f in "QHIIIIQQ"]
-            expected = [len(times), len(schemas), len(channels), len(attachments), len(metadata), len(chunks)]
+            expected = [len(times), len(schemas), len(channels), len(attachments), len(metadata_at), len(chunks)]
             assert counts == expected + [min(times, default=0), max(times, default=0)], (counts, expected)
             assert dict(c.numbers("H", "Q")) == {n: len(messages[v[1]]) for n, v in channels.items()}
         elif opcode == 14:
@@ -239,11 +239,11 @@ def cdr_image(stamp_ns, rows, encoding, big=False, padding=0):
     out = struct.pack("<iI", stamp_ns // 10**9, stamp_ns % 10**9)
     out = cdr_text(out, "camera")
     out += b"\0" * (-len(out) % 4)
-    out += struct.pack("<II", len(rows), len(rows[0]))
+    out += struct.pack("<II", len(rows), len(rows[0]) if rows else 0)
     out = cdr_text(out, encoding) + struct.pack("<B", big)
     pixels = b"".join(struct.pack(f"{order}{len(row)}{form}", *row) + b"\0" * padding for row in rows)
     out += b"\0" * (-len(out) % 4)
-    return b"\0\1\0\0" + out + struct.pack("<II", len(pixels) // len(rows), len(pixels)) + pixels
+    return b"\0\1\0\0" + out + struct.pack("<II", len(pixels) // max(1, len(rows)), len(pixels)) + pixels
 
 
 def cdr_joints(stamp_ns, names, positions):

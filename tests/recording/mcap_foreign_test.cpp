@@ -98,9 +98,25 @@ joints(2, ['x'], [9], topic='/other/joint_states')
   EXPECT_EQ(profile.angleTimeUs(1), 3000);
   expectDeg(profile, 1, {4, 5, 6});
   expectDeg(profile, 0, {1, 2, 3});
-  expectNote(profile, "put together by name; the first 1 message");
+  expectNote(profile, "put together by name");
+  EXPECT_EQ(lostText(profile),
+            "1 message of the topic \"/joint_states\" is left out (before all joints are known)");
   expectNote(profile, "\"/other/joint_states\" is left out");
   EXPECT_EQ(profile.numFrames(), 1u);
+}
+
+TEST_F(McapForeign, AJointThatComesLateCostsTheAnglesBeforeItAndTheyAreCounted) {
+  const fs::path file = written(R"(
+pad(1, 7)
+for i in range(50): joints(i + 1, ['a', 'b'], [1, 2])
+joints(51, ['c'], [3])
+)");
+  const Profile profile = openRecording(file);
+  EXPECT_EQ(profile.numAngles(), 1u);
+  EXPECT_EQ(lostText(profile),
+            "50 messages of the topic \"/joint_states\" are left out (before all joints are "
+            "known)");
+  EXPECT_EQ(recoverRecording(file, folder_ / "b.palpate").state, RecoverReport::State::kPart);
 }
 
 TEST_F(McapForeign, MessagesOfJointsThatCantBeUsedAreCounted) {
@@ -177,6 +193,18 @@ image('/pad', 4, [[1, 2]], 'rgb8')
   const RecoverReport report = recoverRecording(file, folder_ / "b.palpate");
   EXPECT_EQ(report.state, RecoverReport::State::kPart);
   EXPECT_NE(report.message.find("2 messages"), std::string::npos) << report.message;
+}
+
+// A driver may publish an empty image before its first frame.
+TEST_F(McapForeign, AnEmptyFirstImageCostsOnlyItself) {
+  const fs::path file = written("image('/pad', 1, [])\npad(2, 7)\npad(3, 9)");
+  const Profile profile = openRecording(file);
+  ASSERT_EQ(profile.numFrames(), 2u);
+  EXPECT_EQ(profile.frame(1).values, (Values{9, 2}));
+  EXPECT_EQ(lostText(profile),
+            "1 message of the topic \"/pad\" is left out (the first: its images have 0 x 0 pixels "
+            "(a matrix has at most 256 x 256 taxels))");
+  EXPECT_EQ(openTopics(file, {"/pad"}).numFrames(), 2u);
 }
 
 TEST_F(McapForeign, TopicsCanBeChosen) {

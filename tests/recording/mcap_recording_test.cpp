@@ -416,6 +416,32 @@ assert [(cdr.number('I'), cdr.number('B')) for _ in range(2)] == [(1, 0b0010), (
   for (const char* name : {"a.h5", "a.mcap"}) expectSame(profile, openRecording(folder / name));
 }
 
+// Earlier programs read values below 0 of filtered frames as 0, and refuse version 2.
+TEST(McapRecording, onlyFilteredFramesNeedTheNewestLayout) {
+  const TemporaryFolder folder;
+  const auto layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(1, 2, 1.0)});
+  for (const bool isFiltered : {false, true}) {
+    ProfileBuilder builder(layout);
+    builder.addFrame(1'000'000, std::vector<float>{0.5F, 1.0F});
+    TactileFrame frame(layout);
+    frame.hostUs = 2'000'000;
+    if (isFiltered) frame.setFiltered({-5.5F, 7.5F}, {true, false});
+    builder.addFrame(frame);
+    const Profile profile = builder.finish({});
+    for (const char* name : {"a.h5", "a.mcap"}) {
+      saveRecording(profile, {}, folder / name, Overwrite::kReplace);
+      expectSame(profile, openRecording(folder / name));
+    }
+    runMcapPython(folder, "version = " + std::string(isFiltered ? "2" : "1") + R"(
+import h5py
+assert h5py.File(folder + 'a.h5').attrs['format_version'] == version
+about = m.read(folder + 'a.mcap')['metadata']['palpate']
+assert about['layout_version'] == str(version) and about['value_type'] == 'float'
+)");
+  }
+}
+
 TEST(McapRecording, imagesOfOtherProgramsAreMatricesOfAPlainHand) {
   const TemporaryFolder folder;
   runMcapPython(folder, R"(
@@ -552,7 +578,7 @@ TEST(McapRecording, damagedAndNewerFilesNameWhatIsWrong) {
   bytes = whole;
   bytes.replace(end + 9, 4, 4, '\0');
   const std::string version = "layout_version" + std::string("\1\0\0\0", 4);
-  bytes[bytes.find(version) + version.size()] = '2';
+  bytes[bytes.find(version) + version.size()] = '3';
   testing::writeFile(folder / "newer.mcap", bytes);
   expectError(folder / "newer.mcap", "newer Palpate");
   bytes = whole;

@@ -113,6 +113,20 @@ TEST(RecordingImport, ARefusedFrameOfAListIsNotAFrameWithoutContact) {
   EXPECT_EQ(made.report.absentFrames, 1u) << "frame 3";
 }
 
+// No whole number holds this one.
+TEST(RecordingImport, AFrameOfAListFarBelowZeroIsRefused) {
+  const TemporaryFolder folder;
+  const auto made = importText(folder,
+                               "frame,time_ms,matrix,y,x,value\n"
+                               "0,10,0,0,0,1\n"
+                               "-1e30,11,0,0,0,2\n"
+                               "1,12,0,0,0,3\n",
+                               pad(1, 2));
+  EXPECT_EQ(made.report.frames, 2u);
+  EXPECT_EQ(made.report.refused.notLater, 1u);
+  EXPECT_EQ(made.report.absentFrames, 0u);
+}
+
 TEST(RecordingImport, OfTwoColumnsOfTheSameTimesTheFinerIsTaken) {
   const TemporaryFolder folder;
   const char* table = "stamp_ms,stamp_us,p0,p1\n10,10250,1,2\n10,10750,3,4\n";
@@ -445,6 +459,16 @@ TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
   choose("rcf.mat", "pad", "time_s");
   choose("frc.mat", "pad", "time_s");
   choose("within.npz", "table[1]..table[6]", "table[0]");
+  ImportMapping noSuchMatrix;
+  noSuchMatrix.matrices = {{7, "pad", {}, false}};
+  EXPECT_NE(testing::errorOf([&] {
+              importRecording(folder / "last.npz", pad(2, 3), noSuchMatrix, folder / "o.palpate");
+            }).find("the hand has no matrix 7"),
+            std::string::npos);
+  EXPECT_NE(testing::errorOf([&] {
+              choose("within.npz", "table[6]..table[1]", "table[0]");
+            }).find("the numbers \"table[6]..table[1]\" end before they begin"),
+            std::string::npos);
 }
 
 TEST(RecordingImport, ASquareOfMatlabIsTransposedAndOneOfNumpyIsNot) {
@@ -480,6 +504,37 @@ np.savez(folder + 'stack.npz', pad=np.arange(40).reshape(5, 4, 2), time_s=time)
     const std::string refusal = testing::errorOf([&] { import("wrong.npz", pad(2, 6), chosen); });
     EXPECT_NE(refusal.find("pad[4][3]"), std::string::npos) << refusal;
   }
+}
+
+// As many frames as columns: the shape tells nothing.
+TEST(RecordingImport, AFirstAxisAsLongAsTheLastIsNoted) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+pad = np.arange(8).reshape(2, 2, 2)
+time = np.arange(2) * 0.01
+np.savez(folder + 'a.npz', pad=pad, time_s=time)
+with h5py.File(folder + 'a.mat', 'w', userblock_size=512) as f:
+  f['pad'] = pad
+  f['pad'].attrs['MATLAB_class'] = np.bytes_('double')
+  f['time_s'] = time
+)");
+  const auto noted = [&](const char* name, const char* chosen, const std::string& axis) {
+    ImportMapping mapping;
+    if (*chosen) mapping.matrices = {{0, chosen, {}, false}};
+    const ImportReport report = importRecording(folder / name,
+                                                pad(2, 2),
+                                                mapping,
+                                                folder / "o.palpate",
+                                                {.overwrite = Overwrite::kReplace});
+    return std::any_of(report.notes.begin(), report.notes.end(), [&](const std::string& note) {
+      return note.starts_with("the " + axis + " axis of pad is taken for the frames, but");
+    });
+  };
+  EXPECT_TRUE(noted("a.npz", "", "first"));
+  EXPECT_TRUE(noted("a.mat", "", "last"));
+  EXPECT_FALSE(noted("a.npz", "pad", "first"));
 }
 
 TEST(RecordingImport, OtherArraysSayWhyTheyAreNotUsed) {

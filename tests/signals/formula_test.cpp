@@ -70,6 +70,17 @@ TEST(Formula, SmoothsOverSamplesButNotOverGaps) {
   EXPECT_EQ(of("median( 2 * a , 3 ) + 1"), (std::vector<double>{13, 7, 13, 7, 10, 301, 301}));
 }
 
+TEST(Formula, MeansGoOnBehindAnOverflow) {
+  constexpr double kMax = std::numeric_limits<double>::max();
+  const std::vector<double> timeS = {0, 1, 2, 3, 4, 5, 6};
+  const std::vector<double> values = {1, kMax, kMax, 0, 3, 6, 9};
+  const auto means = Formula("smooth(a, 3)").evaluate(timeS, {values}, kEver);
+  EXPECT_FALSE(std::isfinite(means[1]));
+  EXPECT_EQ(means[3], kMax / 3.0);
+  EXPECT_EQ(means[4], 3.0);
+  EXPECT_EQ(means[6], 7.5);
+}
+
 // The filter itself is checked against SciPy in butterworth_test: here that it is the one meant.
 TEST(Formula, FiltersAreButterworthsWithoutDelay) {
   std::vector<double> timeS, values, slow;

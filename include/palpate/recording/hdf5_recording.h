@@ -24,8 +24,9 @@
 
 namespace palpate {
 
-// The version of the layout that is written, and the newest that is read.
-constexpr int kHdf5LayoutVersion = 1;
+// The newest version of the layout that is read. Only recordings with filtered frames are written
+// in it, for `mN_kept`; all others have version 1, so that earlier programs read them.
+constexpr int kHdf5LayoutVersion = 2;
 
 // The first bytes of what writeHdf5() writes, and of HDF5 files without a user block.
 constexpr std::string_view kHdf5RecordingStart = "Palpate recording in HDF5\n";

@@ -23,8 +23,9 @@
 
 namespace palpate {
 
-// The version of the topics that is written, and the newest that is read.
-constexpr int kMcapLayoutVersion = 1;
+// The newest version of the topics that is read. Only recordings with filtered frames are written
+// in it, which have `kept`; all others have version 1, so that earlier programs read them.
+constexpr int kMcapLayoutVersion = 2;
 
 // How the chunks of a file are compressed.
 enum class McapCompression { kNone, kLz4, kZstd };

@@ -12,6 +12,7 @@
 namespace palpate::hdf5_layout {
 
 constexpr const char* kFormat = "palpate";  // value of the attribute `format`
+constexpr std::int64_t kUnfilteredLayoutVersion = 1;
 constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
 constexpr std::int32_t kNoMatrix = std::numeric_limits<std::int32_t>::min();
 

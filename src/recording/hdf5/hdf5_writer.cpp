@@ -25,9 +25,9 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 using Shape = std::vector<hsize_t>;
 
-constexpr std::size_t kMostChunkBytes = 256u << 10;
-constexpr std::size_t kMostChunkFrames = 1024;
-constexpr std::size_t kMostChunkRows = 4096;
+constexpr std::size_t kMaxChunkBytes = 256u << 10;
+constexpr std::size_t kMaxChunkFrames = 1024;
+constexpr std::size_t kMaxChunkRows = 4096;
 
 // The kinds of numbers that are written.
 struct NumberType {
@@ -100,6 +100,7 @@ class Hdf5Writer {
         std::vector<std::string>(sensors, "degC"));
     writeFrames();
     work_.finishAll();
+    writeVersion();
     series_.clear();
     arrays_.clear();
     out_.commit();
@@ -252,13 +253,20 @@ class Hdf5Writer {
     const hid_t root = out_.file();
     const Provenance& from = content_.extras.provenance;
     attribute(root, "format", std::string(hdf5_layout::kFormat));
-    attribute(root, "format_version", std::int64_t{kHdf5LayoutVersion});
     attribute(root, "program", from.program);
     attribute(root, "source_file", from.sourceFile);
     attribute(root, "source_sha256", from.sourceSha256);
     attribute(root, "filters", from.filters);
     attribute(root, "calibration", from.calibration);
     attribute(root, "hand", from.hand.empty() ? profile_.hand().name : from.hand);
+  }
+
+  // Earlier programs would read the values below 0 of filtered frames as 0.
+  void writeVersion() {
+    const auto lock = hdf5Lock();
+    attribute(out_.file(),
+              "format_version",
+              anyFiltered_ ? kHdf5LayoutVersion : hdf5_layout::kUnfilteredLayoutVersion);
   }
 
   void writeMeta() {
@@ -339,7 +347,7 @@ class Hdf5Writer {
     const std::size_t width = valuesOf(0).size();
     names.resize(width);
     units.resize(width);
-    const std::size_t perChunk = std::min(count, kMostChunkRows);
+    const std::size_t perChunk = std::min(count, kMaxChunkRows);
     ChunkedArray* times = nullptr;
     ChunkedArray* values = nullptr;
     {
@@ -386,8 +394,8 @@ class Hdf5Writer {
     std::size_t largest = 1;
     for (const MatrixLayout& matrix : profile_.layout().matrices())
       largest = std::max(largest, matrix.numCells());
-    const std::size_t fitting = kMostChunkBytes / (largest * sizeof(float));
-    return std::clamp<std::size_t>(std::min(fitting, profile_.numFrames()), 1, kMostChunkFrames);
+    const std::size_t fitting = kMaxChunkBytes / (largest * sizeof(float));
+    return std::clamp<std::size_t>(std::min(fitting, profile_.numFrames()), 1, kMaxChunkFrames);
   }
 
   // Positions of rows or columns [mm], as a scale.
@@ -507,7 +515,10 @@ class Hdf5Writer {
       put(times, at, frame.hostUs);
       put(deviceTimes, at, frame.deviceMs.value_or(hdf5_layout::kNoDeviceTime));
       anyDevice = anyDevice || frame.deviceMs;
-      if (!counts) isFiltered[at] = frame.filtered.empty() ? 0 : 1;
+      if (!counts && !frame.filtered.empty()) {
+        isFiltered[at] = 1;
+        anyFiltered_ = true;
+      }
       for (std::size_t m = 0; m < values.size(); ++m) {
         const std::size_t cells = layout.matrix(m).numCells();
         const float* all = frame.allValues().data() + layout.offset(m);
@@ -549,7 +560,7 @@ class Hdf5Writer {
     auto running = std::make_unique<RunningSeries>(series);
     const std::size_t count = series.numRows();
     const std::size_t width = series.columns().size();
-    running->rowsPerBlock = std::clamp<std::size_t>(count, 1, kMostChunkRows);
+    running->rowsPerBlock = std::clamp<std::size_t>(count, 1, kMaxChunkRows);
     {
       const auto lock = hdf5Lock();
       const std::string& group = series.name();
@@ -621,6 +632,7 @@ class Hdf5Writer {
   const Hdf5WriteOptions options_;
   Hdf5Output out_;
   std::vector<std::unique_ptr<ChunkedArray>> arrays_;
+  bool anyFiltered_ = false;  // frames that were written so far
   OrderedWork work_;
   std::vector<std::unique_ptr<RunningSeries>> series_;
 };

@@ -19,7 +19,7 @@ bool isDigit(char letter) { return letter >= '0' && letter <= '9'; }
 
 // The whole numbers in a name, and the name with # in their places.
 std::string stemOf(std::string_view name, std::vector<std::int64_t>& numbers) {
-  constexpr std::size_t kMostDigits = 15;
+  constexpr std::size_t kMaxDigits = 15;
   std::string stem;
   for (std::size_t at = 0; at < name.size();) {
     std::size_t end = at;
@@ -28,7 +28,7 @@ std::string stemOf(std::string_view name, std::vector<std::int64_t>& numbers) {
       stem += name[at++];
       continue;
     }
-    numbers.push_back(end - at > kMostDigits ? -1 : *parseInteger(name.substr(at, end - at)));
+    numbers.push_back(end - at > kMaxDigits ? -1 : *parseInteger(name.substr(at, end - at)));
     stem += '#';
     at = end;
   }
@@ -236,9 +236,9 @@ bool matchesPattern(std::string_view name,
 
 // The letters of the places in a pattern. Throws Error for an unknown one or one that comes twice.
 std::string lettersOf(const std::string& pattern) {
-  constexpr std::size_t kMostStars = 3;
+  constexpr std::size_t kMaxStars = 3;
   std::string letters;
-  if (std::count(pattern.begin(), pattern.end(), '*') > static_cast<std::ptrdiff_t>(kMostStars))
+  if (std::count(pattern.begin(), pattern.end(), '*') > static_cast<std::ptrdiff_t>(kMaxStars))
     throw Error("the pattern " + inQuotes(pattern) + " has more than three *");
   for (std::size_t at = pattern.find('{'); at != std::string::npos;
        at = pattern.find('{', at + 1)) {
@@ -314,6 +314,8 @@ void appendPart(const std::vector<TableColumn>& columns,
       dots < part.size() ? numberNamed(columns, trimmed(part.substr(dots + 2))) : first;
   if (first && last && first->within && last->within && first->column == last->column) {
     requireNumbers(columns[first->column]);
+    if (*last->within < *first->within)
+      throw Error("the numbers " + inQuotes(part) + " end before they begin");
     for (std::size_t i = *first->within; i <= *last->within; ++i)
       elements.push_back({first->column, i, {static_cast<std::int64_t>(i)}});
     return;

@@ -1,11 +1,8 @@
 #include "palpate/recording/import_plan.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <map>
 #include <set>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +13,8 @@
 #include "recording/import/cell_text.h"
 #include "recording/import/column_choice.h"
 #include "recording/import/column_unit.h"
+#include "recording/import/column_words.h"
+#include "recording/import/time_choice.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -23,64 +22,9 @@ namespace {
 
 using Kind = PlannedSeries::Kind;
 
-constexpr std::size_t kPlanSampleRows = 50;
-
-// The words of a name, in small letters: "fingerTip_3.angle [deg]" has fingertip, angle, deg.
-std::set<std::string> wordsOf(std::string_view name) {
-  std::set<std::string> words;
-  std::string word;
-  for (const char letter : std::string(name) + " ") {
-    if (std::isalpha(static_cast<unsigned char>(letter)) != 0) {
-      word += smallLetters(std::string_view(&letter, 1));
-    } else if (!word.empty()) {
-      words.insert(std::exchange(word, {}));
-    }
-  }
-  return words;
-}
-
-bool hasWord(const TableColumn& column, const std::set<std::string>& wanted) {
-  const auto words = wordsOf(column.name);
-  return std::any_of(
-      words.begin(), words.end(), [&](const std::string& word) { return wanted.contains(word); });
-}
-
-const std::set<std::string> kTimeWords = {
-    "time", "timestamp", "stamp", "date", "datetime", "millis", "micros", "seconds", "clock"};
-// Alone they name the time; in front of a number they may name a taxel.
-const std::set<std::string> kShortTimeWords = {"t", "s", "ms", "us", "ns"};
-const std::set<std::string> kAngleWords = {
-    "angle", "angles", "axis", "axes", "joint", "joints", "q"};
-const std::set<std::string> kTemperatureWords = {
-    "temperature", "temperatures", "temp", "temps", "degc", "celsius"};
 // Columns that count rows or say which taxels are active.
 const std::set<std::string> kOtherWords = {
     "active", "mask", "index", "frame", "sample", "seq", "sequence", "counter"};
-
-bool isScalar(const TableColumn& column) { return column.shape.empty(); }
-
-bool namesTime(const TableColumn& column) {
-  if (hasWord(column, kTimeWords)) return true;
-  const auto words = wordsOf(column.name);
-  return !words.empty() && column.name.find_first_of("0123456789") == std::string::npos &&
-         std::all_of(words.begin(), words.end(), [](const std::string& word) {
-           return kShortTimeWords.contains(word);
-         });
-}
-
-// How well a column fits as the time of a series; 0: not at all.
-int timeScore(const TableColumn& column, Kind kind) {
-  if (!isScalar(column) || (!column.isNumeric && !column.hasDates)) return 0;
-  const bool named = namesTime(column);
-  if (!named && !column.hasDates) return 0;
-  const bool ofAngles = hasWord(column, kAngleWords);
-  const bool ofTemperatures = hasWord(column, kTemperatureWords);
-  const bool own =
-      (kind == Kind::kAngles && ofAngles) || (kind == Kind::kTemperatures && ofTemperatures);
-  if ((ofAngles || ofTemperatures) && !own) return 0;
-  return 1 + (own ? 4 : 0) + (named ? 1 : 0) + (column.hasDates ? 1 : 0) +
-         (wordsOf(column.name).size() == 1 ? 1 : 0);
-}
 
 std::vector<std::string> namesOf(const HandDescription& hand, Kind kind) {
   std::vector<std::string> names;
@@ -89,10 +33,6 @@ std::vector<std::string> namesOf(const HandDescription& hand, Kind kind) {
   for (const TemperatureSensorDescription& sensor : hand.temperatureSensors)
     if (kind == Kind::kTemperatures) names.push_back(sensor.name);
   return names;
-}
-
-bool sameRows(const TableColumn& first, const TableColumn& second) {
-  return !first.numRows || !second.numRows || first.numRows == second.numRows;
 }
 
 std::string matrixShape(const MatrixLayout& matrix) {
@@ -107,7 +47,7 @@ std::string whyNoNumbers(const TableColumn& column) {
   const std::string_view cell = column.example;
   const std::string text = column.type + " such as " + inQuotes(cell);
   if (cell.starts_with("0x") || cell.starts_with("0X")) return text + ": hexadecimal";
-  if (cell.starts_with("\xE2\x88\x92")) return text + ": its minus is no ASCII character";
+  if (cell.starts_with("\xE2\x88\x92")) return text + ": its minus is not an ASCII minus";
   const auto blank = cell.find_first_not_of("+-.0123456789");
   if (blank != 0 && blank != std::string_view::npos && isKnownUnit(cell.substr(blank)))
     return text + ": a unit in the cell; put it into the name";
@@ -134,9 +74,6 @@ class Planner {
   // Without its time.
   std::optional<PlannedSeries> samples(Kind kind);
   std::vector<TableElement> foundSamples(Kind kind, std::size_t count);
-  void findTime(PlannedSeries& series, const std::string& named);
-  std::size_t finestOf(std::size_t time);
-  void setTimeUnit(PlannedSeries& series);
   IndexOrder naturalOrder(const ColumnGroup& group) const;
   IndexOrder orderOf(const ColumnGroup& group, bool isOpposite) const;
   void noteOrder(const std::string& what,
@@ -156,15 +93,9 @@ class Planner {
   bool takeParts(PlannedSeries& series, const std::vector<ColumnGroup>& groups, bool isOpposite);
   bool takeColumnsInOrder(PlannedSeries& series, const std::vector<ColumnGroup>& groups);
   bool takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group);
-  struct Counting {
-    bool ascends = false;
-    bool isRowNumber = false;  // 0, 1, 2, .. or 1, 2, 3, ..
-  };
-  Counting countingOf(std::size_t column, std::size_t within);
-  bool leaveOutFirst(PlannedSeries& series, std::size_t column, bool isArray);
   bool anyFrames() const;
+  void noteFirstAxis(const std::vector<std::size_t>& arrays);
   void findFrameAxis();
-  void straightenTimes();
   void noteUnused();
   std::optional<std::vector<std::size_t>> placesByShape(const MatrixMapping& wanted,
                                                         const ChosenElements& chosen,
@@ -186,7 +117,6 @@ class Planner {
                        const PlannedValue& value,
                        const std::string& unit) const;
   std::vector<std::size_t> candidates() const;
-  std::vector<double> sampleValues(std::size_t column, std::size_t within);
   [[noreturn]] void refuse(const std::string& why) const { throw FormatError(source_.path(), why); }
 
   TableSource& source_;
@@ -194,24 +124,11 @@ class Planner {
   const HandDescription& hand_;
   const ImportMapping& mapping_;
   ImportPlan plan_;
-  bool isReversed_ = false;          // the axes of all arrays
-  std::string rowNumber_;            // a column that counts the rows
-  std::string unitUsed_;             // by the last conversion()
-  std::optional<std::size_t> time_;  // column of the frames
-  std::optional<std::size_t> timeWithin_;
+  TimeChoice times_{source_, mapping_, plan_};
+  bool isReversed_ = false;              // the axes of all arrays
+  std::string unitUsed_;                 // by the last conversion()
   std::set<std::size_t> sampleColumns_;  // of angles and temperatures
 };
-
-// One of the numbers of a column, in the first rows that have it.
-std::vector<double> Planner::sampleValues(std::size_t column, std::size_t within) {
-  std::vector<double> values;
-  source_.start(std::span(&column, 1), std::nullopt);
-  TableRow row;
-  for (std::size_t i = 0; i < kPlanSampleRows && source_.next(row); ++i)
-    if (row.complete && row.states[within] == CellState::kNumber)
-      values.push_back(row.values[within]);
-  return values;
-}
 
 // The unit of a column and of the hand, as a factor and an offset.
 PlannedValue Planner::conversion(const ValueMapping& values,
@@ -282,7 +199,8 @@ std::vector<std::size_t> Planner::candidates() const {
   std::vector<std::size_t> chosen;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const TableColumn& column = columns_[c];
-    if (!column.isNumeric || column.type == "bool" || time_ == c || sampleColumns_.contains(c))
+    if (!column.isNumeric || column.type == "bool" || times_.isOfFrames(c) ||
+        sampleColumns_.contains(c))
       continue;
     if (column.width() > kMaxNumbersPerRow) continue;  // images of a camera
     if (timeScore(column, Kind::kFrames) > 0 || timeScore(column, Kind::kAngles) > 0 ||
@@ -373,129 +291,6 @@ std::optional<PlannedSeries> Planner::samples(Kind kind) {
     refuse(what + ": the columns have different numbers of rows");
   for (const TableElement& each : elements) sampleColumns_.insert(each.column);
   return series;
-}
-
-// Of columns with one name and the same times in several units, as time_ms and time_us, the one
-// with the finest unit.
-std::size_t Planner::finestOf(std::size_t time) {
-  const auto usPerUnit = [&](std::size_t column) -> double {
-    const auto unit = timeUnitNamed(columns_[column].unit);
-    if (!columns_[column].isNumeric || !unit || *unit > TimeUnit::kNanoseconds) return 0.0;
-    constexpr double kUs[] = {1e6, 1e3, 1.0, 1e-3};
-    return kUs[static_cast<std::size_t>(*unit)];
-  };
-  std::size_t finest = time;
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    const double coarse = usPerUnit(finest);
-    const double fine = usPerUnit(c);
-    if (fine == 0.0 || fine >= coarse || !isScalar(columns_[c]) ||
-        nameWithoutUnit(columns_[c].name) != nameWithoutUnit(columns_[time].name) ||
-        !sameRows(columns_[c], columns_[time]))
-      continue;
-    const std::vector<double> coarseTimes = sampleValues(finest, 0);
-    const std::vector<double> fineTimes = sampleValues(c, 0);
-    const auto isSame = [&](double a, double b) {
-      return std::abs(a * coarse - b * fine) < coarse;
-    };
-    if (!fineTimes.empty() &&
-        std::equal(
-            coarseTimes.begin(), coarseTimes.end(), fineTimes.begin(), fineTimes.end(), isSame))
-      finest = c;
-  }
-  return finest;
-}
-
-// Finds the time of a series, unless the rows have a rate.
-void Planner::findTime(PlannedSeries& series, const std::string& named) {
-  const bool isFrames = series.kind == Kind::kFrames;
-  const auto fail = [&](const std::string& why) { refuse("time: " + why); };
-  const auto rowsText = [&](std::size_t column) {
-    return counted(columns_[column].numRows.value_or(0), "row");
-  };
-  std::optional<std::size_t> otherRows;  // a time of another length
-  if (mapping_.time.rateHz) return;
-  if (!named.empty() && named != kNoColumns) {
-    const auto chosen = numberNamed(columns_, named);
-    if (!chosen)
-      fail("there is no column " + inQuotes(named) + "; there are " + namesText(columns_));
-    if (!isScalar(columns_[chosen->column]) && !chosen->within)
-      fail(inQuotes(named) + " has several numbers per row; choose one: NAME[0]");
-    if (chosen->within && chosen->column != series.columns.front())
-      fail(inQuotes(named) + " is part of an array that doesn't hold the values");
-    series.time = chosen->column;
-    series.timeWithin = chosen->within;
-  } else if (named.empty() && !series.time) {
-    int best = 0;
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const int score = timeScore(columns_[c], series.kind);
-      if (score <= best) continue;
-      if (!sameRows(columns_[c], columns_[series.columns.front()])) {
-        otherRows = c;
-        continue;
-      }
-      best = score;
-      series.time = c;
-    }
-    if (series.time) series.time = finestOf(*series.time);
-  }
-  if (!series.time && !isFrames && time_ &&
-      sameRows(columns_[*time_], columns_[series.columns.front()])) {
-    series.time = time_;
-    series.timeWithin = timeWithin_;
-  }
-  if (!series.time && isFrames && otherRows)
-    fail(inQuotes(columns_[*otherRows].name) + " has " + rowsText(*otherRows) + ", but " +
-         shortened(columns_[series.columns.front()].name) + " has " +
-         rowsText(series.columns.front()) +
-         "; save as many times as frames, or give the rate of the rows (--rate)");
-  if (!series.time && isFrames)
-    fail("no column of times was found" +
-         (rowNumber_.empty() ? "" : " (" + rowNumber_ + " counts the rows)") +
-         "; name that column (--time), or give the rate of the rows (--rate)");
-  if (!series.time) return;
-  if (!sameRows(columns_[*series.time], columns_[series.columns.front()]))
-    fail(inQuotes(columns_[*series.time].name) + " has " + rowsText(*series.time) + ", but " +
-         shortened(columns_[series.columns.front()].name) + " has " +
-         rowsText(series.columns.front()));
-  setTimeUnit(series);
-}
-
-void Planner::setTimeUnit(PlannedSeries& series) {
-  const TableColumn& column = columns_[*series.time];
-  std::string origin = "as given";
-  if (column.hasDates) {
-    series.timeUnit = TimeUnit::kDate;
-    origin = "dates";
-  } else if (!mapping_.time.unit.empty() && series.kind == Kind::kFrames) {
-    series.timeUnit = *timeUnitNamed(mapping_.time.unit);
-  } else if (const auto unit = timeUnitNamed(column.unit); unit && unit != TimeUnit::kDate) {
-    series.timeUnit = *unit;
-    origin = "by the file";
-  } else if (const auto word = timeUnitNamed(column.name); word && word != TimeUnit::kDate) {
-    series.timeUnit = *word;
-    origin = "by the name";
-  } else {
-    if (!mapping_.time.unit.empty()) {
-      series.timeUnit = *timeUnitNamed(mapping_.time.unit);
-    } else {
-      const std::size_t at = series.timeWithin.value_or(0);
-      const std::vector<double> values = sampleValues(*series.time, at);
-      const bool whole = std::all_of(
-          values.begin(), values.end(), [](double value) { return value == std::floor(value); });
-      if (countingOf(*series.time, at).isRowNumber)
-        refuse("time: " + inQuotes(column.name) +
-               " counts the rows (0, 1, 2, ..); give the rate of the rows (--rate), or its unit if "
-               "it is a time (--time-unit)");
-      series.timeUnit = values.empty() ? TimeUnit::kSeconds : guessTimeUnit(values.back(), whole);
-      origin = "guessed from the values; choose the unit if it is another";
-      plan_.notes.push_back("time: the unit of " + inQuotes(column.name) + " is guessed to be " +
-                            std::string(nameOf(series.timeUnit)) +
-                            "; choose another one by --time-unit");
-    }
-  }
-  if (series.kind == Kind::kFrames)
-    plan_.timeDescription =
-        shortened(column.name) + " [" + std::string(nameOf(series.timeUnit)) + ", " + origin + "]";
 }
 
 // The places of an array with rows and columns: its shape decides, unless the mapping says that it
@@ -685,44 +480,6 @@ bool Planner::takeParts(PlannedSeries& series,
   return true;
 }
 
-// What the first numbers of the rows tell of a number within them.
-Planner::Counting Planner::countingOf(std::size_t column, std::size_t within) {
-  constexpr std::size_t kFewestCounts = 3;
-  const std::vector<double> values = sampleValues(column, within);
-  Counting found{values.size() > 1, values.size() >= kFewestCounts};
-  if (found.isRowNumber) found.isRowNumber = values[0] == 0.0 || values[0] == 1.0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    found.ascends = found.ascends && values[i] > values[i - 1];
-    found.isRowNumber = found.isRowNumber && values[i] == values[i - 1] + 1.0;
-  }
-  return found;
-}
-
-// Whether a first number more than the taxels is none of them: the time, or the number of the row.
-bool Planner::leaveOutFirst(PlannedSeries& series, std::size_t column, bool isArray) {
-  const std::string name = shortened(columns_[column].name) + (isArray ? "[0]" : "");
-  const Counting counting = countingOf(column, 0);
-  if (!counting.ascends) return false;
-  if (counting.isRowNumber) {
-    rowNumber_ = name;
-    plan_.notes.push_back(name + " counts the rows; not used");
-    return true;
-  }
-  const bool hasTime =
-      time_ || std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& each) {
-        return timeScore(each, Kind::kFrames) > 0;
-      });
-  if (hasTime || mapping_.time.column == kNoColumns) return false;
-  if (mapping_.time.rateHz) {
-    plan_.notes.push_back(name + " ascends; not used, since the rate is given");
-    return true;
-  }
-  series.time = time_ = column;
-  if (isArray) series.timeWithin = 0;
-  plan_.notes.push_back(name + " ascends and is taken for the time");
-  return true;
-}
-
 // All numbers in their order: of all columns of a text, whose names say nothing else.
 bool Planner::takeColumnsInOrder(PlannedSeries& series, const std::vector<ColumnGroup>& groups) {
   std::vector<std::size_t> all;
@@ -737,7 +494,7 @@ bool Planner::takeColumnsInOrder(PlannedSeries& series, const std::vector<Column
   const auto fits = [&](std::size_t count) {
     return placesInOrder(count, *hand_.layout, std::nullopt, false);
   };
-  if (!fits(all.size()) && fits(all.size() - 1) && leaveOutFirst(series, all.front(), false))
+  if (!fits(all.size()) && fits(all.size() - 1) && times_.leaveOutFirst(series, all.front(), false))
     all.erase(all.begin());
   const auto places = fits(all.size());
   if (!places) return false;
@@ -757,7 +514,7 @@ bool Planner::takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group) 
   auto places = placesInOrder(elements.size(), layout, std::nullopt, false);
   const bool oneMore = isRow && elements.size() > 1 &&
                        placesInOrder(elements.size() - 1, layout, std::nullopt, false);
-  if (!places && oneMore && leaveOutFirst(series, group.columns.front(), true)) {
+  if (!places && oneMore && times_.leaveOutFirst(series, group.columns.front(), true)) {
     elements.erase(elements.begin());
     places = placesInOrder(elements.size(), layout, std::nullopt, false);
   }
@@ -778,7 +535,7 @@ PlannedSeries Planner::foundFrames() {
     if (takeArrayInOrder(series, group)) return series;
   const SensorLayout& layout = *hand_.layout;
   refuse("no columns fit the hand " + inQuotes(hand_.name) + ", which has " + shapeText(layout) +
-         " (expected are so many columns, or arrays of rows x " + matrixShape(layout.matrix(0)) +
+         " (as many columns are expected, or arrays of rows x " + matrixShape(layout.matrix(0)) +
          "); the file has " + namesText(columns_) + unusableText() +
          "; choose the columns of each matrix (--matrix)");
 }
@@ -789,6 +546,7 @@ bool Planner::anyFrames() const {
   if (!mapping_.matrices.empty())
     return std::all_of(
         mapping_.matrices.begin(), mapping_.matrices.end(), [&](const MatrixMapping& wanted) {
+          if (wanted.matrix && *wanted.matrix >= layout.numMatrices()) return false;
           const ChosenElements chosen = chooseElements(columns_, wanted.columns);
           return !chosen.letters.empty() ||
                  placesInOrder(chosen.elements.size(), layout, wanted.matrix, false);
@@ -804,6 +562,19 @@ bool Planner::anyFrames() const {
     }
     return false;
   });
+}
+
+// The first and the last axis have the same size: the shapes can't tell which one the frames are.
+void Planner::noteFirstAxis(const std::vector<std::size_t>& arrays) {
+  const auto found = std::find_if(
+      arrays.begin(), arrays.end(), [&](std::size_t c) { return !isScalar(columns_[c]); });
+  if (!mapping_.matrices.empty() || found == arrays.end() || !anyFrames()) return;
+  const bool isMatlab = source_.isColumnMajor();
+  plan_.notes.push_back("the " + std::string(isMatlab ? "last" : "first") + " axis of " +
+                        shortened(columns_[*found].name) + " is taken for the frames, but the " +
+                        (isMatlab ? "first" : "last") + " one has the same size, " +
+                        std::to_string(*columns_[*found].numRows) +
+                        "; if the frames are that one, exchange them in the file");
 }
 
 // Where all arrays share their last size, frames may be there: MATLAB's pad(frames, rows, columns),
@@ -826,7 +597,8 @@ void Planner::findFrameAxis() {
     for (const std::size_t c : arrays) source_.reverseAxes(c);
     isReversed_ = !isReversed_;
   };
-  if (lasts.size() != 1 || lasts == firsts || *lasts.begin() == 1) return;
+  if (lasts.size() != 1 || *lasts.begin() == 1) return;
+  if (lasts == firsts) return noteFirstAxis(arrays);
   const bool fits = anyFrames();
   if (fits && !mapping_.matrices.empty()) return;
   reverse();
@@ -841,16 +613,6 @@ void Planner::findFrameAxis() {
                           ", is taken for the frames");
   else
     reverse();
-}
-
-// A vector of MATLAB is an array of one row or one column.
-void Planner::straightenTimes() {
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    const TableColumn& column = columns_[c];
-    if (column.isNumeric && column.numRows == 1 && column.shape.size() == 1 &&
-        (namesTime(column) || column.name == mapping_.time.column))
-      source_.reverseAxes(c);
-  }
 }
 
 // Why columns of the file hold no numbers, for a message.
@@ -875,15 +637,13 @@ PlannedSeries Planner::frames() {
              std::to_string(*columns_[column].numRows) + " rows, but " +
              shortened(columns_[series.columns.front()].name) + " has " +
              std::to_string(*columns_[series.columns.front()].numRows));
-  findTime(series, mapping_.time.column);
-  time_ = series.time;
-  timeWithin_ = series.timeWithin;
+  times_.find(series, mapping_.time.column);
   return series;
 }
 
 std::optional<PlannedSeries> Planner::onlySamples(Kind kind) {
   auto series = samples(kind);
-  if (series) findTime(*series, mappingOf(kind).time);
+  if (series) times_.find(*series, mappingOf(kind).time);
   if (series && !series->time) return std::nullopt;
   return series;
 }
@@ -904,12 +664,7 @@ void Planner::noteUnused() {
 
 ImportPlan Planner::plan() {
   findFrameAxis();
-  straightenTimes();
-  // A column of times that the mapping names is none of the taxels.
-  for (std::size_t c = 0; c < columns_.size(); ++c)
-    if (!mapping_.time.column.empty() && (columns_[c].name == mapping_.time.column ||
-                                          mapping_.time.column == "#" + std::to_string(c + 1)))
-      time_ = c;
+  times_.straighten();
   // First the columns of the samples are told apart, which have words for it.
   std::vector<PlannedSeries> others;
   for (const Kind kind : {Kind::kAngles, Kind::kTemperatures})
@@ -923,7 +678,7 @@ ImportPlan Planner::plan() {
       series.timeWithin = taxels.timeWithin;
       series.timeUnit = taxels.timeUnit;
     } else {
-      findTime(series, own);
+      times_.find(series, own);
     }
   }
   const std::size_t taxelColumn = taxels.columns.front();

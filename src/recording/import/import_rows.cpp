@@ -196,7 +196,7 @@ void ImportRows::addFrame(std::int64_t us) {
   if (sink_.frame) sink_.frame(frame_);
 }
 
-// The value of a taxel in a recording; counts what the hand doesn't have.
+// The value of a taxel in a recording; counts values outside the hand's range.
 float ImportRows::taxelValue(const TableSource& source,
                              const TableRow& row,
                              std::size_t place,
@@ -352,7 +352,7 @@ void ImportRows::finishListedFrame() {
 
 // Counts the frames that the list leaves out. A row that is refused lists its frame, too.
 void ImportRows::countAbsent(const TableRow& row) {
-  if (row.states[0] != CellState::kNumber || !(row.values[0] < 1e15)) return;
+  if (row.states[0] != CellState::kNumber || !(std::abs(row.values[0]) < 1e15)) return;
   const auto number = static_cast<std::int64_t>(std::floor(row.values[0]));
   if (number <= lastNumber_) return;
   report_.absentFrames += static_cast<std::uint64_t>(number - lastNumber_ - 1);

@@ -340,6 +340,7 @@ struct ForeignTopic {
   std::size_t messages = 0;      // that are used
   std::size_t leftOut = 0;       // messages that are not
   std::string firstReason = {};  // why the first of those is not
+  std::string unfit = {};        // why an image can't be a matrix: the first that can't
   std::size_t notNumbers = 0;    // values that are 0 instead
 };
 
@@ -376,6 +377,7 @@ class ForeignReader {
       damage_ += (damage_.empty() ? "has " : "; ") +
                  mcapDamagedChunksText(chunks_.numBad(), chunks_.firstFault(), "messages");
     limitJoints();
+    findUnfitTopics();
     requireChosen();
     requireImages();
     orderByTime();
@@ -469,11 +471,10 @@ class ForeignReader {
     if (!image) return leaveOut(topic, "a damaged image");
     const std::string fault = faultOf(*image);
     const bool isFirst = topic.messages == 0;
-    if (isFirst && !fault.empty()) {
-      topic.unusable = fault;
-      return;
+    if (!fault.empty()) {
+      if (topic.unfit.empty()) topic.unfit = fault;
+      return leaveOut(topic, fault);
     }
-    if (!fault.empty()) return leaveOut(topic, fault);
     if (!isFirst && (image->rows != topic.rows || image->columns != topic.columns))
       return leaveOut(topic,
                       "the size of its images changes from " + sizeText(topic.rows, topic.columns) +
@@ -489,6 +490,12 @@ class ForeignReader {
     topic.isBytes &= mcapPixelBytes(image->encoding) == 1;
     takePixels(*image, topic);
     addPlace(imageSeries_[index], image->timeUs, message, piece, records);
+  }
+
+  // Leaves out topics without an image that could be a matrix: those of cameras.
+  void findUnfitTopics() {
+    for (ForeignTopic& topic : topics_)
+      if (topic.messages == 0 && topic.unusable.empty()) topic.unusable = topic.unfit;
   }
 
   // Why an image can't be a matrix, or an empty text.
@@ -725,8 +732,8 @@ class ForeignReader {
       hand.matrices[m].name = hand.matrices[m].shortName = topics_[order[m]].name;
     const bool bytes =
         std::all_of(order.begin(), order.end(), [&](std::size_t i) { return topics_[i].isBytes; });
-    constexpr float kMostOfBytes = 255.0F;
-    hand.maximumCounts = bytes ? kMostOfBytes : std::max(hand.maximumCounts, std::ceil(largest_));
+    constexpr float kMaxByte = 255.0F;
+    hand.maximumCounts = bytes ? kMaxByte : std::max(hand.maximumCounts, std::ceil(largest_));
     hand.saturationCounts = hand.maximumCounts;
     return hand;
   }
@@ -751,11 +758,13 @@ class ForeignReader {
     return angles;
   }
 
-  void noteTopics(std::size_t numEarly) {
+  void noteTopics() {
     for (const ForeignTopic& topic : topics_)
       if (!topic.unusable.empty())
         note("the topic " + inQuotes(topic.name) + " is left out: " + topic.unusable);
-    if (jointSeries_.size() > 1) noteJoints(numEarly);
+    if (jointSeries_.size() > 1)
+      note("the messages of " + inQuotes(topics_[*joints_].name) +
+           " have different joints, which are put together by name");
     constexpr std::size_t kMaxNotes = 20;
     if (notes_.size() <= kMaxNotes) return;
     const std::size_t more = notes_.size() - kMaxNotes;
@@ -763,16 +772,8 @@ class ForeignReader {
     note("and " + counted(more, "more note"));
   }
 
-  void noteJoints(std::size_t numEarly) {
-    note("the messages of " + inQuotes(topics_[*joints_].name) +
-         " have different joints, which are put together by name" +
-         (numEarly == 0
-              ? std::string()
-              : "; the first " + counted(numEarly, "message") + ", before all joints are known, " +
-                    (numEarly == 1 ? "gives" : "give") + " no angles"));
-  }
-
-  std::string lostOfTopics() const {
+  // `numEarly`: messages of joints that no angles are made of.
+  std::string lostOfTopics(std::size_t numEarly) const {
     constexpr std::size_t kMaxListed = 8;
     std::string text;
     std::size_t listed = 0;
@@ -789,6 +790,8 @@ class ForeignReader {
       add(topic.leftOut, "message", topic.name, "left out (the first: " + topic.firstReason + ")");
       add(topic.notNumbers, "value", topic.name, "taken as 0 (NaN or infinite)");
     }
+    if (joints_)
+      add(numEarly, "message", topics_[*joints_].name, "left out (before all joints are known)");
     return listed > kMaxListed ? text + "; and more" : text;
   }
 
@@ -810,12 +813,12 @@ class ForeignReader {
     const std::size_t numColumns = angles.unitsPerSi.size();
     auto storage = std::make_shared<ForeignStorage>(
         std::move(chunks_), layout, std::move(places_), targetsOf(order), angles);
-    noteTopics(storage->numEarly());
+    noteTopics();
     ProfileInfo info;
     info.format = "mcap";
     info.valueType = allCounts_ ? ValueType::kCounts : ValueType::kFloat;
     info.warnings = std::move(notes_);
-    std::string lost = lostOfTopics();
+    std::string lost = lostOfTopics(storage->numEarly());
     if (!lost.empty() && !salvage_) info.warnings.push_back(std::string(kLostWarning) + lost);
     const std::size_t axes = storage->numAngles() > 0 ? numColumns : 0;
     return {Profile(std::move(info), withSeriesOf(std::move(hand), axes, 0), std::move(storage)),

@@ -35,6 +35,8 @@ enum Opcode : std::uint8_t {
   kDataEnd = 0x0F,
 };
 
+constexpr int kUnfilteredLayoutVersion = 1;
+
 // Names of metadata records, attachments and topics of a recording.
 constexpr const char* kAboutRecord = "palpate";      // layout version, provenance
 constexpr const char* kMetaRecord = "palpate_meta";  // what was said of the recording

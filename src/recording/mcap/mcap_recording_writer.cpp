@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
@@ -20,8 +21,8 @@ using McapTexts = McapFileWriter::Texts;
 
 // Time of a record [ns since 1970]; at the ends of its range it stays there.
 std::uint64_t mcapTimeNs(std::int64_t timeUs) {
-  constexpr std::int64_t kMostUs = INT64_MAX / 1000;
-  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(timeUs, 0, kMostUs)) * 1000;
+  constexpr std::int64_t kMaxUs = INT64_MAX / 1000;
+  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(timeUs, 0, kMaxUs)) * 1000;
 }
 
 // A profile of ROS 2 asks for this key.
@@ -68,17 +69,15 @@ McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
             mcapRosProfile(options),
             mcapShownText(provenance.program.empty() ? "palpate" : provenance.program),
             options) {
-  McapTexts about =
-      mcapSafeTexts({{"program", provenance.program},
-                     {"source_file", provenance.sourceFile},
-                     {"source_sha256", provenance.sourceSha256},
-                     {"filters", provenance.filters},
-                     {"calibration", provenance.calibration},
-                     {"hand", provenance.hand.empty() ? hand.name : provenance.hand}});
-  about["layout_version"] = std::to_string(kMcapLayoutVersion);
-  about["matrices"] = std::to_string(hand.layout->numMatrices());
-  if (counts) about["value_type"] = *counts ? "counts" : "float";
-  file_.addMetadata(mcap_format::kAboutRecord, about);
+  about_ = mcapSafeTexts({{"program", provenance.program},
+                          {"source_file", provenance.sourceFile},
+                          {"source_sha256", provenance.sourceSha256},
+                          {"filters", provenance.filters},
+                          {"calibration", provenance.calibration},
+                          {"hand", provenance.hand.empty() ? hand.name : provenance.hand}});
+  about_["matrices"] = std::to_string(hand.layout->numMatrices());
+  if (counts) about_["value_type"] = *counts ? "counts" : "float";
+  addAbout(mcap_format::kUnfilteredLayoutVersion);
 
   std::map<std::string, std::string> said = writtenMeta({}, hand, meta);
   const std::string json = said["hand_json"];
@@ -113,6 +112,11 @@ McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
   }
   events_ = file_.addChannel(schemaOf(mcapEventSchema()), mcap_format::kEvents, "cdr", withQos({}));
   log_ = file_.addChannel(schemaOf(mcapLogSchema()), mcap_format::kLog, "cdr", withQos({}));
+}
+
+void McapRecordingWriter::addAbout(int version) {
+  about_["layout_version"] = std::to_string(version);
+  file_.addMetadata(mcap_format::kAboutRecord, about_);
 }
 
 std::uint16_t McapRecordingWriter::valuesChannel(
@@ -222,6 +226,9 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
   const bool isCounts = (!counts_ || *counts_) && frame.filtered.empty() && frame.isCounts();
   if (counts_ && *counts_ && !isCounts)
     throw std::invalid_argument("writeMcap: a frame of a recording of counts has another value");
+  // Earlier programs would read the values below 0 of filtered frames as 0: the record again, with
+  // the version that they refuse, is the one that counts.
+  if (!frame.filtered.empty() && !std::exchange(anyFiltered_, true)) addAbout(kMcapLayoutVersion);
   std::string& out = file_.beginMessage(frames_, mcapTimeNs(frame.hostUs));
   CdrWriter cdr(out);
   cdr.number(frame.hostUs);

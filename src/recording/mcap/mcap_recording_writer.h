@@ -42,6 +42,8 @@ class McapRecordingWriter {
   McapFileWriter& file() noexcept { return file_; }
 
  private:
+  // Writes what is said about the file, in this version of the layout.
+  void addAbout(int version);
   std::uint16_t valuesChannel(const std::string& topic,
                               const std::vector<ExportedSeries::Column>& columns);
   void addValues(std::uint16_t channel, std::int64_t timeUs, std::span<const double> values);
@@ -51,6 +53,8 @@ class McapRecordingWriter {
   const std::optional<bool> counts_;
   const McapImages images_;
   McapFileWriter file_;
+  McapFileWriter::Texts about_;
+  bool anyFiltered_ = false;  // frames so far
   std::optional<std::uint16_t> valuesSchema_;
   std::uint16_t frames_ = 0;
   std::vector<std::uint16_t> imageChannels_;

@@ -1,0 +1,57 @@
+// The column of a table that is the time of a series, and its unit. Private to this module.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpate/recording/import_mapping.h"
+#include "palpate/recording/import_plan.h"
+#include "palpate/recording/table_source.h"
+
+namespace palpate {
+
+// How well a column fits as the time of a series; 0: not at all.
+int timeScore(const TableColumn& column, PlannedSeries::Kind kind);
+
+class TimeChoice {
+ public:
+  // Adds its notes, and the description of the time, to `plan`.
+  TimeChoice(TableSource& source, const ImportMapping& mapping, ImportPlan& plan);
+
+  // A vector of MATLAB is an array of one row or one column: those of times become columns.
+  void straighten();
+  // Whether a first number more than the taxels is not one of them: the time, or the number of the
+  // row. Before find().
+  bool leaveOutFirst(PlannedSeries& series, std::size_t column, bool isArray);
+  // Finds the time of a series whose columns are known, unless the rows have a rate; that of the
+  // frames first. `named`: what the mapping says of it. Throws FormatError.
+  void find(PlannedSeries& series, const std::string& named);
+  // Whether a column is known to be the time of the frames.
+  bool isOfFrames(std::size_t column) const { return time_ == column; }
+
+ private:
+  struct Counting {
+    bool ascends = false;
+    bool isRowNumber = false;  // 0, 1, 2, .. or 1, 2, 3, ..
+  };
+  Counting countingOf(std::size_t column, std::size_t within);
+  std::vector<double> sampleValues(std::size_t column, std::size_t within);
+  void takeNamed(PlannedSeries& series, const std::string& named) const;
+  std::optional<std::size_t> takeBest(PlannedSeries& series);
+  std::string otherRowsText(const PlannedSeries& series, std::size_t time) const;
+  std::size_t finestOf(std::size_t time);
+  void setTimeUnit(PlannedSeries& series);
+  [[noreturn]] void refuse(const std::string& why) const;
+
+  TableSource& source_;
+  const std::vector<TableColumn>& columns_;
+  const ImportMapping& mapping_;
+  ImportPlan& plan_;
+  std::string rowNumber_;            // a column that counts the rows
+  std::optional<std::size_t> time_;  // column of the frames
+  std::optional<std::size_t> timeWithin_;
+};
+
+}  // namespace palpate
