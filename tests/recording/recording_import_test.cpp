@@ -462,7 +462,7 @@ TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
   ImportMapping noSuchMatrix;
   noSuchMatrix.matrices = {{7, "pad", {}, false}};
   EXPECT_NE(testing::errorOf([&] {
-              importRecording(folder / "last.npz", pad(2, 3), noSuchMatrix, folder / "o.palpate");
+              importRecording(folder / "last.npz", pad(2, 3), noSuchMatrix, folder / "no.palpate");
             }).find("the hand has no matrix 7"),
             std::string::npos);
   EXPECT_NE(testing::errorOf([&] {
