@@ -655,9 +655,17 @@ void Planner::noteUnused() {
     used.insert(series.columns.begin(), series.columns.end());
     if (series.time) used.insert(*series.time);
   }
+  // The same times in another unit: time_ms beside time_us.
+  const auto isSameTime = [&](std::size_t column) {
+    return timeUnitNamed(columns_[column].unit) &&
+           std::any_of(used.begin(), used.end(), [&](std::size_t other) {
+             return timeUnitNamed(columns_[other].unit) &&
+                    nameWithoutUnit(columns_[other].name) == nameWithoutUnit(columns_[column].name);
+           });
+  };
   std::vector<TableColumn> unused;
   for (std::size_t c = 0; c < columns_.size(); ++c)
-    if (!used.contains(c) && !hasWord(columns_[c], {"active", "mask", "meta"}))
+    if (!used.contains(c) && !isSameTime(c) && !hasWord(columns_[c], {"active", "mask", "meta"}))
       unused.push_back(columns_[c]);
   if (!unused.empty()) plan_.notes.push_back("not used: " + namesText(unused));
 }
