@@ -9,6 +9,7 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/recording.h"
