@@ -187,6 +187,7 @@ class Planner {
                        const std::string& unit) const;
   std::vector<std::size_t> candidates() const;
   std::vector<double> sampleValues(std::size_t column, std::size_t within);
+  std::vector<std::vector<double>> sampleRows(std::initializer_list<std::size_t> columns);
   [[noreturn]] void refuse(const std::string& why) const { throw FormatError(source_.path(), why); }
 
   TableSource& source_;
@@ -211,6 +212,19 @@ std::vector<double> Planner::sampleValues(std::size_t column, std::size_t within
     if (row.complete && row.states[within] == CellState::kNumber)
       values.push_back(row.values[within]);
   return values;
+}
+
+// The numbers of columns, in the first rows that have all of them.
+std::vector<std::vector<double>> Planner::sampleRows(std::initializer_list<std::size_t> columns) {
+  std::vector<std::vector<double>> rows;
+  source_.start(std::span(columns.begin(), columns.size()), std::nullopt);
+  TableRow row;
+  for (std::size_t i = 0; i < kPlanSampleRows && source_.next(row); ++i)
+    if (row.complete && std::all_of(row.states.begin(), row.states.end(), [](CellState state) {
+          return state == CellState::kNumber;
+        }))
+      rows.push_back(row.values);
+  return rows;
 }
 
 // The unit of a column and of the hand, as a factor and an offset.
@@ -392,7 +406,7 @@ std::size_t Planner::finestOf(std::size_t time) {
         nameWithoutUnit(columns_[c].name) != nameWithoutUnit(columns_[time].name) ||
         !sameRows(columns_[c], columns_[time]))
       continue;
-    const auto rows = sampleValues({finest, c});
+    const auto rows = sampleRows({finest, c});
     const bool same = !rows.empty() && std::all_of(rows.begin(), rows.end(), [&](const auto& row) {
       return std::abs(row[0] * coarse - row[1] * fine) < coarse;
     });
