@@ -592,6 +592,32 @@ TEST(RecordingImport, ALastLineWithoutAnEndIsNoted) {
   EXPECT_EQ(notes("\r\n"), std::vector<std::string>());
 }
 
+// imports 14.
+TEST(RecordingImport, BytesZeroOfAPowerCutAreLeftOutAndCounted) {
+  const TemporaryFolder folder;
+  const std::string before = "time_ms,a,b\n10,1,2\n20,3,4\n";
+  // Longer than what is read at once, and than the longest line.
+  const std::string block(5'000'000, '\0');
+  const auto behind = importText(folder, before + block, pad(1, 2));
+  EXPECT_EQ(behind.report.frames, 2u);
+  EXPECT_EQ(behind.report.refused.total(), 0u);
+  EXPECT_TRUE(behind.report.isPartial());
+  EXPECT_EQ(behind.report.lossText(), "5000000 bytes 0 left out (a power cut?), from line 4 on");
+  EXPECT_EQ(behind.report.notes, std::vector<std::string>());
+  // Within a row: neither its beginning nor what follows in the same line is taken.
+  const auto within = importText(
+      folder, before + "30,5,6" + std::string(100, '\0') + "50,7,8\n60,9,10\n", pad(1, 2));
+  EXPECT_EQ(within.report.frames, 3u);
+  EXPECT_EQ(within.profile.frameTimeUs(2), 60'000);
+  EXPECT_EQ(within.report.refused.wrongCount, 2u);
+  EXPECT_EQ(within.report.refused.first, "line 4 is cut off by bytes 0");
+  EXPECT_EQ(within.report.nulBytes.count, 100u);
+  EXPECT_EQ(within.report.nulBytes.line, 4u);
+  const std::string strict = testing::errorOf(
+      [&] { importText(folder, before + block, pad(1, 2), {}, {.strict = true}); });
+  EXPECT_NE(strict.find("5000000 bytes 0"), std::string::npos) << strict;
+}
+
 TEST(RecordingImport, WhatIsMissingIsNamedWithWhatIsThere) {
   const TemporaryFolder folder;
   testing::runPython(folder, R"(

@@ -146,6 +146,7 @@ Json importJson(const fs::path& out, const ImportReport& report) {
       .set("longest_gap_s", report.longestGapS)
       .set("absent_frames", static_cast<std::int64_t>(report.absentFrames))
       .set("counter_restarts", static_cast<std::int64_t>(report.counterRestarts))
+      .set("nul_bytes", static_cast<std::int64_t>(report.nulBytes.count))
       .set("refused", std::move(refused))
       .set("outside",
            Json::object()

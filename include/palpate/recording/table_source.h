@@ -56,12 +56,19 @@ struct TableRow {
   // Whether the row has as many cells as the table has columns. If not, the rest is not valid.
   bool complete = true;
   std::size_t numCells = 0;       // in the row, when it is not complete
+  const char* fault = nullptr;    // why it is not complete, where that is not the number of cells
   std::vector<double> values;     // of the selected columns, one after the other
   std::vector<CellState> states;  // one per value
   TimeCell time;
 };
 
 enum class HeaderChoice { kDetect, kPresent, kAbsent };
+
+// Bytes 0 in a text: what a power cut leaves of data that was not yet on the disk.
+struct NulBytes {
+  std::uint64_t count = 0;
+  std::uint64_t line = 0;  // of the first one
+};
 
 // How a text is read; other files need no choices.
 struct TableOptions {
@@ -94,6 +101,8 @@ class TableSource {
   // The place of value `index` of the last row, and what stands there: "column 3: \"abc\"" (from
   // 1), "m0[3][2] is nan".
   virtual std::string placeOf(std::size_t index) const = 0;
+  // Bytes 0 of a text among the rows read so far; they are left out.
+  virtual NulBytes nulBytes() const { return {}; }
   // After the last row: why the end of the file may be missing; empty where nothing says so.
   virtual std::string endNote() const { return {}; }
   // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.

@@ -86,7 +86,8 @@ bool CsvSource::next(TableRow& row) {
     if (!reader_.next(line)) return false;
   } while (reader_.number() <= shape_.linesBefore || isCommentLine(line));
   row.line = lastRowLine_ = reader_.number();
-  row.complete = readCells(line, row);
+  row.fault = reader_.isCutOff() ? " is cut off by bytes 0" : nullptr;
+  row.complete = readCells(line, row) && !row.fault;
   if (!row.complete) return true;
   row.values.resize(selected_.size());
   row.states.resize(selected_.size());

@@ -25,6 +25,7 @@ class CsvSource final : public TableSource {
   std::string textOf(std::size_t index) const override;
   std::string placeOf(std::size_t index) const override;
   std::string endNote() const override;
+  NulBytes nulBytes() const override { return reader_.nulBytes(); }
 
   char decimal() const noexcept { return shape_.decimal; }
 

@@ -86,10 +86,19 @@ void ImportRows::refuse(const TableSource& source,
   ++counter;
 }
 
+void ImportRows::refuseIncomplete(const TableSource& source, const TableRow& row) {
+  const std::string what = row.fault ? std::string(row.fault)
+                                     : " has " + counted(row.numCells, "cell") + " instead of " +
+                                           std::to_string(source.columns().size());
+  refuse(source, row, report_.refused.wrongCount, what);
+}
+
 // What is known of the times and the end of the table when the frames were read.
 void ImportRows::noteRows(const TableSource& source) {
   if (timeReader_ && timeReader_->assumedUtc())
     report_.notes.push_back("time: the dates have no offset and are taken as UTC");
+  report_.nulBytes = source.nulBytes();
+  if (strict_ && report_.nulBytes.count > 0) throw FormatError(source.path(), report_.nulText());
   const std::string end = atEnd_ ? source.endNote() : "";
   if (!end.empty()) report_.notes.push_back(end);
 }
@@ -296,11 +305,7 @@ void ImportRows::finishWaiting(const TableSource& source, const Pass& pass, cons
 
 void ImportRows::takeRow(TableSource& source, const Pass& pass, const TableRow& row) {
   if (!row.complete) {
-    refuse(source,
-           row,
-           report_.refused.wrongCount,
-           " has " + counted(row.numCells, "cell") + " instead of " +
-               std::to_string(source.columns().size()));
+    refuseIncomplete(source, row);
     return;
   }
   finishWaiting(source, pass, &row.time);
@@ -406,11 +411,7 @@ void ImportRows::runTaxelList(TableSource& source,
     ++report_.rows;
     bool isThere = false;
     if (!row.complete) {
-      refuse(source,
-             row,
-             report_.refused.wrongCount,
-             " has " + counted(row.numCells, "cell") + " instead of " +
-                 std::to_string(source.columns().size()));
+      refuseIncomplete(source, row);
       continue;
     }
     countAbsent(row);
