@@ -143,6 +143,28 @@ TEST(TextTable, DecimalCommasAreNamed) {
   }
 }
 
+// imports 19.
+TEST(TextTable, QuotedCellsMayHaveDecimalCommas) {
+  const std::string text = "a,b,c\n\"0,00\",\"1,5\",7\n\"0,01\",\"10,25\",8\n";
+  EXPECT_NE(refusalOf(text).find("column 1: \"0,00\" has a decimal comma; read the file with "
+                                 "--decimal comma"),
+            std::string::npos)
+      << refusalOf(text);
+  for (const char delimiter : {'\0', ','}) {
+    const ReadTable table = readText(text, {.delimiter = delimiter, .decimal = ','});
+    EXPECT_EQ(table.names(), (Names{"a", "b", "c"}));
+    EXPECT_EQ(table.rows, (Rows{{0.0, 1.5, 7}, {0.01, 10.25, 8}}));
+  }
+  EXPECT_NE(refusalOf("a,b\n1,5\n2,7\n", {.delimiter = ',', .decimal = ','})
+                .find("decimal commas need another delimiter than a comma, or quotes"),
+            std::string::npos);
+  const std::string thousands = "a,b\n1,990\n2,\"1,010\"\n";
+  EXPECT_NE(refusalOf(thousands).find("\"1,010\" has a comma of thousands or a decimal comma; save "
+                                      "the file without commas of thousands"),
+            std::string::npos)
+      << refusalOf(thousands);
+}
+
 TEST(TextTable, ATextIsNoTable) {
   EXPECT_NE(refusalOf("").find("holds no row"), std::string::npos);
   EXPECT_NE(refusalOf("# only a comment\n").find("holds no row"), std::string::npos);

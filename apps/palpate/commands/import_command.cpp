@@ -40,8 +40,6 @@ ImportMapping importMappingOf(const CommandLine& given) {
     mapping.text.delimiter = *delimiterNamed(*name);
   if (const auto decimal = given.choice("decimal", {"point", "comma"}))
     mapping.text.decimal = *decimal == "comma" ? ',' : '.';
-  if (mapping.text.decimal == ',' && mapping.text.delimiter == ',')
-    throw UsageError("decimal commas need another delimiter than a comma");
   if (const auto header = given.choice("header", {"present", "absent", "detect"}))
     mapping.text.header = *header == "present"  ? HeaderChoice::kPresent
                           : *header == "absent" ? HeaderChoice::kAbsent

@@ -76,10 +76,14 @@ Candidate candidateOf(const std::vector<std::string_view>& lines, char delimiter
 
 Candidate bestCandidate(const std::vector<std::string_view>& lines, const TableOptions& options) {
   constexpr std::array kDelimiters = {',', ';', '\t', ' '};
+  const bool areQuoted = std::any_of(lines.begin(), lines.end(), [](std::string_view line) {
+    return line.find('"') != std::string_view::npos;
+  });
   std::optional<Candidate> best;
   for (const char delimiter : kDelimiters) {
     if (options.delimiter != 0 && delimiter != options.delimiter) continue;
-    if (options.delimiter == 0 && delimiter == options.decimal) continue;
+    // Decimal commas between commas need quotes.
+    if (options.delimiter == 0 && delimiter == options.decimal && !areQuoted) continue;
     Candidate next = candidateOf(lines, delimiter, options.decimal);
     // A table of one column has no delimiter: any other candidate is better.
     const auto rank = [](const Candidate& each) {
@@ -202,33 +206,49 @@ void describeCells(CsvShape& shape,
   }
 }
 
-[[noreturn]] void refuseDecimalComma(const std::filesystem::path& path,
-                                     std::uint64_t line,
-                                     std::size_t column,
-                                     std::string_view cell) {
-  throw FormatError(path,
-                    "line " + std::to_string(line) + ", column " + std::to_string(column) + ": " +
-                        inQuotes(trimmedCell(cell)) +
-                        " has a decimal comma; read the file with --decimal comma");
-}
-
 void requireDecimalPoints(const std::filesystem::path& path,
                           const Candidate& table,
                           const std::vector<SampleRow>& rows,
                           const std::vector<std::uint64_t>& lineNumbers) {
   std::size_t commas = 0;
   std::size_t numbers = 0;
+  bool mayBeOfThousands = true;  // all of them
   const SampleRow* first = nullptr;
   for (const SampleRow& row : rows)
-    for (const CellKind kind : row.kinds) {
-      commas += kind == CellKind::kDecimalComma ? 1 : 0;
-      numbers += kind == CellKind::kNumber ? 1 : 0;
-      if (kind == CellKind::kDecimalComma && !first) first = &row;
+    for (std::size_t c = 0; c < row.kinds.size(); ++c) {
+      numbers += row.kinds[c] == CellKind::kNumber ? 1 : 0;
+      if (row.kinds[c] != CellKind::kDecimalComma) continue;
+      ++commas;
+      mayBeOfThousands = mayBeOfThousands && mayBeThousands(table.rows[row.index][c]);
+      if (!first) first = &row;
     }
   if (!first || 10 * commas < numbers) return;
   const auto at = std::find(first->kinds.begin(), first->kinds.end(), CellKind::kDecimalComma);
   const auto column = static_cast<std::size_t>(at - first->kinds.begin());
-  refuseDecimalComma(path, lineNumbers[first->index], column + 1, table.rows[first->index][column]);
+  throw FormatError(
+      path,
+      "line " + std::to_string(lineNumbers[first->index]) + ", column " +
+          std::to_string(column + 1) + ": " +
+          inQuotes(trimmedCell(table.rows[first->index][column])) +
+          (mayBeOfThousands ? " has a comma of thousands or a decimal comma; save the file without "
+                              "commas of thousands, or read it with --decimal comma"
+                            : " has a decimal comma; read the file with --decimal comma"));
+}
+
+// Where commas stand between cells, those with decimal commas are in quotes.
+void requireQuotedCommas(const std::filesystem::path& path,
+                         const Candidate& table,
+                         const std::vector<SampleRow>& rows,
+                         const TableOptions& options) {
+  if (table.delimiter != options.decimal) return;
+  for (const SampleRow& row : rows)
+    for (std::size_t c = 0; c < row.kinds.size(); ++c)
+      if (row.kinds[c] == CellKind::kNumber &&
+          table.rows[row.index][c].find(options.decimal) != std::string_view::npos)
+        return;
+  throw FormatError(path,
+                    "decimal commas need another delimiter than a comma, or quotes around the "
+                    "cells");
 }
 
 // The shape of name:value lines; nothing when most lines are of another form.
@@ -374,6 +394,7 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
     }
   }
   requireDecimalPoints(path, table, rows, numbers);
+  requireQuotedCommas(path, table, rows, options);
   dropEmptyEnd(shape, table, firstRow);
   describeCells(shape, table, rows, firstRow);
   if (std::none_of(shape.columns.begin(), shape.columns.end(), [](const TableColumn& column) {

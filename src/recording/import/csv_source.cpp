@@ -119,7 +119,7 @@ std::string CsvSource::placeOf(std::size_t index) const {
   const std::string_view cell = trimmedCell(cells_[column]);
   if (cell.empty()) return place + " is empty";
   place += ": " + inQuotes(cell);
-  if (shape_.decimal == '.' && cellNumber(cell, ',')) place += " (a decimal comma?)";
+  if (shape_.decimal == '.') place += commaHint(cell);
   return place;
 }
 

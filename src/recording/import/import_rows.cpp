@@ -122,8 +122,7 @@ std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const 
       refuse(source,
              row,
              refused.text,
-             ": " + inQuotes(row.time.text) + " is not a time" +
-                 (cellNumber(row.time.text, ',') ? " (a decimal comma?)" : ""));
+             ": " + inQuotes(row.time.text) + " is not a time" + commaHint(row.time.text));
     return std::nullopt;
   }
   if (lastUs_ && *us <= *lastUs_) {
