@@ -618,6 +618,63 @@ TEST(RecordingImport, BytesZeroOfAPowerCutAreLeftOutAndCounted) {
   EXPECT_NE(strict.find("5000000 bytes 0"), std::string::npos) << strict;
 }
 
+// imports 22.
+TEST(RecordingImport, DatesAndTimesOfDayOfTheUsualForms) {
+  const TemporaryFolder folder;
+  constexpr std::int64_t kDayUs = 86'400'000'000;
+  // 2025-03-30 is 20,177 days after 1970 (Python: date(2025, 3, 30).toordinal() - 719163).
+  constexpr std::int64_t kMarch30Us = 20'177 * kDayUs;
+  constexpr std::int64_t kOneUs = 13 * 3'600'000'000LL;
+  const auto start = [&](const std::string& times, const ImportMapping& mapping = {}) {
+    std::string text = "Zeit;p0;p1\n";
+    for (const char* second : {"00", "01"}) {
+      std::string time = times;
+      text += time.replace(time.find("SS"), 2, second) + ";1;2\n";
+    }
+    const auto made = importText(folder, text, pad(1, 2), mapping);
+    EXPECT_EQ(made.report.frames, 2u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(1) - made.profile.frameTimeUs(0), 1'000'000) << text;
+    return made.profile.frameTimeUs(0);
+  };
+  EXPECT_EQ(start("30.03.2025 13:00:SS,5"), kMarch30Us + kOneUs + 500'000);
+  EXPECT_EQ(start("3/30/2025 1:00:SS PM"), kMarch30Us + kOneUs);
+  EXPECT_EQ(start("30/3/2025 13:00:SS"), kMarch30Us + kOneUs);
+  EXPECT_EQ(start("2025-03-30-13:00:SS"), kMarch30Us + kOneUs);
+  EXPECT_EQ(start("13:00:SS.250"), kOneUs + 250'000);
+  ImportMapping day;
+  day.time.startUs = kMarch30Us;
+  EXPECT_EQ(start("13:00:SS.250", day), kMarch30Us + kOneUs + 250'000);
+  const std::string clock = "t,p0,p1\n23:59:59,1,2\n00:00:00,3,4\n00:00:01,5,6\n";
+  const auto night = importText(folder, clock, pad(1, 2), day);
+  ASSERT_EQ(night.report.frames, 3u) << night.report.refused.first;
+  EXPECT_EQ(night.profile.frameTimeUs(2), kMarch30Us + kDayUs + 1'000'000);
+  EXPECT_EQ(importText(folder, clock, pad(1, 2)).report.notes,
+            std::vector<std::string>{"time: \"t\" has times of day without a date; give the day by "
+                                     "--start 2026-11-22"});
+}
+
+TEST(RecordingImport, ADayThatMayBeTheMonthIsAsked) {
+  const TemporaryFolder folder;
+  const std::string text = "t,p0,p1\n03/04/2025 13:00:00,1,2\n03/04/2025 13:00:01,3,4\n";
+  EXPECT_NE(testing::errorOf([&] { importText(folder, text, pad(1, 2)); })
+                .find("the day or the month may come first in \"03/04/2025 13:00:00\"; choose by "
+                      "--time-unit dmy or mdy"),
+            std::string::npos);
+  ImportMapping mapping;
+  mapping.time.unit = "dmy";
+  // date -u -d "2025-04-03 13:00" +%s; 2025-03-04.
+  EXPECT_EQ(importText(folder, text, pad(1, 2), mapping).profile.frameTimeUs(0),
+            1'743'685'200'000'000);
+  mapping.time.unit = "mdy";
+  EXPECT_EQ(importText(folder, text, pad(1, 2), mapping).profile.frameTimeUs(0),
+            1'741'093'200'000'000);
+  const std::string noon = "t,p0,p1\n3/4/2025 1:00:00 PM,1,2\n3/4/2025 1:00:01 PM,3,4\n";
+  const auto guessed = importText(folder, noon, pad(1, 2));
+  EXPECT_EQ(guessed.profile.frameTimeUs(0), 1'741'093'200'000'000);
+  ASSERT_FALSE(guessed.report.notes.empty());
+  EXPECT_NE(guessed.report.notes[0].find("the month is taken to come first"), std::string::npos);
+}
+
 TEST(RecordingImport, WhatIsMissingIsNamedWithWhatIsThere) {
   const TemporaryFolder folder;
   testing::runPython(folder, R"(

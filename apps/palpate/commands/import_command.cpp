@@ -48,7 +48,7 @@ ImportMapping importMappingOf(const CommandLine& given) {
     mapping.time.column = *column;
     mapping.time.rateHz.reset();
   }
-  if (const auto unit = given.choice("time-unit", {"s", "ms", "us", "ns", "iso"}))
+  if (const auto unit = given.choice("time-unit", {"s", "ms", "us", "ns", "iso", "dmy", "mdy"}))
     mapping.time.unit = *unit;
   constexpr double kLowestRateHz = 1e-6;
   constexpr double kHighestRateHz = 1e6;
@@ -201,9 +201,13 @@ int importCommand(const Arguments& words) {
                     "COLUMNS",
                     "the temperatures, in the order of the sensors, or none"},
                    {"time", "COLUMN", "the times of the rows"},
-                   {"time-unit", "UNIT", "s, ms, us, ns or iso"},
+                   {"time-unit",
+                    "UNIT",
+                    "s, ms, us, ns or iso; dmy or mdy: dates with the day or month first"},
                    {"rate", "HZ", "rows at equal intervals, where there are no times"},
-                   {"start", "DATE", "date of the first row (2026-11-22T10:31:05Z)"},
+                   {"start",
+                    "DATE",
+                    "date of the first row (2026-11-22T10:31:05Z); the day of times of day"},
                    {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
                    {"decimal", "NAME", "point (default) or comma"},
                    {"header", "WORD", "a line of names is present, absent or detect (default)"},

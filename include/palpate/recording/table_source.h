@@ -18,15 +18,26 @@
 
 namespace palpate {
 
+// The dates of a column, as its first texts tell.
+enum class DateForm {
+  kIso,         // 2026-11-22, 22.11.2026, datetime64
+  kDayFirst,    // 22/11/2026
+  kMonthFirst,  // 11/22/2026
+  kEither,      // 11/12/2026
+  kClock        // times of day without a date
+};
+
 struct TableColumn {
   std::string name;       // as in the file; "column 3" (from 1) where a text has no header
   std::string unit = {};  // as in the file: "kPa"; empty when it is not known
   std::vector<std::size_t> shape = {};        // of the numbers of one row; empty: one number
   std::optional<std::uint64_t> numRows = {};  // known of arrays, not of texts
   std::string type = {};                      // "int16", "float64", "text", "bool", ..
-  std::string example = {};                   // the first text of a column that has texts
+  std::string example = {};                   // the first text of a column that has texts or dates
   bool isNumeric = true;                      // false: texts and other things that can't be values
-  bool hasDates = false;                      // ISO 8601 or datetime64: can only be the time
+  bool hasDates = false;                      // dates or times of day: can only be the time
+  DateForm dateForm = DateForm::kIso;         // of such a column
+  bool isDayOnly = false;                     // dates without a time of day
 
   // Numbers of one row: the product of the shape.
   std::size_t width() const noexcept;

@@ -31,7 +31,7 @@ CellKind kindOf(std::string_view cell, char decimal) {
     case CellState::kText:
       break;
   }
-  if (parseDate(trimmedCell(cell))) return CellKind::kDate;
+  if (isDateText(trimmedCell(cell))) return CellKind::kDate;
   return decimal == '.' && cellNumber(cell, ',') ? CellKind::kDecimalComma : CellKind::kText;
 }
 
@@ -181,6 +181,31 @@ void dropEmptyEnd(CsvShape& shape, const Candidate& table, std::size_t firstRow)
   shape.columns.pop_back();
 }
 
+// Which form the dates of a column have.
+void describeDates(TableColumn& column,
+                   std::size_t c,
+                   const Candidate& table,
+                   const std::vector<SampleRow>& rows) {
+  const auto fit = [&](TimeUnit form) {
+    return std::all_of(rows.begin(), rows.end(), [&](const SampleRow& row) {
+      return c >= row.kinds.size() || row.kinds[c] != CellKind::kDate ||
+             parseDate(trimmedCell(table.rows[row.index][c]), nullptr, form);
+    });
+  };
+  const bool dayFirst = fit(TimeUnit::kDayFirst);
+  const bool monthFirst = fit(TimeUnit::kMonthFirst);
+  column.dateForm = fit(TimeUnit::kDate)     ? DateForm::kIso
+                    : dayFirst && monthFirst ? DateForm::kEither
+                    : dayFirst               ? DateForm::kDayFirst
+                    : monthFirst             ? DateForm::kMonthFirst
+                    : fit(TimeUnit::kClock)  ? DateForm::kClock
+                                             : DateForm::kIso;
+  column.isDayOnly = std::all_of(rows.begin(), rows.end(), [&](const SampleRow& row) {
+    return c >= row.kinds.size() || row.kinds[c] != CellKind::kDate ||
+           table.rows[row.index][c].find(':') == std::string_view::npos;
+  });
+}
+
 // Marks the columns that hold dates or texts.
 void describeCells(CsvShape& shape,
                    const Candidate& table,
@@ -193,7 +218,9 @@ void describeCells(CsvShape& shape,
     for (const SampleRow& row : rows) {
       if (row.index < firstRow || c >= row.kinds.size()) continue;
       dates += row.kinds[c] == CellKind::kDate ? 1 : 0;
-      if (row.kinds[c] == CellKind::kText && texts++ == 0)
+      texts += row.kinds[c] == CellKind::kText ? 1 : 0;
+      if ((row.kinds[c] == CellKind::kText && texts == 1) ||
+          (row.kinds[c] == CellKind::kDate && shape.columns[c].example.empty()))
         shape.columns[c].example = std::string(trimmedCell(table.rows[row.index][c]));
       numbers += row.kinds[c] == CellKind::kNumber ? 1 : 0;
     }
@@ -201,6 +228,7 @@ void describeCells(CsvShape& shape,
     column.hasDates = dates > 0 && dates >= texts + numbers;
     column.isNumeric = !column.hasDates && (numbers > 0 || texts == 0);
     if (column.isNumeric) column.example.clear();
+    if (column.hasDates) describeDates(column, c, table, rows);
     column.type = column.hasDates ? "date" : column.isNumeric ? "number" : "text";
     if (column.unit.empty()) column.unit = unitInName(column.name);
   }

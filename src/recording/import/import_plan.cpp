@@ -137,6 +137,7 @@ class Planner {
   void findTime(PlannedSeries& series, const std::string& named);
   std::size_t finestOf(std::size_t time);
   void setTimeUnit(PlannedSeries& series);
+  TimeUnit dateUnitOf(const TableColumn& column);
   IndexOrder naturalOrder(const ColumnGroup& group) const;
   IndexOrder orderOf(const ColumnGroup& group, bool isOpposite) const;
   void noteOrder(const std::string& what,
@@ -470,18 +471,47 @@ void Planner::findTime(PlannedSeries& series, const std::string& named) {
   setTimeUnit(series);
 }
 
+// How the dates of a column are read.
+TimeUnit Planner::dateUnitOf(const TableColumn& column) {
+  if (const auto chosen = timeUnitNamed(mapping_.time.unit);
+      chosen == TimeUnit::kDayFirst || chosen == TimeUnit::kMonthFirst)
+    return *chosen;
+  switch (column.dateForm) {
+    case DateForm::kIso:
+      return TimeUnit::kDate;
+    case DateForm::kDayFirst:
+      return TimeUnit::kDayFirst;
+    case DateForm::kMonthFirst:
+      return TimeUnit::kMonthFirst;
+    case DateForm::kEither:
+      if (column.example.find_last_of("Mm") == std::string::npos)
+        refuse("time: the day or the month may come first in " + inQuotes(column.example) +
+               "; choose by --time-unit dmy or mdy");
+      plan_.notes.push_back("time: in " + inQuotes(column.example) +
+                            " the month is taken to come first; choose the other order by "
+                            "--time-unit dmy");
+      return TimeUnit::kMonthFirst;
+    case DateForm::kClock:
+      break;
+  }
+  if (!mapping_.time.startUs)
+    plan_.notes.push_back("time: " + inQuotes(column.name) +
+                          " has times of day without a date; give the day by --start 2026-11-22");
+  return TimeUnit::kClock;
+}
+
 void Planner::setTimeUnit(PlannedSeries& series) {
   const TableColumn& column = columns_[*series.time];
   std::string origin = "as given";
   if (column.hasDates) {
-    series.timeUnit = TimeUnit::kDate;
+    series.timeUnit = dateUnitOf(column);
     origin = "dates";
   } else if (!mapping_.time.unit.empty() && series.kind == Kind::kFrames) {
     series.timeUnit = *timeUnitNamed(mapping_.time.unit);
-  } else if (const auto unit = timeUnitNamed(column.unit); unit && unit != TimeUnit::kDate) {
+  } else if (const auto unit = timeUnitNamed(column.unit); unit && !isDateUnit(*unit)) {
     series.timeUnit = *unit;
     origin = "by the file";
-  } else if (const auto word = timeUnitNamed(column.name); word && word != TimeUnit::kDate) {
+  } else if (const auto word = timeUnitNamed(column.name); word && !isDateUnit(*word)) {
     series.timeUnit = *word;
     origin = "by the name";
   } else {
