@@ -119,10 +119,11 @@ TEST(RecordingImport, OfTwoColumnsOfTheSameTimesTheFinerIsTaken) {
   const auto made = importText(folder, table, pad(1, 2));
   ASSERT_EQ(made.profile.numFrames(), 2u) << made.report.refused.first;
   EXPECT_EQ(made.profile.frameTimeUs(1), 10'750);
-  // The parts of a time: seconds, and nanoseconds within the second.
+  // imports 13: the parts of a time are joined: seconds, and nanoseconds within the second.
   const char* parts = "stamp_s,stamp_ns,p0,p1\n10,250000000,1,2\n11,500000000,3,4\n";
   const auto seconds = importText(folder, parts, pad(1, 2));
-  EXPECT_EQ(seconds.profile.frameTimeUs(1), 11'000'000);
+  EXPECT_EQ(seconds.profile.frameTimeUs(0), 10'250'000);
+  EXPECT_EQ(seconds.profile.frameTimeUs(1), 11'500'000);
 }
 
 TEST(RecordingImport, AFrameThatAListOfTaxelsDoesNotHoldIsCounted) {
@@ -651,6 +652,46 @@ TEST(RecordingImport, DatesAndTimesOfDayOfTheUsualForms) {
   EXPECT_EQ(importText(folder, clock, pad(1, 2)).report.notes,
             std::vector<std::string>{"time: \"t\" has times of day without a date; give the day by "
                                      "--start 2026-11-22"});
+}
+
+// imports 13.
+TEST(RecordingImport, ATimeInTwoColumnsIsJoined) {
+  const TemporaryFolder folder;
+  // 2014-11-27 10:31:05 UTC.
+  constexpr std::int64_t kUs = 1'417'084'265'000'000;
+  const std::string rows = "2014-11-27,10:31:05.000,1,2\n2014-11-27,10:31:05.010,3,4\n";
+  ImportMapping byPosition;
+  byPosition.time.column = "#1,#2";
+  ImportMapping byName;
+  byName.time.column = "Date, Time";
+  for (const auto& [head, mapping] : std::vector<std::pair<std::string, ImportMapping>>{
+           {"Date,Time,p0,p1\n", {}}, {"Date,Time,p0,p1\n", byName}, {"", {}}, {"", byPosition}}) {
+    const auto made = importText(folder, head + rows, pad(1, 2), mapping);
+    ASSERT_EQ(made.report.frames, 2u) << head << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(0), kUs);
+    EXPECT_EQ(made.profile.frameTimeUs(1), kUs + 10'000);
+    EXPECT_EQ(made.report.refused.total(), 0u);
+    EXPECT_EQ(made.report.notes.size(), 2u) << "joined, and UTC";
+  }
+  const std::string german = "Datum;Zeit;p0;p1\n27.11.2014;10:31:05,5;1;2\n";
+  EXPECT_EQ(importText(folder, german, pad(1, 2)).profile.frameTimeUs(0), kUs + 500'000);
+  // ROS 2: seconds and nanoseconds, with and without names; one row is damaged.
+  const std::string ros = "1417084265,999999000,1,2\n1417084266,1000000,3,4\n1417084266,x,5,6\n";
+  for (const auto& [head, mapping] : std::vector<std::pair<std::string, ImportMapping>>{
+           {"header.stamp.sec,header.stamp.nanosec,p0,p1\n", {}},
+           {"sec,nanosec,p0,p1\n", {}},
+           {"", byPosition}}) {
+    const auto made = importText(folder, head + ros, pad(1, 2), mapping);
+    ASSERT_EQ(made.report.frames, 2u) << head << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(0), kUs + 999'999);
+    EXPECT_EQ(made.profile.frameTimeUs(1), kUs + 1'001'000);
+    EXPECT_EQ(made.report.refused.text, 1u);
+  }
+  ImportMapping wrong;
+  wrong.time.column = "p0,p1";
+  const std::string what =
+      testing::errorOf([&] { importText(folder, "t,p0,p1\n1,0.5,2\n2,3,4\n", pad(1, 2), wrong); });
+  EXPECT_NE(what.find("\"p0,p1\" are not a date and a time of day"), std::string::npos) << what;
 }
 
 TEST(RecordingImport, ADayThatMayBeTheMonthIsAsked) {

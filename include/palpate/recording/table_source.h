@@ -67,7 +67,7 @@ struct TableRow {
   // Whether the row has as many cells as the table has columns. If not, the rest is not valid.
   bool complete = true;
   std::size_t numCells = 0;       // in the row, when it is not complete
-  const char* fault = nullptr;    // why it is not complete, where that is not the number of cells
+  std::string fault;              // why it is not complete: " has 4 cells instead of 5"
   std::vector<double> values;     // of the selected columns, one after the other
   std::vector<CellState> states;  // one per value
   TimeCell time;
@@ -116,6 +116,14 @@ class TableSource {
   virtual NulBytes nulBytes() const { return {}; }
   // After the last row: why the end of the file may be missing; empty where nothing says so.
   virtual std::string endNote() const { return {}; }
+  // Adds a column that joins two of a text which are parts of one time, and returns its number:
+  // whole number * factor + whole number (below the factor); of factor 0 both texts, with a blank
+  // between them. Nothing of arrays. Before start().
+  virtual std::optional<std::size_t> joinTimes(std::size_t /*first*/,
+                                               std::size_t /*second*/,
+                                               std::int64_t /*factor*/) {
+    return std::nullopt;
+  }
   // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.
   virtual bool isColumnMajor() const noexcept { return false; }
   // Reverses the axes of the array of a column, and with them what its rows are. Before start().

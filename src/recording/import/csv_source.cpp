@@ -4,6 +4,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
 
 #include "recording/import/cell_text.h"
 
@@ -55,16 +56,21 @@ void CsvSource::start(std::span<const std::size_t> columns, std::optional<std::s
 
 // Puts the cells of a line into cells_, by column; false when their number is wrong.
 bool CsvSource::readCells(std::string_view line, TableRow& row) {
-  const std::size_t numColumns = shape_.columns.size();
+  const std::size_t numColumns = shape_.columns.size() - joined_.size();
   if (!shape_.labelled) {
     splitCells(line, shape_.delimiter, cells_);
     const bool emptyEnd = cells_.size() == numColumns + 1 && trimmedCell(cells_.back()).empty();
     row.numCells = cells_.size();
-    return cells_.size() == numColumns || emptyEnd;
+    if (emptyEnd) cells_.pop_back();
+    if (cells_.size() == numColumns) return true;
+    row.fault =
+        " has " + counted(row.numCells, "cell") + " instead of " + std::to_string(numColumns);
+    return false;
   }
   cells_.assign(numColumns, {});
   if (!splitLabelled(line, names_, values_)) {
     row.numCells = 0;
+    row.fault = " has a cell that is not name:value";
     return false;
   }
   row.numCells = names_.size();
@@ -80,15 +86,46 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
   return true;
 }
 
+std::optional<std::size_t> CsvSource::joinTimes(std::size_t first,
+                                                std::size_t second,
+                                                std::int64_t factor) {
+  TableColumn joined = shape_.columns[first];
+  joined.name += " + " + shape_.columns[second].name;
+  joined.example += " " + shape_.columns[second].example;
+  joined.isDayOnly = false;
+  if (factor != 0) joined.unit = factor == 1'000'000'000 ? "ns" : "us";
+  shape_.columns.push_back(std::move(joined));
+  joined_.push_back({first, second, factor, {}});
+  return shape_.columns.size() - 1;
+}
+
+// Puts the joined times behind the cells of the line.
+void CsvSource::readJoinedTimes() {
+  for (JoinedTime& joined : joined_) {
+    const std::string_view first = trimmedCell(cells_[joined.first]);
+    const std::string_view second = trimmedCell(cells_[joined.second]);
+    const auto whole = parseInteger(first);
+    const auto part = parseInteger(second);
+    std::int64_t sum = 0;
+    const bool isSum = joined.factor != 0 && whole && part && *part >= 0 && *part < joined.factor &&
+                       !__builtin_mul_overflow(*whole, joined.factor, &sum) &&
+                       !__builtin_add_overflow(sum, *part, &sum);
+    joined.text.assign(isSum ? std::to_string(sum) : first);
+    if (!isSum && !second.empty()) joined.text.append(" ").append(second);
+    cells_.push_back(joined.text);
+  }
+}
+
 bool CsvSource::next(TableRow& row) {
   std::string_view line;
   do {
     if (!reader_.next(line)) return false;
   } while (reader_.number() <= shape_.linesBefore || isCommentLine(line));
   row.line = lastRowLine_ = reader_.number();
-  row.fault = reader_.isCutOff() ? " is cut off by bytes 0" : nullptr;
-  row.complete = readCells(line, row) && !row.fault;
+  row.complete = readCells(line, row) && !reader_.isCutOff();
+  if (reader_.isCutOff()) row.fault = " is cut off by bytes 0";
   if (!row.complete) return true;
+  readJoinedTimes();
   row.values.resize(selected_.size());
   row.states.resize(selected_.size());
   for (std::size_t i = 0; i < selected_.size(); ++i)

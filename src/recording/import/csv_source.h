@@ -25,16 +25,27 @@ class CsvSource final : public TableSource {
   std::string textOf(std::size_t index) const override;
   std::string placeOf(std::size_t index) const override;
   std::string endNote() const override;
+  std::optional<std::size_t> joinTimes(std::size_t first,
+                                       std::size_t second,
+                                       std::int64_t factor) override;
   NulBytes nulBytes() const override { return reader_.nulBytes(); }
 
   char decimal() const noexcept { return shape_.decimal; }
 
  private:
+  struct JoinedTime {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    std::int64_t factor = 0;
+    std::string text;  // of the last line
+  };
   bool readCells(std::string_view line, TableRow& row);
+  void readJoinedTimes();
 
   std::filesystem::path path_;
   LineReader reader_;
   CsvShape shape_;
+  std::vector<JoinedTime> joined_;                            // the last columns
   std::map<std::string, std::size_t, std::less<>> labelled_;  // column of each name of a line
   std::vector<std::size_t> selected_;
   std::optional<std::size_t> time_;

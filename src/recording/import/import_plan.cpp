@@ -48,7 +48,8 @@ bool hasWord(const TableColumn& column, const std::set<std::string>& wanted) {
 const std::set<std::string> kTimeWords = {
     "time", "timestamp", "stamp", "date", "datetime", "millis", "micros", "seconds", "clock"};
 // Alone they name the time; in front of a number they may name a taxel.
-const std::set<std::string> kShortTimeWords = {"t", "s", "ms", "us", "ns"};
+const std::set<std::string> kShortTimeWords = {
+    "t", "s", "ms", "us", "ns", "sec", "secs", "nsec", "nsecs", "nanosec", "nanosecs"};
 const std::set<std::string> kAngleWords = {
     "angle", "angles", "axis", "axes", "joint", "joints", "q"};
 const std::set<std::string> kTemperatureWords = {
@@ -80,6 +81,17 @@ int timeScore(const TableColumn& column, Kind kind) {
   if ((ofAngles || ofTemperatures) && !own) return 0;
   return 1 + (own ? 4 : 0) + (named ? 1 : 0) + (column.hasDates ? 1 : 0) +
          (wordsOf(column.name).size() == 1 ? 1 : 0);
+}
+
+// A name such as "stamp.nanosec": what its last word says, and the rest.
+struct TimePart {
+  std::string stem;
+  std::optional<TimeUnit> unit;
+};
+TimePart timePartOf(const std::string& name) {
+  std::size_t begin = name.size();
+  while (begin > 0 && std::isalpha(static_cast<unsigned char>(name[begin - 1])) != 0) --begin;
+  return {name.substr(0, begin), timeUnitNamed(name.substr(begin))};
 }
 
 std::vector<std::string> namesOf(const HandDescription& hand, Kind kind) {
@@ -166,6 +178,8 @@ class Planner {
   bool anyFrames() const;
   void findFrameAxis();
   void straightenTimes();
+  void joinTimes();
+  std::optional<std::int64_t> joinFactor(std::size_t first, std::size_t second, bool isChosen);
   void noteUnused();
   std::optional<std::vector<std::size_t>> placesByShape(const MatrixMapping& wanted,
                                                         const ChosenElements& chosen,
@@ -201,6 +215,8 @@ class Planner {
   std::string unitUsed_;             // by the last conversion()
   std::optional<std::size_t> time_;  // column of the frames
   std::optional<std::size_t> timeWithin_;
+  std::optional<std::size_t> joinedTime_;  // column that the source made of the two timeParts_
+  std::set<std::size_t> timeParts_;
   std::set<std::size_t> sampleColumns_;  // of angles and temperatures
 };
 
@@ -297,7 +313,8 @@ std::vector<std::size_t> Planner::candidates() const {
   std::vector<std::size_t> chosen;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const TableColumn& column = columns_[c];
-    if (!column.isNumeric || column.type == "bool" || time_ == c || sampleColumns_.contains(c))
+    if (!column.isNumeric || column.type == "bool" || time_ == c || joinedTime_ == c ||
+        sampleColumns_.contains(c) || timeParts_.contains(c))
       continue;
     if (column.width() > kMaxNumbersPerRow) continue;  // images of a camera
     if (timeScore(column, Kind::kFrames) > 0 || timeScore(column, Kind::kAngles) > 0 ||
@@ -425,7 +442,9 @@ void Planner::findTime(PlannedSeries& series, const std::string& named) {
   };
   std::optional<std::size_t> otherRows;  // a time of another length
   if (mapping_.time.rateHz) return;
-  if (!named.empty() && named != kNoColumns) {
+  if (joinedTime_ && !series.time && (isFrames || named.empty())) {
+    series.time = joinedTime_;
+  } else if (!named.empty() && named != kNoColumns) {
     const auto chosen = numberNamed(columns_, named);
     if (!chosen)
       fail("there is no column " + inQuotes(named) + "; there are " + namesText(columns_));
@@ -893,6 +912,79 @@ void Planner::straightenTimes() {
   }
 }
 
+// What joins two columns that are parts of one time (see TableSource::joinTimes()): a date and a
+// time of day, or seconds and what is within the second. Nothing: they are not.
+std::optional<std::int64_t> Planner::joinFactor(std::size_t first,
+                                                std::size_t second,
+                                                bool isChosen) {
+  const TableColumn& a = columns_[first];
+  const TableColumn& b = columns_[second];
+  if (a.hasDates && b.hasDates) {
+    const bool fit = a.isDayOnly && b.dateForm == DateForm::kClock;
+    return fit ? std::optional<std::int64_t>(0) : std::nullopt;
+  }
+  const TimePart whole = timePartOf(a.name);
+  const TimePart part = timePartOf(b.name);
+  if (a.numRows || !a.isNumeric || !b.isNumeric) return std::nullopt;
+  if (!isChosen && (whole.stem != part.stem || whole.unit != TimeUnit::kSeconds))
+    return std::nullopt;
+  if (!isChosen && part.unit != TimeUnit::kNanoseconds && part.unit != TimeUnit::kMicroseconds)
+    return std::nullopt;
+  const std::int64_t factor = part.unit == TimeUnit::kMicroseconds ? 1'000'000 : 1'000'000'000;
+  const auto rows = sampleRows({first, second});
+  const auto isSameTime = [&](const auto& row) {
+    return std::abs(row[0] - row[1] / static_cast<double>(factor)) < 1.0;
+  };
+  const auto isPart = [&](const auto& row) {
+    return row[0] == std::floor(row[0]) && row[1] == std::floor(row[1]) && row[1] >= 0.0 &&
+           row[1] < static_cast<double>(factor);
+  };
+  if (rows.empty() || !std::all_of(rows.begin(), rows.end(), isPart)) return std::nullopt;
+  if (!isChosen && std::all_of(rows.begin(), rows.end(), isSameTime)) return std::nullopt;
+  return factor;
+}
+
+// Joins the two columns that the mapping names ("Date,Time"), or that are found.
+void Planner::joinTimes() {
+  if (mapping_.time.rateHz || mapping_.time.column == kNoColumns) return;
+  const std::string& named = mapping_.time.column;
+  const auto comma = named.find(',');
+  const bool isChosen = comma != std::string::npos && !numberNamed(columns_, named);
+  if (!named.empty() && !isChosen) return;
+  std::optional<std::int64_t> factor;
+  std::size_t first = 0;
+  std::size_t second = 0;
+  if (isChosen) {
+    const auto a = numberNamed(columns_, trimmed(std::string_view(named).substr(0, comma)));
+    const auto b = numberNamed(columns_, trimmed(std::string_view(named).substr(comma + 1)));
+    if (a && b) {
+      first = a->column;
+      second = b->column;
+      factor = joinFactor(first, second, true);
+    }
+    if (!factor)
+      refuse("time: " + inQuotes(named) +
+             " are not a date and a time of day, or whole seconds and nanoseconds, of a text; "
+             "there are " +
+             namesText(columns_));
+  }
+  constexpr std::size_t kMostLookedAt = 64;  // times stand in front
+  const std::size_t numLooked = std::min(kMostLookedAt, columns_.size());
+  for (std::size_t a = 0; a < numLooked && !factor; ++a)
+    for (std::size_t b = 0; b < numLooked && !factor; ++b) {
+      if (a == b || !columns_[a].hasDates != !columns_[b].hasDates) continue;
+      first = a;
+      second = b;
+      factor = joinFactor(first, second, false);
+    }
+  if (!factor) return;
+  joinedTime_ = source_.joinTimes(first, second, *factor);
+  if (!joinedTime_) return;
+  timeParts_ = {first, second};
+  plan_.notes.push_back("time: " + inQuotes(columns_[first].name) + " and " +
+                        inQuotes(columns_[second].name) + " are joined");
+}
+
 // Why columns of the file hold no numbers, for a message.
 std::string Planner::unusableText() const {
   constexpr std::size_t kShown = 6;
@@ -930,7 +1022,7 @@ std::optional<PlannedSeries> Planner::onlySamples(Kind kind) {
 
 // Names the columns that nothing is made of, but for those about the others ("m0_active", "meta").
 void Planner::noteUnused() {
-  std::set<std::size_t> used;
+  std::set<std::size_t> used = timeParts_;
   for (const PlannedSeries& series : plan_.series) {
     used.insert(series.columns.begin(), series.columns.end());
     if (series.time) used.insert(*series.time);
@@ -945,6 +1037,7 @@ void Planner::noteUnused() {
 ImportPlan Planner::plan() {
   findFrameAxis();
   straightenTimes();
+  joinTimes();
   // A column of times that the mapping names is none of the taxels.
   for (std::size_t c = 0; c < columns_.size(); ++c)
     if (!mapping_.time.column.empty() && (columns_[c].name == mapping_.time.column ||

@@ -86,13 +86,6 @@ void ImportRows::refuse(const TableSource& source,
   ++counter;
 }
 
-void ImportRows::refuseIncomplete(const TableSource& source, const TableRow& row) {
-  const std::string what = row.fault ? std::string(row.fault)
-                                     : " has " + counted(row.numCells, "cell") + " instead of " +
-                                           std::to_string(source.columns().size());
-  refuse(source, row, report_.refused.wrongCount, what);
-}
-
 // What is known of the times and the end of the table when the frames were read.
 void ImportRows::noteRows(const TableSource& source) {
   if (timeReader_ && timeReader_->assumedUtc())
@@ -304,7 +297,7 @@ void ImportRows::finishWaiting(const TableSource& source, const Pass& pass, cons
 
 void ImportRows::takeRow(TableSource& source, const Pass& pass, const TableRow& row) {
   if (!row.complete) {
-    refuseIncomplete(source, row);
+    refuse(source, row, report_.refused.wrongCount, row.fault);
     return;
   }
   finishWaiting(source, pass, &row.time);
@@ -410,7 +403,7 @@ void ImportRows::runTaxelList(TableSource& source,
     ++report_.rows;
     bool isThere = false;
     if (!row.complete) {
-      refuseIncomplete(source, row);
+      refuse(source, row, report_.refused.wrongCount, row.fault);
       continue;
     }
     countAbsent(row);

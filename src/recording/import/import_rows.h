@@ -81,7 +81,6 @@ class ImportRows {
   void countAbsent(const TableRow& row);
   void takeTaxel(const TableSource& source, const TableRow& row, std::int64_t us);
   void finishListedFrame();
-  void refuseIncomplete(const TableSource& source, const TableRow& row);
   void refuse(const TableSource& source,
               const TableRow& row,
               std::uint64_t& counter,
