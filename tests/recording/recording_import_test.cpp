@@ -694,6 +694,32 @@ TEST(RecordingImport, ATimeInTwoColumnsIsJoined) {
   EXPECT_NE(what.find("\"p0,p1\" are not a date and a time of day"), std::string::npos) << what;
 }
 
+// imports 22.
+TEST(RecordingImport, ASerialMonitorsTimesBeforeTheLines) {
+  const TemporaryFolder folder;
+  constexpr std::int64_t kUs = 37'860'123'000;  // 10:31:00.123 after midnight
+  for (const char* text :
+       {"10:31:00.123 -> 1,2,3,4\r\n10:31:01.123 -> 5,6,7,8\r\n",
+        "10:31:00.100 -> a,b,c,d\n10:31:00.123 -> 1,2,3,4\n10:31:01.123 -> 5,6,7,8\n",
+        "[10:31:00.123] 1 2 3 4\n[10:31:01.123] 5 6 7 8\n",
+        "10:31:00.123 -> A0:1,A1:2,A2:3,A3:4\n10:31:01.123 -> A0:5,A1:6,A2:7,A3:8\n",
+        "[1970-01-01 10:31:00.123] 1;2;3;4\n[1970-01-01 10:31:01.123] 5;6;7;8\n"}) {
+    const auto made = importText(folder, text, pad(2, 2));
+    ASSERT_EQ(made.report.frames, 2u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(0), kUs) << text;
+    EXPECT_EQ(made.profile.frameTimeUs(1), kUs + 1'000'000) << text;
+    EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{5, 6, 7, 8})) << text;
+    EXPECT_EQ(made.report.refused.total(), 0u) << text;
+  }
+  // A line that the monitor did not stamp is refused.
+  const auto one = importText(folder,
+                              "10:31:00.123 -> 1,2\n3,4\n10:31:01.123 -> 5,6\n"
+                              "10:31:02.123 -> 7,8\n",
+                              pad(1, 2));
+  EXPECT_EQ(one.report.frames, 3u);
+  EXPECT_EQ(one.report.refused.first, "line 2 has 2 cells instead of 3");
+}
+
 TEST(RecordingImport, ADayThatMayBeTheMonthIsAsked) {
   const TemporaryFolder folder;
   const std::string text = "t,p0,p1\n03/04/2025 13:00:00,1,2\n03/04/2025 13:00:01,3,4\n";

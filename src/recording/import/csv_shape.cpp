@@ -48,13 +48,21 @@ struct Candidate {
   }
 };
 
-Candidate candidateOf(const std::vector<std::string_view>& lines, char delimiter, char decimal) {
+// The lines of a sample, and the times before them that a serial monitor wrote; none: empty.
+struct SampleLines {
+  std::vector<std::string_view> texts;
+  std::vector<std::string_view> stamps;
+};
+
+Candidate candidateOf(const SampleLines& lines, char delimiter, char decimal) {
   Candidate made;
   made.delimiter = delimiter;
   std::map<std::size_t, std::size_t> counts;
-  for (const std::string_view line : lines) {
-    splitCells(line, delimiter, made.rows.emplace_back());
-    ++counts[made.rows.back().size()];
+  for (std::size_t i = 0; i < lines.texts.size(); ++i) {
+    Cells& row = made.rows.emplace_back();
+    splitCells(lines.texts[i], delimiter, row);
+    if (!lines.stamps.empty()) row.insert(row.begin(), lines.stamps[i]);
+    ++counts[row.size()];
   }
   for (const auto& [numCells, rows] : counts)
     if (rows > made.numSuch || (rows == made.numSuch && numCells > made.numCells)) {
@@ -74,11 +82,12 @@ Candidate candidateOf(const std::vector<std::string_view>& lines, char delimiter
   return made;
 }
 
-Candidate bestCandidate(const std::vector<std::string_view>& lines, const TableOptions& options) {
+Candidate bestCandidate(const SampleLines& lines, const TableOptions& options) {
   constexpr std::array kDelimiters = {',', ';', '\t', ' '};
-  const bool areQuoted = std::any_of(lines.begin(), lines.end(), [](std::string_view line) {
-    return line.find('"') != std::string_view::npos;
-  });
+  const bool areQuoted =
+      std::any_of(lines.texts.begin(), lines.texts.end(), [](std::string_view line) {
+        return line.find('"') != std::string_view::npos;
+      });
   std::optional<Candidate> best;
   for (const char delimiter : kDelimiters) {
     if (options.delimiter != 0 && delimiter != options.delimiter) continue;
@@ -279,8 +288,34 @@ void requireQuotedCommas(const std::filesystem::path& path,
                     "cells");
 }
 
+// The sample without the times of a serial monitor, if most lines have one.
+SampleLines withoutStamps(std::vector<std::string_view> lines) {
+  SampleLines sample{lines, {}};
+  std::size_t such = 0;
+  for (std::string_view& line : lines) {
+    sample.stamps.push_back(takeStamp(line));
+    such += sample.stamps.back().empty() ? 0 : 1;
+  }
+  if (2 * such <= lines.size()) return {std::move(sample.texts), {}};
+  sample.texts = std::move(lines);
+  return sample;
+}
+
+TableColumn stampColumn(const SampleLines& sample) {
+  TableColumn column{.name = "stamp"};
+  column.type = "date";
+  column.isNumeric = false;
+  column.hasDates = true;
+  column.dateForm = DateForm::kClock;
+  for (const std::string_view stamp : sample.stamps)
+    if (!stamp.empty() && !parseDate(stamp, nullptr, TimeUnit::kClock))
+      column.dateForm = DateForm::kIso;
+  return column;
+}
+
 // The shape of name:value lines; nothing when most lines are of another form.
-std::optional<CsvShape> labelledShape(const std::vector<std::string_view>& lines, char decimal) {
+std::optional<CsvShape> labelledShape(const SampleLines& sample, char decimal) {
+  const auto& lines = sample.texts;
   std::size_t such = 0;
   Cells names;
   Cells values;
@@ -295,6 +330,7 @@ std::optional<CsvShape> labelledShape(const std::vector<std::string_view>& lines
   shape.labelled = true;
   shape.delimiter = ' ';
   shape.decimal = decimal;
+  if (!sample.stamps.empty()) shape.columns.push_back(stampColumn(sample));
   for (const std::string_view name : longest) {
     TableColumn column{.name = std::string(name), .unit = unitInName(name)};
     column.type = "number";
@@ -329,6 +365,18 @@ void splitCells(std::string_view line, char delimiter, std::vector<std::string_v
     cells.push_back(line.substr(at, found - at));
     at = blanks ? line.find_first_not_of(" \t", found) : found + 1;
   }
+}
+
+std::string_view takeStamp(std::string_view& line) {
+  constexpr std::string_view kArrow = " -> ";
+  const bool bracketed = line.starts_with('[');
+  const std::size_t end = bracketed ? line.find(']') : line.find(kArrow);
+  if (end == std::string_view::npos) return {};
+  const std::string_view stamp = trimmed(line.substr(bracketed ? 1 : 0, end - (bracketed ? 1 : 0)));
+  if (!isDateText(stamp)) return {};
+  line.remove_prefix(end + (bracketed ? 1 : kArrow.size()));
+  line = trimmed(line, " ");
+  return stamp;
 }
 
 bool splitLabelled(std::string_view line,
@@ -378,16 +426,22 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
     }
   }
   if (kept.empty()) throw FormatError(path, "holds no row");
+  const SampleLines sample = withoutStamps(std::move(kept));
+  const bool isStamped = !sample.stamps.empty();
   if (options.delimiter == 0)
-    if (auto labelled = labelledShape(kept, options.decimal)) return std::move(*labelled);
+    if (auto labelled = labelledShape(sample, options.decimal)) {
+      labelled->stamped = isStamped;
+      return std::move(*labelled);
+    }
 
-  const Candidate table = bestCandidate(kept, options);
+  const Candidate table = bestCandidate(sample, options);
   if (table.numCells > kMaxNumbersPerRow)
     throw FormatError(path, "has more than " + std::to_string(kMaxNumbersPerRow) + " columns");
   const std::vector<SampleRow> rows = fullRows(table, options.decimal);
   CsvShape shape;
   shape.delimiter = table.delimiter;
   shape.decimal = options.decimal;
+  shape.stamped = isStamped;
   shape.columns.resize(table.numCells);
   std::size_t firstRow = 0;  // in the sample
   const bool named =
@@ -421,6 +475,7 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
       shape.nameLine = *lastComment + 1;
     }
   }
+  if (isStamped) shape.columns.front() = stampColumn(sample);
   requireDecimalPoints(path, table, rows, numbers);
   requireQuotedCommas(path, table, rows, options);
   dropEmptyEnd(shape, table, firstRow);

@@ -3,6 +3,7 @@
 //   time;m0[0][0];m0[0][1]      separated by comma, semicolon, tab, or blanks and tabs; with or
 //   ms;counts;counts            without a line of names and a line of units
 //   left:12 right:17            Arduino's serial plotter: names and values in each line
+//   10:31:00.123 -> 12,17       a serial monitor's time before each line, also in [brackets]
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,7 @@ struct CsvShape {
   char delimiter = ',';
   char decimal = '.';
   bool labelled = false;  // name:value in each cell
+  bool stamped = false;   // the first column is a serial monitor's time
   std::vector<TableColumn> columns;
   std::uint64_t nameLine = 0;  // 0: none
   std::uint64_t unitLine = 0;
@@ -34,6 +36,9 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
 // Splits a line. Quoted cells may hold delimiters; blanks and tabs of any number are one delimiter.
 // The cells are views into `line`.
 void splitCells(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
+
+// Takes the time of a serial monitor off the beginning of a line; empty: there is none.
+std::string_view takeStamp(std::string_view& line);
 
 // Splits "name:value" cells of a line: names and values are views into `line`. False when a cell is
 // of another form. The cells are separated by blanks, tabs, commas or semicolons.

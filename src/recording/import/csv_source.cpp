@@ -38,10 +38,13 @@ CsvSource::CsvSource(const std::filesystem::path& path, const TableOptions& opti
 }
 
 std::string CsvSource::form() const {
-  if (shape_.labelled) return "text, name:value in each line";
+  if (shape_.labelled)
+    return std::string("text, name:value in each line") +
+           (shape_.stamped ? ", times before the lines" : "");
   std::string text = "text, separated by " + std::string(delimiterName(shape_.delimiter)) + "s";
   if (shape_.columns.size() == 1) text = "text, one number in each line";
   if (shape_.decimal == ',') text += ", with decimal commas";
+  if (shape_.stamped) text += ", times before the lines";
   text += shape_.nameLine == 0 ? ", without names"
                                : ", names in line " + std::to_string(shape_.nameLine);
   if (shape_.unitLine != 0) text += ", units in line " + std::to_string(shape_.unitLine);
@@ -57,8 +60,10 @@ void CsvSource::start(std::span<const std::size_t> columns, std::optional<std::s
 // Puts the cells of a line into cells_, by column; false when their number is wrong.
 bool CsvSource::readCells(std::string_view line, TableRow& row) {
   const std::size_t numColumns = shape_.columns.size() - joined_.size();
+  const std::string_view stamp = shape_.stamped ? takeStamp(line) : std::string_view();
   if (!shape_.labelled) {
     splitCells(line, shape_.delimiter, cells_);
+    if (!stamp.empty()) cells_.insert(cells_.begin(), stamp);
     const bool emptyEnd = cells_.size() == numColumns + 1 && trimmedCell(cells_.back()).empty();
     row.numCells = cells_.size();
     if (emptyEnd) cells_.pop_back();
@@ -72,6 +77,10 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
     row.numCells = 0;
     row.fault = " has a cell that is not name:value";
     return false;
+  }
+  if (shape_.stamped) {
+    names_.insert(names_.begin(), shape_.columns.front().name);
+    values_.insert(values_.begin(), stamp);
   }
   row.numCells = names_.size();
   for (std::size_t i = 0; i < names_.size(); ++i) {
