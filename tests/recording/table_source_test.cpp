@@ -1,5 +1,6 @@
 #include "palpate/recording/table_source.h"
 
+#include <array>
 #include <cmath>
 
 #include <sys/stat.h>
@@ -188,6 +189,42 @@ TEST(TextTable, ATextIsNoTable) {
   const testing::TemporaryFolder folder;
   EXPECT_THROW(openTable(folder / "absent.csv"), FileError);
   EXPECT_THROW(openTable(folder.path()), FileError);
+}
+
+// imports 23: each file has the first bytes that its format's specification gives.
+TEST(OpenTable, NamesFilesOfOtherProgramsAndSaysWhatToDo) {
+  const std::string zeros(600, '\0');
+  const std::string sqlite = "SQLite format 3" + zeros;
+  const testing::TemporaryFolder folder;
+  for (const auto& [name, bytes, words] : std::vector<std::array<std::string, 3>>{
+           {"a.mat",
+            "MATLAB 5.0 MAT-file, Platform: GLNXA64" + zeros,
+            "save it in MATLAB with -v7.3"},
+           {"a.db3", sqlite, "a bag of ROS 2 in SQLite: convert it to MCAP (ros2 bag convert)"},
+           {"a.palpate", sqlite, "is a recording already"},
+           {"a.xlsx",
+            "PK\x03\x04" + zeros.substr(0, 26) + "[Content_Types].xml<Types/>",
+            "is an Excel workbook: save it as CSV"},
+           {"a.xls", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1" + zeros, "is an Excel workbook"},
+           {"a.parquet", "PAR1\x15\x04" + zeros, "is a Parquet file"},
+           {"a.xdf", "XDF:<info>" + zeros, "is an XDF file"},
+           {"a.bag", "#ROSBAG V2.0\n" + zeros, "is a bag of ROS 1"},
+           {"a.pkl", "\x80\x04\x95" + zeros, "is a pickle of Python: save its arrays as .npz"},
+           {"a.csv",
+            "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n",
+            "git lfs pull"},
+           {"a.mcap", "\x89MCAP0\r\n" + zeros, "palpate convert"},
+           {"a.bin", std::string("\1\0\2\0\0\3\0\4\4\0\5\0", 12) + zeros, "neither a text"}}) {
+    testing::writeFile(folder / name, bytes);
+    const std::string what = testing::errorOf([&, &name = name] { openTable(folder / name); });
+    EXPECT_NE(what.find(words), std::string::npos) << what;
+    EXPECT_EQ(what.find("UTF-16"), std::string::npos) << what;
+  }
+  std::filesystem::create_directory(folder / "bag");
+  testing::writeFile(folder / "bag/metadata.yaml", "rosbag2_bagfile_information:\n");
+  testing::writeFile(folder / "bag/bag_0.mcap", "");
+  EXPECT_NE(testing::errorOf([&] { openTable(folder / "bag"); }).find("name its file bag_0.mcap"),
+            std::string::npos);
 }
 
 // Every dtype of whole and real numbers, both byte orders, both orders of the array, compressed or

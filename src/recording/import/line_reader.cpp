@@ -32,17 +32,6 @@ void LineReader::restart() {
   endsWithinLine_ = beginsAtNul_ = endsAtNul_ = false;
   nul_ = {};
   number_ = 0;
-  fill();
-  refuseUtf16();
-}
-
-// UTF-16 has a mark, or a byte 0 beside each letter.
-void LineReader::refuseUtf16() const {
-  const std::string_view first = std::string_view(buffer_).substr(0, 4);
-  const auto isNul = [&](std::size_t at) { return first[at] == 0; };
-  if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF") ||
-      (first.size() == 4 && isNul(0) == isNul(2) && isNul(1) == isNul(3) && isNul(0) != isNul(1)))
-    throw FormatError(path_, "is a text in UTF-16; save it as UTF-8");
 }
 
 double LineReader::fraction() const noexcept {

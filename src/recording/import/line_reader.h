@@ -17,7 +17,7 @@ class LineReader {
   explicit LineReader(const std::filesystem::path& path);
   // Reads the next line without its end (LF or CR LF); false at the end. The line is valid until
   // the next call. Bytes 0 are left out, and end a line, too. Throws FileError, FormatError (longer
-  // than kMaxLineBytes, UTF-16).
+  // than kMaxLineBytes).
   bool next(std::string_view& line);
   std::uint64_t number() const noexcept { return number_; }  // of the last line, from 1
   // Whether the file ends within the last line, without a line end.
@@ -30,7 +30,6 @@ class LineReader {
 
  private:
   bool fill();
-  void refuseUtf16() const;
   void skipNulBytes();
   std::size_t endFrom(std::size_t from) const;
 
