@@ -742,6 +742,73 @@ TEST(RecordingImport, ADayThatMayBeTheMonthIsAsked) {
   EXPECT_NE(guessed.report.notes[0].find("the month is taken to come first"), std::string::npos);
 }
 
+// imports 17.
+TEST(RecordingImport, AFrameOfSeveralLines) {
+  const TemporaryFolder folder;
+  ImportMapping rate;
+  rate.time.rateHz = 100.0;
+  const std::vector<float> second{10, 11, 12, 13, 14, 15};
+  for (const char* text : {"0 1 2 \r\n3 4 5 \r\n\r\n10 11 12 \r\n13 14 15 \r\n\r\n",
+                           "START\n0,1,2\n3,4,5\nSTART\n10,11,12\n13,14,15\n",
+                           "frame 1 of 2\n0 1 2\n3 4 5\nframe 2 of 2\n10 11 12\n13 14 15\n",
+                           "0,1,2\n3,4,5\n10,11,12\n13,14,15\n",
+                           "boot: ready\n0,1,2,\n3,4,5,\n10,11,12,\n13,14,15,\n"}) {
+    const auto made = importText(folder, text, pad(2, 3), rate);
+    ASSERT_EQ(made.report.frames, 2u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.frame(0).values, (std::vector<float>{0, 1, 2, 3, 4, 5})) << text;
+    EXPECT_EQ(made.profile.frame(1).values, second) << text;
+    EXPECT_EQ(made.report.refused.total(), 0u) << text << made.report.refused.first;
+    ASSERT_FALSE(made.report.notes.empty());
+    EXPECT_NE(made.report.notes[0].find("a frame is 2 lines of 3 numbers"), std::string::npos);
+  }
+  // Two matrices, one below the other; a time that stands alone before each frame.
+  const auto two = importText(folder,
+                              "10\n1 2\n3 4\n5 6\n7 8\n20\n0 0\n0 1\n0 2\n0 3\n"
+                              "45\n0 0\n0 1\n0 2\n0 3\n",
+                              twoPads());
+  ASSERT_EQ(two.report.frames, 3u) << two.report.refused.first;
+  EXPECT_EQ(two.profile.frame(0).values, (std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(two.profile.frameTimeUs(2), 45'000);
+}
+
+TEST(RecordingImport, AFrameThatLacksALineIsRefusedAndShiftsNoOther) {
+  const TemporaryFolder folder;
+  ImportMapping rate;
+  rate.time.rateHz = 100.0;
+  const auto marked =
+      importText(folder, "0 1\n2 3\n\n4 5\n\n6 7\n8 9\n\n1 1\n2 2\n\n3 3\n", pad(2, 2), rate);
+  EXPECT_EQ(marked.report.frames, 3u);
+  EXPECT_EQ(marked.report.refused.wrongCount, 2u) << "one within, and the last one";
+  EXPECT_EQ(marked.report.refused.first, "line 4 begins a frame of 1 line instead of 2");
+  EXPECT_EQ(marked.profile.frame(1).values, (std::vector<float>{6, 7, 8, 9}));
+  EXPECT_EQ(marked.profile.frameTimeUs(1), 20'000);
+  // Where nothing marks frames, none is taken after a line that is none of a frame.
+  std::string text;
+  for (int i = 0; i < 300; ++i) text += "1 2\n3 4\n";
+  text += "5 6\nreset\n7 8\n9 1\n2 3\n";
+  const auto counted = importText(folder, text, pad(2, 2), rate);
+  EXPECT_EQ(counted.report.frames, 300u);
+  EXPECT_EQ(counted.report.refused.wrongCount, 2u);
+  EXPECT_NE(counted.report.refused.first.find("line 602"), std::string::npos)
+      << counted.report.refused.first;
+}
+
+// The head and the frames of Tekscan's ASCII export.
+TEST(RecordingImport, AMovieOfTekscanHasItsRate) {
+  const TemporaryFolder folder;
+  std::string text =
+      "DATA_TYPE MOVIE\r\nVERSION 2\r\nROWS 2\r\nCOLS 3\r\nROW_SPACING 5.08 mm\r\n"
+      "SECONDS_PER_FRAME 0.01\r\nSTART_FRAME 1\r\nEND_FRAME 8\r\nUNITS Raw\r\n"
+      "ASCII_DATA @@\r\n\r\n";
+  for (const char* number : {"1", "2", "3", "4", "5", "6", "7", "8"})
+    text += std::string("Frame ") + number + "\r\n" + number + ",1,2\r\n3,4,5\r\n\r\n";
+  const auto made = importText(folder, text + "@@\r\n", pad(2, 3));
+  ASSERT_EQ(made.report.frames, 8u) << made.report.refused.first;
+  EXPECT_EQ(made.profile.frameTimeUs(1) - made.profile.frameTimeUs(0), 10'000);
+  EXPECT_EQ(made.profile.frame(7).values, (std::vector<float>{8, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(made.report.notes[0], "time: the file gives a rate of 100 Hz");
+}
+
 TEST(RecordingImport, WhatIsMissingIsNamedWithWhatIsThere) {
   const TemporaryFolder folder;
   testing::runPython(folder, R"(

@@ -49,6 +49,7 @@ struct ImportPlan {
   // The rows are active taxels, as `palpate convert` writes them to .csv:
   // frame,time_ms,matrix,y,x,value,time_us.
   bool isTaxelList = false;
+  std::optional<double> rateHz;  // of rows without a time: the mapping's, or that of the file
   std::string timeDescription;
   std::vector<std::string> notes;  // what was not imported, or was guessed
 };

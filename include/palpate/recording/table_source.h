@@ -124,6 +124,12 @@ class TableSource {
                                                std::int64_t /*factor*/) {
     return std::nullopt;
   }
+  // Makes one row of `count` lines of a text without names, with all their numbers as columns; a
+  // number that stands alone before each frame is the first column. Returns in words what a frame
+  // is; empty, and nothing is changed, when the lines don't come in such frames. Before start().
+  virtual std::string joinLines(std::size_t /*count*/) { return {}; }
+  // The rate that the head of a file gives.
+  virtual std::optional<double> rateHz() const { return std::nullopt; }
   // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.
   virtual bool isColumnMajor() const noexcept { return false; }
   // Reverses the axes of the array of a column, and with them what its rows are. Before start().

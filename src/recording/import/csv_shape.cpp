@@ -57,14 +57,19 @@ struct SampleLines {
 Candidate candidateOf(const SampleLines& lines, char delimiter, char decimal) {
   Candidate made;
   made.delimiter = delimiter;
-  std::map<std::size_t, std::size_t> counts;
+  std::map<std::size_t, std::size_t> counts;         // of the rows with a number
+  std::map<std::size_t, std::size_t> countsOfTexts;  // of the others
   for (std::size_t i = 0; i < lines.texts.size(); ++i) {
     Cells& row = made.rows.emplace_back();
     splitCells(lines.texts[i], delimiter, row);
     if (!lines.stamps.empty()) row.insert(row.begin(), lines.stamps[i]);
-    ++counts[row.size()];
+    const bool hasNumber = std::any_of(row.begin(), row.end(), [&](std::string_view cell) {
+      const CellKind kind = kindOf(cell, decimal);
+      return kind == CellKind::kNumber || kind == CellKind::kDecimalComma;
+    });
+    ++(hasNumber ? counts : countsOfTexts)[row.size()];
   }
-  for (const auto& [numCells, rows] : counts)
+  for (const auto& [numCells, rows] : counts.empty() ? countsOfTexts : counts)
     if (rows > made.numSuch || (rows == made.numSuch && numCells > made.numCells)) {
       made.numCells = numCells;
       made.numSuch = rows;

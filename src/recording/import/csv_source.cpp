@@ -1,6 +1,7 @@
 #include "recording/import/csv_source.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
@@ -33,6 +34,15 @@ std::vector<std::string> firstLines(LineReader& reader) {
 
 CsvSource::CsvSource(const std::filesystem::path& path, const TableOptions& options)
     : path_(path), reader_(path), shape_(detectCsvShape(path, firstLines(reader_), options)) {
+  // The head of a movie of Tekscan.
+  constexpr std::string_view kPeriod = "SECONDS_PER_FRAME";
+  std::string_view line;
+  for (std::size_t i = 0; i < kCsvSampleLines && !rateHz_ && reader_.next(line); ++i)
+    if (line.starts_with(kPeriod))
+      if (const auto period = parseDouble(trimmed(line.substr(kPeriod.size())));
+          period && *period > 0.0)
+        rateHz_ = 1.0 / *period;
+  reader_.restart();
   for (std::size_t c = 0; shape_.labelled && c < shape_.columns.size(); ++c)
     labelled_.try_emplace(shape_.columns[c].name, c);
 }
@@ -54,6 +64,9 @@ std::string CsvSource::form() const {
 void CsvSource::start(std::span<const std::size_t> columns, std::optional<std::size_t> time) {
   selected_.assign(columns.begin(), columns.end());
   time_ = time;
+  frames_.before.clear();
+  frames_.isBegun = false;
+  frames_.brokenAt = 0;
   reader_.restart();
 }
 
@@ -125,7 +138,103 @@ void CsvSource::readJoinedTimes() {
   }
 }
 
-bool CsvSource::next(TableRow& row) {
+// Whether a line has the numbers of one line of a frame; its cells are then in cells_.
+bool CsvSource::isFrameLine(std::string_view line, std::size_t numbers) {
+  splitCells(line, shape_.delimiter, cells_);
+  if (cells_.size() == numbers + 1 && trimmedCell(cells_.back()).empty()) cells_.pop_back();
+  const auto isText = [&](std::string_view cell) {
+    double value = 0.0;
+    return cellStateOf(cell, shape_.decimal, value) == CellState::kText;
+  };
+  return cells_.size() == numbers && !isCommentLine(line) &&
+         2 * static_cast<std::size_t>(std::count_if(cells_.begin(), cells_.end(), isText)) <
+             numbers;
+}
+
+std::string CsvSource::joinLines(std::size_t count) {
+  if (shape_.nameLine != 0 || shape_.labelled || shape_.stamped) return {};
+  FrameLines found{.lines = count, .numbers = shape_.columns.size()};
+  constexpr std::size_t kFrames = 20;
+  std::map<std::size_t, std::size_t> lengths;  // how many blocks have so many lines
+  std::size_t length = 0;
+  std::size_t numBlocks = 0;
+  std::size_t numNumbered = 0;
+  std::string before;
+  std::string_view line;
+  reader_.restart();
+  for (std::size_t i = 0; i < kCsvSampleLines + kFrames * count && reader_.next(line); ++i) {
+    if (isFrameLine(line, found.numbers)) {
+      if (length++ > 0) continue;
+      ++numBlocks;
+      numNumbered += found.numbers > 1 && cellNumber(before, shape_.decimal) ? 1 : 0;
+      continue;
+    }
+    if (length > 0) ++lengths[std::exchange(length, 0)];
+    if (!trimmed(line).empty()) before = trimmed(line);
+  }
+  reader_.restart();
+  const std::size_t numEnded = numBlocks - (length > 0 ? 1 : 0);
+  found.areMarked = numEnded > 0;
+  if (found.areMarked ? 2 * lengths[count] <= numEnded : length < count) return {};
+  found.hasNumber = found.areMarked && numNumbered > 0 && numNumbered + 1 >= numBlocks;
+  shape_.columns.clear();
+  if (found.hasNumber) shape_.columns.push_back({.name = "line before", .type = "number"});
+  for (std::size_t i = 0; i < found.lines * found.numbers; ++i)
+    shape_.columns.push_back({.name = "number " + std::to_string(i + 1), .type = "number"});
+  frames_ = std::move(found);
+  return "a frame is " + std::to_string(count) + " lines of " + counted(frames_.numbers, "number") +
+         (frames_.areMarked ? ", with other lines between the frames"
+                            : ", counted from the first one: nothing marks where a frame begins");
+}
+
+// Reads the lines of the next frame into cells_; false at the end.
+bool CsvSource::readFrame(TableRow& row) {
+  std::string_view line;
+  std::size_t count = 0;
+  bool isCutOff = false;
+  std::string before = frames_.before;
+  frames_.text.clear();
+  while (frames_.areMarked || count < frames_.lines) {
+    if (!reader_.next(line)) {
+      if (count == 0) return false;
+      break;
+    }
+    isCutOff = isCutOff || (reader_.isCutOff() && !trimmed(line).empty());
+    if (isFrameLine(line, frames_.numbers)) {
+      lastRowLine_ = reader_.number();
+      if (count++ == 0) {
+        row.line = lastRowLine_;
+        if (frames_.hasNumber) frames_.text = before + shape_.delimiter;
+      }
+      for (const std::string_view cell : cells_)
+        if (count <= frames_.lines) frames_.text.append(cell) += shape_.delimiter;
+      continue;
+    }
+    if (!trimmed(line).empty()) before = trimmed(line);
+    if (frames_.areMarked && count > 0) break;
+    if (!frames_.areMarked && !isCommentLine(line) && (count > 0 || frames_.isBegun) &&
+        frames_.brokenAt == 0)
+      frames_.brokenAt = reader_.number();
+  }
+  frames_.before = before;
+  frames_.isBegun = true;
+  row.numCells = count * frames_.numbers;
+  row.complete = count == frames_.lines && frames_.brokenAt == 0 && !isCutOff;
+  if (isCutOff)
+    row.fault = " begins a frame that is cut off by bytes 0";
+  else if (frames_.brokenAt != 0)
+    row.fault = " begins a frame at or after line " + std::to_string(frames_.brokenAt) +
+                ", which is none of a frame: nothing marks where the next one begins";
+  else if (!row.complete)
+    row.fault = " begins a frame of " + counted(count, "line") + " instead of " +
+                std::to_string(frames_.lines);
+  frames_.text.pop_back();
+  splitCells(frames_.text, shape_.delimiter, cells_);
+  return true;
+}
+
+// Reads the next row that is one line into cells_; false at the end.
+bool CsvSource::readLine(TableRow& row) {
   std::string_view line;
   do {
     if (!reader_.next(line)) return false;
@@ -133,6 +242,11 @@ bool CsvSource::next(TableRow& row) {
   row.line = lastRowLine_ = reader_.number();
   row.complete = readCells(line, row) && !reader_.isCutOff();
   if (reader_.isCutOff()) row.fault = " is cut off by bytes 0";
+  return true;
+}
+
+bool CsvSource::next(TableRow& row) {
+  if (!(frames_.lines > 0 ? readFrame(row) : readLine(row))) return false;
   if (!row.complete) return true;
   readJoinedTimes();
   row.values.resize(selected_.size());

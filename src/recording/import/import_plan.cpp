@@ -174,6 +174,7 @@ class Planner {
     bool isRowNumber = false;  // 0, 1, 2, .. or 1, 2, 3, ..
   };
   Counting countingOf(std::size_t column, std::size_t within);
+  void joinFrameLines(PlannedSeries& series);
   bool leaveOutFirst(PlannedSeries& series, std::size_t column, bool isArray);
   bool anyFrames() const;
   void findFrameAxis();
@@ -208,7 +209,7 @@ class Planner {
   TableSource& source_;
   const std::vector<TableColumn>& columns_;
   const HandDescription& hand_;
-  const ImportMapping& mapping_;
+  ImportMapping mapping_;  // with the rate of the file, if that is all there is
   ImportPlan plan_;
   bool isReversed_ = false;          // the axes of all arrays
   std::string rowNumber_;            // a column that counts the rows
@@ -825,9 +826,31 @@ bool Planner::takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group) 
   return true;
 }
 
+// Where the lines of a text have as many numbers as a matrix has columns, a frame may be a line for
+// each row of the matrices.
+void Planner::joinFrameLines(PlannedSeries& series) {
+  const auto width = static_cast<std::size_t>(hand_.layout->matrix(0).columns);
+  std::size_t rows = 0;
+  for (const MatrixLayout& matrix : hand_.layout->matrices()) {
+    if (static_cast<std::size_t>(matrix.columns) != width) return;
+    rows += static_cast<std::size_t>(matrix.rows);
+  }
+  const bool areNumbers = std::all_of(columns_.begin(), columns_.end(), [](const auto& column) {
+    return column.isNumeric && !column.numRows;
+  });
+  if (rows < 2 || columns_.size() != width || !areNumbers ||
+      placesInOrder(width, *hand_.layout, std::nullopt, false))
+    return;
+  const std::string how = source_.joinLines(rows);
+  if (how.empty()) return;
+  plan_.notes.push_back(how);
+  if (columns_.size() > rows * width) leaveOutFirst(series, 0, false);
+}
+
 PlannedSeries Planner::foundFrames() {
   PlannedSeries series;
   series.file = source_.path();
+  joinFrameLines(series);
   const std::vector<ColumnGroup> groups = groupColumns(columns_, candidates());
   for (const bool isOpposite : {false, true})
     if (takeWhole(series, groups, isOpposite) || takeParts(series, groups, isOpposite))
@@ -1035,6 +1058,11 @@ void Planner::noteUnused() {
 }
 
 ImportPlan Planner::plan() {
+  if (const auto rate = source_.rateHz(); rate && mapping_.time == TimeMapping{}) {
+    mapping_.time.rateHz = rate;
+    plan_.notes.push_back("time: the file gives a rate of " + numberText(*rate) + " Hz");
+  }
+  plan_.rateHz = mapping_.time.rateHz;
   findFrameAxis();
   straightenTimes();
   joinTimes();

@@ -100,7 +100,7 @@ void ImportRows::noteRows(const TableSource& source) {
 std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const TableRow& row) {
   std::optional<std::int64_t> us;
   if (!timeReader_) {
-    const double elapsed = static_cast<double>(rowIndex_) / *mapping_.time.rateHz * kUsPerS;
+    const double elapsed = static_cast<double>(rowIndex_) / *plan_.rateHz * kUsPerS;
     us = mapping_.time.startUs.value_or(0) + std::llround(elapsed);
   } else {
     us = timeReader_->us(row.time);
