@@ -809,6 +809,62 @@ TEST(RecordingImport, AMovieOfTekscanHasItsRate) {
   EXPECT_EQ(made.report.notes[0], "time: the file gives a rate of 100 Hz");
 }
 
+// imports 20.
+TEST(RecordingImport, ListsInCellsAndInLines) {
+  const TemporaryFolder folder;
+  for (const char* text : {"time_ms,data\n10,\"[1, 2, 3, 4]\"\n20,\"[5, 6, 7, 8]\"\n",
+                           "time_ms,data\n10,[1 2 3 4]\n20,[ 5  6  7  8]\n",
+                           "time_ms,data\n10,[1, 2, 3, 4]\n20,[5, 6, 7, 8]\n",
+                           "10;(1, 2, 3, 4)\n20;(5, 6, 7, 8)\n",
+                           "[10, 1, 2, 3, 4]\n[20, 5, 6, 7, 8]\n",
+                           "(10, 1, 2, 3, 4)\n(20, 5, 6, 7, 8)\n",
+                           "[10, [[1, 2], [3, 4]]]\n[20, [[5, 6], [7, 8]]]\n",
+                           "{\"t\": 0.01, \"id\": \"a\", \"data\": [1, 2, 3, 4]}\n"
+                           "{\"t\": 0.02, \"id\": \"b\", \"data\": [5, 6, 7, 8]}\n",
+                           "{\"time_ms\":10,\"pad\":{\"raw\":[[1,2],[3,4]]}}\r\n"
+                           "{\"pad\":{\"raw\":[[5,6],[7,8]]},\"time_ms\":20}\r\n"}) {
+    ImportMapping mapping;
+    if (text[0] == '[' && std::string_view(text).find("[[") != std::string_view::npos)
+      mapping.time.column = "list[0]";
+    if (std::string_view(text).starts_with("10;")) mapping.time.column = "#1";
+    const auto made = importText(folder, text, pad(2, 2), mapping);
+    ASSERT_EQ(made.report.frames, 2u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(0), 10'000) << text;
+    EXPECT_EQ(made.profile.frameTimeUs(1), 20'000) << text;
+    EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{5, 6, 7, 8})) << text;
+    EXPECT_EQ(made.report.refused.total(), 0u) << text << made.report.refused.first;
+  }
+  // A number too many, one too few, a list that is cut.
+  const auto damaged = importText(folder,
+                                  "time_ms,data\n10,\"[1, 2]\"\n20,\"[1, 2]\"\n30,\"[1, 2, 3]\"\n"
+                                  "40,\"[1]\"\n50,\"[1, \n60,\"[5, 6]\"\n",
+                                  pad(1, 2));
+  EXPECT_EQ(damaged.report.frames, 3u);
+  EXPECT_EQ(damaged.report.refused.wrongCount, 2u);
+  EXPECT_EQ(damaged.report.refused.missing, 1u);
+  EXPECT_NE(damaged.report.refused.first.find("line 4 has"), std::string::npos)
+      << damaged.report.refused.first;
+}
+
+TEST(RecordingImport, OurOwnJsonLinesComeBackWithTheirTimes) {
+  const TemporaryFolder folder;
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 5; ++i) {
+    std::vector<float> values(sdh2().layout->numCells(), 0.0F);
+    for (std::size_t m = 0; m < 6; ++m)
+      for (std::size_t k = 0; k < sdh2().layout->matrix(m).numCells(); k += 3)
+        if (sdh2().layout->matrix(m).staticMask[k] != 0)
+          values[sdh2().layout->offset(m) + k] =
+              static_cast<float>(100 * i + 7 * static_cast<int>(m) + static_cast<int>(k));
+    builder.addFrame(1'417'084'265'000'250 + i * 31'000, values);
+  }
+  const Profile before = builder.finish({});
+  saveRecording(before, {}, folder / "a.jsonl");
+  const ImportReport report = importRecording(folder / "a.jsonl", sdh2(), {}, folder / "b.palpate");
+  EXPECT_EQ(report.refused.total(), 0u) << report.refused.first;
+  expectSame(before, openRecording(folder / "b.palpate"));
+}
+
 TEST(RecordingImport, WhatIsMissingIsNamedWithWhatIsThere) {
   const TemporaryFolder folder;
   testing::runPython(folder, R"(

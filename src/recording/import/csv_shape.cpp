@@ -344,7 +344,90 @@ std::optional<CsvShape> labelledShape(const SampleLines& sample, char decimal) {
   return shape;
 }
 
+// Which lists the lines have, and the names of their cells; nothing when most lines have none.
+std::optional<CsvShape> nestedForm(const SampleLines& sample, const TableOptions& options) {
+  const auto& lines = sample.texts;
+  const auto areMost = [&](std::size_t such) { return 2 * such > lines.size(); };
+  CsvShape shape;
+  shape.nested = true;
+  shape.decimal = options.decimal;
+  if (areMost(static_cast<std::size_t>(std::count_if(
+          lines.begin(), lines.end(), [](std::string_view line) { return isNestedText(line); }))))
+    return shape;
+  for (const char delimiter : {',', ';', '\t'}) {
+    if (options.delimiter != 0 && delimiter != options.delimiter) continue;
+    Cells cells;
+    Cells first;  // with a list
+    std::size_t such = 0;
+    for (const std::string_view line : lines) {
+      splitNestedCells(line, delimiter, cells);
+      if (cells.size() < 2 || std::none_of(cells.begin(), cells.end(), isNestedText)) continue;
+      if (such++ == 0) first = cells;
+    }
+    if (!areMost(such)) continue;
+    shape.delimiter = delimiter;
+    splitNestedCells(lines.front(), delimiter, cells);
+    const bool named = cells.size() == first.size() && options.header != HeaderChoice::kAbsent &&
+                       std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+                         return isNestedText(cell) || isValue(kindOf(cell, options.decimal));
+                       });
+    for (std::size_t c = 0; c < first.size(); ++c)
+      shape.cellNames.push_back(named ? std::string(trimmedCell(cells[c]))
+                                      : "column " + std::to_string(c + 1));
+    shape.nameLine = named ? 1 : 0;
+    return shape;
+  }
+  return std::nullopt;
+}
+
+// The shape of lines with lists in them; nothing when most lines have none.
+std::optional<CsvShape> nestedShape(const SampleLines& sample, const TableOptions& options) {
+  auto shape = nestedForm(sample, options);
+  if (!shape) return std::nullopt;
+  Candidate table;
+  NestedLine longest;
+  for (const std::string_view line : sample.texts) {
+    NestedLine each;
+    if (!splitNested(line, *shape, each)) continue;
+    table.rows.push_back(each.values);
+    if (each.names.size() > longest.names.size()) longest = std::move(each);
+  }
+  if (longest.names.empty()) return std::nullopt;
+  if (!sample.stamps.empty()) shape->columns.push_back(stampColumn(sample));
+  const std::size_t numBefore = shape->columns.size();
+  for (const std::string& name : longest.names) shape->columns.push_back({.name = name});
+  table.numCells = longest.names.size();
+  CsvShape described;
+  described.columns.assign(shape->columns.begin() + static_cast<std::ptrdiff_t>(numBefore),
+                           shape->columns.end());
+  describeCells(described, table, fullRows(table, options.decimal), 0);
+  std::move(described.columns.begin(),
+            described.columns.end(),
+            shape->columns.begin() + static_cast<std::ptrdiff_t>(numBefore));
+  return shape;
+}
+
 }  // namespace
+
+bool splitNested(std::string_view line, const CsvShape& shape, NestedLine& values) {
+  values.names.clear();
+  values.values.clear();
+  if (shape.cellNames.empty())
+    return flattenNested(trimmed(line), trimmed(line).starts_with('{') ? "" : "list", values);
+  Cells cells;
+  splitNestedCells(line, shape.delimiter, cells);
+  if (cells.size() != shape.cellNames.size()) return false;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::string_view cell = trimmedCell(cells[c]);
+    if (isNestedText(cell)) {
+      if (!flattenNested(cell, shape.cellNames[c], values)) return false;
+    } else {
+      values.names.push_back(shape.cellNames[c]);
+      values.values.push_back(cell);
+    }
+  }
+  return true;
+}
 
 void splitCells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
@@ -438,6 +521,11 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
       labelled->stamped = isStamped;
       return std::move(*labelled);
     }
+
+  if (auto nested = nestedShape(sample, options)) {
+    nested->stamped = isStamped;
+    return std::move(*nested);
+  }
 
   const Candidate table = bestCandidate(sample, options);
   if (table.numCells > kMaxNumbersPerRow)

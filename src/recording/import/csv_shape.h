@@ -14,13 +14,17 @@
 
 #include "palpate/recording/table_source.h"
 
+#include "recording/import/nested_text.h"
+
 namespace palpate {
 
 struct CsvShape {
   char delimiter = ',';
   char decimal = '.';
-  bool labelled = false;  // name:value in each cell
-  bool stamped = false;   // the first column is a serial monitor's time
+  bool labelled = false;               // name:value in each cell
+  bool nested = false;                 // lists or objects in each line (see nested_text.h)
+  std::vector<std::string> cellNames;  // of nested lines: of their cells; none: a line is one list
+  bool stamped = false;                // the first column is a serial monitor's time
   std::vector<TableColumn> columns;
   std::uint64_t nameLine = 0;  // 0: none
   std::uint64_t unitLine = 0;
@@ -36,6 +40,9 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
 // Splits a line. Quoted cells may hold delimiters; blanks and tabs of any number are one delimiter.
 // The cells are views into `line`.
 void splitCells(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
+
+// The values of a nested line and their names; false when it is of another form.
+bool splitNested(std::string_view line, const CsvShape& shape, NestedLine& values);
 
 // Takes the time of a serial monitor off the beginning of a line; empty: there is none.
 std::string_view takeStamp(std::string_view& line);

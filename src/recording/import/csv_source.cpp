@@ -43,11 +43,15 @@ CsvSource::CsvSource(const std::filesystem::path& path, const TableOptions& opti
           period && *period > 0.0)
         rateHz_ = 1.0 / *period;
   reader_.restart();
-  for (std::size_t c = 0; shape_.labelled && c < shape_.columns.size(); ++c)
+  for (std::size_t c = 0; (shape_.labelled || shape_.nested) && c < shape_.columns.size(); ++c)
     labelled_.try_emplace(shape_.columns[c].name, c);
 }
 
 std::string CsvSource::form() const {
+  if (shape_.nested)
+    return shape_.cellNames.empty() ? "text, a list or an object in each line"
+                                    : "text, lists in its cells, separated by " +
+                                          std::string(delimiterName(shape_.delimiter)) + "s";
   if (shape_.labelled)
     return std::string("text, name:value in each line") +
            (shape_.stamped ? ", times before the lines" : "");
@@ -74,7 +78,7 @@ void CsvSource::start(std::span<const std::size_t> columns, std::optional<std::s
 bool CsvSource::readCells(std::string_view line, TableRow& row) {
   const std::size_t numColumns = shape_.columns.size() - joined_.size();
   const std::string_view stamp = shape_.stamped ? takeStamp(line) : std::string_view();
-  if (!shape_.labelled) {
+  if (!shape_.labelled && !shape_.nested) {
     splitCells(line, shape_.delimiter, cells_);
     if (!stamp.empty()) cells_.insert(cells_.begin(), stamp);
     const bool emptyEnd = cells_.size() == numColumns + 1 && trimmedCell(cells_.back()).empty();
@@ -86,11 +90,7 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
     return false;
   }
   cells_.assign(numColumns, {});
-  if (!splitLabelled(line, names_, values_)) {
-    row.numCells = 0;
-    row.fault = " has a cell that is not name:value";
-    return false;
-  }
+  if (!splitNamed(line, row)) return false;
   if (shape_.stamped) {
     names_.insert(names_.begin(), shape_.columns.front().name);
     values_.insert(values_.begin(), stamp);
@@ -103,8 +103,27 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
       continue;
     }
     const auto at = labelled_.find(names_[i]);
-    if (at != labelled_.end()) cells_[at->second] = values_[i];
+    if (at != labelled_.end()) {
+      cells_[at->second] = values_[i];
+    } else if (shape_.nested) {
+      row.fault = " has a value that the first lines have not: " + shortened(names_[i]);
+      return false;
+    }
   }
+  return true;
+}
+
+// Splits a line in which values have names; false when it is of another form.
+bool CsvSource::splitNamed(std::string_view line, TableRow& row) {
+  row.numCells = 0;
+  if (!shape_.nested) {
+    row.fault = " has a cell that is not name:value";
+    return splitLabelled(line, names_, values_);
+  }
+  row.fault = " has no list or object as the first lines have";
+  if (!splitNested(line, shape_, nested_)) return false;
+  names_.assign(nested_.names.begin(), nested_.names.end());
+  values_.assign(nested_.values.begin(), nested_.values.end());
   return true;
 }
 
@@ -152,7 +171,7 @@ bool CsvSource::isFrameLine(std::string_view line, std::size_t numbers) {
 }
 
 std::string CsvSource::joinLines(std::size_t count) {
-  if (shape_.nameLine != 0 || shape_.labelled || shape_.stamped) return {};
+  if (shape_.nameLine != 0 || shape_.labelled || shape_.nested || shape_.stamped) return {};
   FrameLines found{.lines = count, .numbers = shape_.columns.size()};
   constexpr std::size_t kFrames = 20;
   std::map<std::size_t, std::size_t> lengths;  // how many blocks have so many lines
@@ -238,7 +257,8 @@ bool CsvSource::readLine(TableRow& row) {
   std::string_view line;
   do {
     if (!reader_.next(line)) return false;
-  } while (reader_.number() <= shape_.linesBefore || isCommentLine(line));
+  } while (reader_.number() <= shape_.linesBefore || isCommentLine(line) ||
+           (shape_.nested && reader_.number() == shape_.nameLine));
   row.line = lastRowLine_ = reader_.number();
   row.complete = readCells(line, row) && !reader_.isCutOff();
   if (reader_.isCutOff()) row.fault = " is cut off by bytes 0";

@@ -56,6 +56,7 @@ class CsvSource final : public TableSource {
   bool readFrame(TableRow& row);
   bool isFrameLine(std::string_view line, std::size_t numbers);
   bool readCells(std::string_view line, TableRow& row);
+  bool splitNamed(std::string_view line, TableRow& row);
   void readJoinedTimes();
 
   std::filesystem::path path_;
@@ -71,6 +72,7 @@ class CsvSource final : public TableSource {
   std::vector<std::string_view> cells_;  // of the last line, by column
   std::vector<std::string_view> names_;  // of a line of names and values
   std::vector<std::string_view> values_;
+  NestedLine nested_;
 };
 
 }  // namespace palpate
