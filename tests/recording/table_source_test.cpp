@@ -98,6 +98,9 @@ TEST(TextTable, ArduinosSerialPlotter) {
                            "a:1,b:2.5\na:3,b:4\n",
                            "a:1\tb:2.5\t\na:3\tb:4\t\n",
                            "a: 1, b: 2.5\na: 3, b: 4\n",
+                           "a=1,b=2.5\na=3,b=4\n",
+                           "a = 1; b = 2.5\na = 3; b = 4\n",
+                           ">a:1,b:2.5\n>a:3,b:4\n",
                            "b:2.5 a:1\nb:4 a:3\n",
                            "a:1 b:2.5\nb:4 a:3\n"}) {
     const ReadTable table = readText(text);

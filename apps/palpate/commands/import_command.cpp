@@ -177,8 +177,9 @@ int importCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis =
            "palpate import DATA --hand NAME|FOLDER [-o OUT.palpate] [--map M.json] [--preview]",
-       .purpose = "Imports a table of another program as a recording: text (CSV, or lines that "
-                  "microcontrollers print), NumPy's .npy and .npz, HDF5. A row is a frame. Columns "
+       .purpose = "Imports a table of another program as a recording: text (CSV, JSON lines, or "
+                  "lines that microcontrollers print), NumPy's .npy and .npz, HDF5. A row is a "
+                  "frame. Columns "
                   "are found by names and shapes, or chosen: NAME, A..B, #3..#86 (by position, "
                   "from 1), left*, m{m}[{y}][{x}] (matrix, row, column), table[0]..table[5]. Rows "
                   "that can't be used are left out and counted, and so are values outside of the "
@@ -200,7 +201,7 @@ int importCommand(const Arguments& words) {
                    {"temperatures",
                     "COLUMNS",
                     "the temperatures, in the order of the sensors, or none"},
-                   {"time", "COLUMN", "the times of the rows"},
+                   {"time", "COLUMN", "the times of the rows; DATE,CLOCK or S,NS: two columns"},
                    {"time-unit",
                     "UNIT",
                     "s, ms, us, ns or iso; dmy or mdy: dates with the day or month first"},

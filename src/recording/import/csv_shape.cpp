@@ -473,9 +473,11 @@ bool splitLabelled(std::string_view line,
   constexpr std::string_view kBetween = " \t,;";
   names.clear();
   values.clear();
+  line = trimmed(line);
+  if (line.starts_with('>')) line.remove_prefix(1);  // as Teleplot reads it
   std::size_t at = line.find_first_not_of(kBetween);
   while (at != std::string_view::npos) {
-    const auto colon = line.find(':', at);
+    const auto colon = line.find_first_of(":=", at);
     if (colon == std::string_view::npos) return false;
     const std::string_view name = trimmed(line.substr(at, colon - at));
     // A name has a letter first, so that 10:31:05 is none.

@@ -47,8 +47,9 @@ bool splitNested(std::string_view line, const CsvShape& shape, NestedLine& value
 // Takes the time of a serial monitor off the beginning of a line; empty: there is none.
 std::string_view takeStamp(std::string_view& line);
 
-// Splits "name:value" cells of a line: names and values are views into `line`. False when a cell is
-// of another form. The cells are separated by blanks, tabs, commas or semicolons.
+// Splits "name:value" or "name=value" cells of a line: names and values are views into `line`.
+// False when a cell is of another form. The cells are separated by blanks, tabs, commas or
+// semicolons.
 bool splitLabelled(std::string_view line,
                    std::vector<std::string_view>& names,
                    std::vector<std::string_view>& values);
