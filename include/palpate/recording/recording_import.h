@@ -76,7 +76,7 @@ struct ImportReport {
   // Frames of a list of active taxels in which no taxel was active, so that the list does not hold
   // their times.
   std::uint64_t absentFrames = 0;
-  // How often a time counter of 32 bits started again at 0.
+  // How often a time counter of 32 bits started again at 0, or a time of day passed midnight.
   std::uint64_t counterRestarts = 0;
   std::vector<std::string> notes;  // of the plan, and of what was found in the rows
 
