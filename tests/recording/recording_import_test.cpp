@@ -846,6 +846,29 @@ TEST(RecordingImport, ListsInCellsAndInLines) {
       << damaged.report.refused.first;
 }
 
+// imports 25.
+TEST(RecordingImport, TimesOfAnotherFile) {
+  const TemporaryFolder folder;
+  testing::writeFile(folder / "t_ns.csv", "1417084265000250000\n1417084265010250000\n");
+  testing::writeFile(folder / "times.csv", "frame,time_ms\n0,10\n1,25\n2,40\n");
+  ImportMapping mapping;
+  mapping.time.column = "t_ns.csv";
+  const auto made = importText(folder, "1,2\n3,4\n", pad(1, 2), mapping);
+  ASSERT_EQ(made.report.frames, 2u) << made.report.refused.first;
+  EXPECT_EQ(made.profile.frameTimeUs(1), 1'417'084'265'010'250);
+  EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{3, 4}));
+  EXPECT_EQ(made.report.notes, std::vector<std::string>());
+  // A row without a time is refused; a time without a row is said.
+  const auto less = importText(folder, "1,2\n3,4\n5,6\n", pad(1, 2), mapping);
+  EXPECT_EQ(less.report.frames, 2u);
+  EXPECT_EQ(less.report.refused.missing, 1u);
+  mapping.time.column = "times.csv";
+  const auto more = importText(folder, "1,2\n3,4\n", pad(1, 2), mapping);
+  EXPECT_EQ(more.profile.frameTimeUs(1), 25'000);
+  ASSERT_FALSE(more.report.notes.empty());
+  EXPECT_EQ(more.report.notes.back(), "time: times.csv has more times than table.csv has rows");
+}
+
 TEST(RecordingImport, OurOwnJsonLinesComeBackWithTheirTimes) {
   const TemporaryFolder folder;
   ProfileBuilder builder(sdh2().layout);

@@ -201,7 +201,10 @@ int importCommand(const Arguments& words) {
                    {"temperatures",
                     "COLUMNS",
                     "the temperatures, in the order of the sensors, or none"},
-                   {"time", "COLUMN", "the times of the rows; DATE,CLOCK or S,NS: two columns"},
+                   {"time",
+                    "COLUMN",
+                    "the times of the rows; DATE,CLOCK or S,NS: two columns; or a file with "
+                    "the times of the rows"},
                    {"time-unit",
                     "UNIT",
                     "s, ms, us, ns or iso; dmy or mdy: dates with the day or month first"},

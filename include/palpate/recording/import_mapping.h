@@ -36,7 +36,9 @@ namespace palpate {
 inline constexpr const char* kNoColumns = "none";
 
 struct TimeMapping {
-  std::string column;  // empty: found by name; "none": the rows have no time
+  // Empty: found by name; "none": the rows have no time; two ("Date,Time"): joined. Or a file
+  // beside the table, with a time for each of its rows.
+  std::string column;
   std::string
       unit;  // s, ms, us, ns, iso, dmy, mdy; empty: that of the file, or guessed from the values
   std::optional<double> rateHz;         // rows at equal intervals; the file's time is not used

@@ -37,6 +37,7 @@ struct PlannedSeries {
   std::vector<std::size_t> columns;  // of the file
   std::vector<PlannedValue> values;  // one per number of these columns in a row
   std::optional<std::size_t> time;   // column; empty: rows at equal intervals
+  std::filesystem::path timeFile;    // where that column is; empty: in `file`
   // Where the time is a number of the array columns.front(): which one of a row.
   std::optional<std::size_t> timeWithin;
   TimeUnit timeUnit = TimeUnit::kSeconds;

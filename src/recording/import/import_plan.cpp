@@ -148,6 +148,7 @@ class Planner {
   std::vector<TableElement> foundSamples(Kind kind, std::size_t count);
   void findTime(PlannedSeries& series, const std::string& named);
   std::size_t finestOf(std::size_t time);
+  bool takeTimeFile(PlannedSeries& series, const std::string& named);
   void setTimeUnit(PlannedSeries& series);
   TimeUnit dateUnitOf(const TableColumn& column);
   IndexOrder naturalOrder(const ColumnGroup& group) const;
@@ -447,6 +448,7 @@ void Planner::findTime(PlannedSeries& series, const std::string& named) {
     series.time = joinedTime_;
   } else if (!named.empty() && named != kNoColumns) {
     const auto chosen = numberNamed(columns_, named);
+    if (!chosen && takeTimeFile(series, named)) return;
     if (!chosen)
       fail("there is no column " + inQuotes(named) + "; there are " + namesText(columns_));
     if (!isScalar(columns_[chosen->column]) && !chosen->within)
@@ -489,6 +491,43 @@ void Planner::findTime(PlannedSeries& series, const std::string& named) {
          shortened(columns_[series.columns.front()].name) + " has " +
          rowsText(series.columns.front()));
   setTimeUnit(series);
+}
+
+// The times of a file beside the table, such as "t_ns.csv"; false when there is no such file.
+bool Planner::takeTimeFile(PlannedSeries& series, const std::string& named) {
+  const fs::path file = source_.path().parent_path() / named;
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return false;
+  const auto table = openTable(file, mapping_.text);
+  ImportMapping only;
+  only.time.unit = mapping_.time.unit;
+  only.time.startUs = mapping_.time.startUs;
+  const std::string unit = unitInName(file.stem().string());
+  if (only.time.unit.empty() && timeUnitNamed(unit)) only.time.unit = unit;
+  Planner planner(*table, hand_, only);
+  const auto& columns = table->columns();
+  int best = 0;
+  PlannedSeries times;
+  if (columns.size() == 1 && isScalar(columns[0])) times.time = 0;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (const int score = timeScore(columns[c], Kind::kFrames); score > best) {
+      best = score;
+      times.time = c;
+    }
+  if (!times.time)
+    refuse("time: " + named + " has no column of times; there are " + namesText(columns));
+  const TableColumn& column = columns[*times.time];
+  if (!sameRows(column, columns_[series.columns.front()]))
+    refuse("time: " + named + " has " + counted(*column.numRows, "row") + ", but " +
+           shortened(columns_[series.columns.front()].name) + " has " +
+           counted(*columns_[series.columns.front()].numRows, "row"));
+  planner.setTimeUnit(times);
+  series.time = times.time;
+  series.timeUnit = times.timeUnit;
+  series.timeFile = file;
+  plan_.notes.insert(plan_.notes.end(), planner.plan_.notes.begin(), planner.plan_.notes.end());
+  plan_.timeDescription = named + ": " + planner.plan_.timeDescription;
+  return true;
 }
 
 // How the dates of a column are read.
@@ -1031,7 +1070,7 @@ PlannedSeries Planner::frames() {
              shortened(columns_[series.columns.front()].name) + " has " +
              std::to_string(*columns_[series.columns.front()].numRows));
   findTime(series, mapping_.time.column);
-  time_ = series.time;
+  if (series.timeFile.empty()) time_ = series.time;
   timeWithin_ = series.timeWithin;
   return series;
 }
@@ -1048,7 +1087,7 @@ void Planner::noteUnused() {
   std::set<std::size_t> used = timeParts_;
   for (const PlannedSeries& series : plan_.series) {
     used.insert(series.columns.begin(), series.columns.end());
-    if (series.time) used.insert(*series.time);
+    if (series.time && series.timeFile.empty()) used.insert(*series.time);
   }
   std::vector<TableColumn> unused;
   for (std::size_t c = 0; c < columns_.size(); ++c)
@@ -1083,6 +1122,7 @@ ImportPlan Planner::plan() {
       series.time = taxels.time;
       series.timeWithin = taxels.timeWithin;
       series.timeUnit = taxels.timeUnit;
+      series.timeFile = taxels.timeFile;
     } else {
       findTime(series, own);
     }

@@ -40,7 +40,8 @@ std::vector<ImportRows::Pass> ImportRows::passes() const {
   for (const PlannedSeries& series : plan_.series) {
     const auto same = std::find_if(passes.begin(), passes.end(), [&](const Pass& pass) {
       return pass.first().file == series.file && pass.first().time == series.time &&
-             pass.first().timeWithin == series.timeWithin;
+             pass.first().timeWithin == series.timeWithin &&
+             pass.first().timeFile == series.timeFile;
     });
     if (same != passes.end())
       same->series.push_back(&series);
@@ -327,17 +328,26 @@ void ImportRows::runPass(TableSource& source,
   timeReader_.reset();
   const PlannedSeries& first = pass.first();
   if (first.time) timeReader_.emplace(first.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
-  source.start(columns, first.timeWithin ? std::nullopt : first.time);
+  const bool isApart = !first.timeFile.empty();
+  const auto times = isApart ? openTable(first.timeFile, mapping_.text) : nullptr;
+  if (times) times->start({}, first.time);
+  source.start(columns, first.timeWithin || isApart ? std::nullopt : first.time);
   const bool hasFrames = first.kind == PlannedSeries::Kind::kFrames;
   TableRow row;
+  TableRow timeRow;
   for (; rowIndex_ < mostRows && source.next(row); ++rowIndex_) {
     if (progress && rowIndex_ % kRowsPerReport == 0 && !progress(source.fraction()))
       throw Cancelled();
     if (hasFrames) ++report_.rows;
     findTimeWithin(pass, row);
+    if (times) row.time = times->next(timeRow) && timeRow.complete ? timeRow.time : TimeCell{};
     takeRow(source, pass, row);
   }
   finishWaiting(source, pass, nullptr);
+  if (times && rowIndex_ < mostRows && times->next(timeRow))
+    report_.notes.push_back("time: " + first.timeFile.filename().string() +
+                            " has more times than " + source.path().filename().string() +
+                            " has rows");
   if (rowIndex_ == mostRows && source.next(row)) atEnd_ = false;
 }
 
