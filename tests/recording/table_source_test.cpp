@@ -173,17 +173,17 @@ TEST(TextTable, ATextIsNoTable) {
   EXPECT_NE(refusalOf("").find("holds no row"), std::string::npos);
   EXPECT_NE(refusalOf("# only a comment\n").find("holds no row"), std::string::npos);
   EXPECT_NE(refusalOf("hello\nworld\n").find("no numbers"), std::string::npos);
-  for (const std::string utf16 : {std::string("\xFF\xFE"
-                                              "1\0,\0"
-                                              "2\0",
-                                              8),
-                                  std::string("1\0,\0"
-                                              "2\0\n\0",
-                                              8),
-                                  std::string("\0"
-                                              "1\0,\0"
-                                              "2\0\n",
-                                              8)})
+  for (const std::string& utf16 : {std::string("\xFF\xFE"
+                                               "1\0,\0"
+                                               "2\0",
+                                               8),
+                                   std::string("1\0,\0"
+                                               "2\0\n\0",
+                                               8),
+                                   std::string("\0"
+                                               "1\0,\0"
+                                               "2\0\n",
+                                               8)})
     EXPECT_NE(refusalOf(utf16).find("is a text in UTF-16; save it as UTF-8"), std::string::npos);
   EXPECT_NE(refusalOf(std::string("1,2\n") + std::string(kMaxLineBytes + 10, '7')).find("longer"),
             std::string::npos);
