@@ -384,19 +384,27 @@ std::optional<CsvShape> nestedForm(const SampleLines& sample, const TableOptions
 std::optional<CsvShape> nestedShape(const SampleLines& sample, const TableOptions& options) {
   auto shape = nestedForm(sample, options);
   if (!shape) return std::nullopt;
+  // The names are those of a line with as many values as most have.
+  std::map<std::size_t, std::size_t> counts;
+  std::map<std::size_t, std::vector<std::string>> namesBySize;
   Candidate table;
-  NestedLine longest;
-  for (const std::string_view line : sample.texts) {
+  for (std::size_t i = shape->nameLine != 0 ? 1 : 0; i < sample.texts.size(); ++i) {
     NestedLine each;
-    if (!splitNested(line, *shape, each)) continue;
-    table.rows.push_back(each.values);
-    if (each.names.size() > longest.names.size()) longest = std::move(each);
+    if (!splitNested(sample.texts[i], *shape, each)) continue;
+    ++counts[each.names.size()];
+    namesBySize.try_emplace(each.names.size(), std::move(each.names));
+    table.rows.push_back(std::move(each.values));
   }
-  if (longest.names.empty()) return std::nullopt;
+  if (counts.empty()) return std::nullopt;
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& one, const auto& other) {
+        return one.second < other.second;
+      });
+  const std::vector<std::string>& names = namesBySize[most->first];
   if (!sample.stamps.empty()) shape->columns.push_back(stampColumn(sample));
   const std::size_t numBefore = shape->columns.size();
-  for (const std::string& name : longest.names) shape->columns.push_back({.name = name});
-  table.numCells = longest.names.size();
+  for (const std::string& name : names) shape->columns.push_back({.name = name});
+  table.numCells = names.size();
   CsvShape described;
   described.columns.assign(shape->columns.begin() + static_cast<std::ptrdiff_t>(numBefore),
                            shape->columns.end());
@@ -526,6 +534,7 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
 
   if (auto nested = nestedShape(sample, options)) {
     nested->stamped = isStamped;
+    if (nested->nameLine != 0) nested->nameLine = numbers.front();
     return std::move(*nested);
   }
 

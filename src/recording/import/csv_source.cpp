@@ -105,7 +105,7 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
     const auto at = labelled_.find(names_[i]);
     if (at != labelled_.end()) {
       cells_[at->second] = values_[i];
-    } else if (shape_.nested) {
+    } else if (shape_.nested && (!shape_.cellNames.empty() || names_[i].ends_with(']'))) {
       row.fault = " has a value that the first lines have not: " + shortened(names_[i]);
       return false;
     }

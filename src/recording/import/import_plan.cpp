@@ -565,7 +565,8 @@ void Planner::setTimeUnit(PlannedSeries& series) {
   if (column.hasDates) {
     series.timeUnit = dateUnitOf(column);
     origin = "dates";
-  } else if (!mapping_.time.unit.empty() && series.kind == Kind::kFrames) {
+  } else if (!mapping_.time.unit.empty() && series.kind == Kind::kFrames &&
+             series.time != joinedTime_) {
     series.timeUnit = *timeUnitNamed(mapping_.time.unit);
   } else if (const auto unit = timeUnitNamed(column.unit); unit && !isDateUnit(*unit)) {
     series.timeUnit = *unit;
