@@ -614,8 +614,9 @@ TEST(RecordingImport, BytesZeroOfAPowerCutAreLeftOutAndCounted) {
   EXPECT_EQ(within.report.refused.first, "line 4 is cut off by bytes 0");
   EXPECT_EQ(within.report.nulBytes.count, 100u);
   EXPECT_EQ(within.report.nulBytes.line, 4u);
-  const std::string strict = testing::errorOf(
-      [&] { importText(folder, before + block, pad(1, 2), {}, {.strict = true}); });
+  const std::string strict = testing::errorOf([&] {
+    importText(folder, before + block, pad(1, 2), {}, {true, Overwrite::kReplace});
+  });
   EXPECT_NE(strict.find("5000000 bytes 0"), std::string::npos) << strict;
 }
 

@@ -54,9 +54,12 @@ std::size_t numNulRuns(std::string_view bytes) {
 }
 
 bool isUtf16(std::string_view bytes) {
+  // A byte 0 beside each letter.
+  constexpr int kFirstLetter = '\t';
   return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") ||
          (bytes.size() >= 4 && (bytes[0] == 0) == (bytes[2] == 0) &&
-          (bytes[1] == 0) == (bytes[3] == 0) && (bytes[0] == 0) != (bytes[1] == 0));
+          (bytes[1] == 0) == (bytes[3] == 0) && (bytes[0] == 0) != (bytes[1] == 0) &&
+          bytes[0] + bytes[1] >= kFirstLetter && bytes[2] + bytes[3] >= kFirstLetter);
 }
 
 std::string folderText(const fs::path& folder) {

@@ -219,6 +219,7 @@ class Planner {
   std::optional<std::size_t> timeWithin_;
   std::optional<std::size_t> joinedTime_;  // column that the source made of the two timeParts_
   std::set<std::size_t> timeParts_;
+  std::set<std::size_t> sameTimes_;      // of which a finer column is used
   std::set<std::size_t> sampleColumns_;  // of angles and temperatures
 };
 
@@ -469,7 +470,10 @@ void Planner::findTime(PlannedSeries& series, const std::string& named) {
       best = score;
       series.time = c;
     }
-    if (series.time) series.time = finestOf(*series.time);
+    if (series.time) {
+      sameTimes_.insert(*series.time);
+      series.time = finestOf(*series.time);
+    }
   }
   if (!series.time && !isFrames && time_ &&
       sameRows(columns_[*time_], columns_[series.columns.front()])) {
@@ -1086,6 +1090,7 @@ std::optional<PlannedSeries> Planner::onlySamples(Kind kind) {
 // Names the columns that nothing is made of, but for those about the others ("m0_active", "meta").
 void Planner::noteUnused() {
   std::set<std::size_t> used = timeParts_;
+  used.insert(sameTimes_.begin(), sameTimes_.end());
   for (const PlannedSeries& series : plan_.series) {
     used.insert(series.columns.begin(), series.columns.end());
     if (series.time && series.timeFile.empty()) used.insert(*series.time);
