@@ -68,7 +68,7 @@ std::string folderText(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure))
       if (entry.path().extension() == ending)
         return "is the folder of a bag of ROS 2: name its file " + entry.path().filename().string();
-  return "is a folder; name a file in it";
+  return {};
 }
 
 }  // namespace
