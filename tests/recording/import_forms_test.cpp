@@ -6,6 +6,7 @@
 
 namespace palpate::import_forms_test {
 namespace {
+namespace fs = std::filesystem;
 
 using testing::importText;
 using testing::pad;
@@ -33,8 +34,9 @@ TEST(ImportForms, BytesZeroOfAPowerCutAreLeftOutAndCounted) {
   EXPECT_EQ(within.report.refused.first, "line 4 is cut off by bytes 0");
   EXPECT_EQ(within.report.nulBytes.count, 100u);
   EXPECT_EQ(within.report.nulBytes.line, 4u);
-  const std::string strict = testing::errorOf(
-      [&] { importText(folder, before + block, pad(1, 2), {}, {.strict = true}); });
+  const std::string strict = testing::errorOf([&] {
+    importText(folder, before + block, pad(1, 2), {}, {true, Overwrite::kReplace});
+  });
   EXPECT_NE(strict.find("5000000 bytes 0"), std::string::npos) << strict;
 }
 
@@ -286,6 +288,38 @@ TEST(ImportForms, TimesOfAnotherFile) {
   EXPECT_EQ(more.profile.frameTimeUs(1), 25'000);
   ASSERT_FALSE(more.report.notes.empty());
   EXPECT_EQ(more.report.notes.back(), "time: times.csv has more times than table.csv has rows");
+}
+
+TEST(ImportForms, AFolderWithAFilePerFrame) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "session");
+  const auto write = [&](const char* name, const std::string& text) {
+    testing::writeFile(folder / "session" / name, text);
+  };
+  write("frame_2.csv", "5,6\n7,8\n");
+  write("frame_10.csv", "9,1\n2,3\n");
+  write("frame_1.csv", "1,2\n3,4\n");
+  write("frame_11.csv", "1,2\n");
+  write("notes.txt", "nothing");
+  ImportMapping mapping;
+  mapping.time.rateHz = 100.0;
+  const ImportReport report =
+      importRecording(folder / "session", pad(2, 2), mapping, folder / "o.palpate");
+  EXPECT_EQ(report.frames, 3u) << report.refused.first;
+  EXPECT_EQ(report.refused.first, "file 4 (frame_11.csv) has 2 numbers instead of 4");
+  const Profile profile = openRecording(folder / "o.palpate");
+  EXPECT_EQ(profile.frame(1).values, (std::vector<float>{5, 6, 7, 8}));
+  EXPECT_EQ(profile.frame(2).values, (std::vector<float>{9, 1, 2, 3}));
+  // The numbers in the names may be the times.
+  mapping.time = {};
+  mapping.time.column = "file";
+  mapping.time.unit = "ms";
+  importRecording(folder / "session",
+                  pad(2, 2),
+                  mapping,
+                  folder / "o.palpate",
+                  {.overwrite = Overwrite::kReplace});
+  EXPECT_EQ(openRecording(folder / "o.palpate").frameTimeUs(2), 10'000);
 }
 
 }  // namespace

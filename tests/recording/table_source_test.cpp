@@ -191,7 +191,7 @@ TEST(TextTable, ATextIsNoTable) {
   EXPECT_NE(refusalOf("BZh91AY").find("recording already"), std::string::npos);
   const testing::TemporaryFolder folder;
   EXPECT_THROW(openTable(folder / "absent.csv"), FileError);
-  EXPECT_THROW(openTable(folder.path()), FileError);
+  EXPECT_THROW(openTable(folder.path()), FormatError);
 }
 
 // imports 23: each file has the first bytes that its format's specification gives.

@@ -74,6 +74,7 @@ Candidate candidateOf(const SampleLines& lines, char delimiter, char decimal) {
       made.numCells = numCells;
       made.numSuch = rows;
     }
+  if (!counts.empty()) made.numSuch += countsOfTexts[made.numCells];
   std::size_t numeric = 0;
   std::size_t all = 0;
   for (const Cells& row : made.rows) {

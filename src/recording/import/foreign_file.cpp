@@ -54,9 +54,12 @@ std::size_t numNulRuns(std::string_view bytes) {
 }
 
 bool isUtf16(std::string_view bytes) {
+  // A byte 0 beside each letter.
+  constexpr int kFirstLetter = '\t';
   return bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") ||
          (bytes.size() >= 4 && (bytes[0] == 0) == (bytes[2] == 0) &&
-          (bytes[1] == 0) == (bytes[3] == 0) && (bytes[0] == 0) != (bytes[1] == 0));
+          (bytes[1] == 0) == (bytes[3] == 0) && (bytes[0] == 0) != (bytes[1] == 0) &&
+          bytes[0] + bytes[1] >= kFirstLetter && bytes[2] + bytes[3] >= kFirstLetter);
 }
 
 std::string folderText(const fs::path& folder) {
@@ -65,7 +68,7 @@ std::string folderText(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure))
       if (entry.path().extension() == ending)
         return "is the folder of a bag of ROS 2: name its file " + entry.path().filename().string();
-  return "is a folder; name a file in it";
+  return {};
 }
 
 }  // namespace

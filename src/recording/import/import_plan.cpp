@@ -680,7 +680,8 @@ void Planner::noteUnused() {
   }
   std::vector<TableColumn> unused;
   for (std::size_t c = 0; c < columns_.size(); ++c)
-    if (!used.contains(c) && !times_.isPart(c) && !hasWord(columns_[c], {"active", "mask", "meta"}))
+    if (!used.contains(c) && !times_.isPart(c) && !times_.hasSameTimes(c) &&
+        !hasWord(columns_[c], {"active", "mask", "meta"}))
       unused.push_back(columns_[c]);
   if (!unused.empty()) plan_.notes.push_back("not used: " + namesText(unused));
 }

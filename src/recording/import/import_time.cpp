@@ -135,7 +135,7 @@ std::string_view nameOf(TimeUnit unit) {
 }
 
 std::optional<TimeUnit> timeUnitNamed(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, TimeUnit>, 36> kWords = {
+  constexpr std::array<std::pair<std::string_view, TimeUnit>, 35> kWords = {
       {{"s", TimeUnit::kSeconds},
        {"sec", TimeUnit::kSeconds},
        {"secs", TimeUnit::kSeconds},

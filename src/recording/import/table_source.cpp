@@ -10,6 +10,7 @@
 #include "palpate/recording/hdf5_recording.h"
 
 #include "recording/import/csv_source.h"
+#include "recording/import/folder_source.h"
 #include "recording/import/foreign_file.h"
 #include "recording/import/hdf5_source.h"
 #include "recording/import/npz_source.h"
@@ -76,6 +77,8 @@ std::unique_ptr<TableSource> openTable(const std::filesystem::path& path,
     if (std::filesystem::is_directory(path, failure)) throw FileError(path, foreign);
     throw FormatError(path, foreign);
   }
+  if (std::error_code failure; std::filesystem::is_directory(path, failure))
+    return std::make_unique<FolderSource>(path, options);
   constexpr std::string_view kNumpy = "\x93NUMPY";
   const std::string first = beginningOfFile(path, kNumpy.size());
   if (first.starts_with("PK\x03\x04") || first.starts_with("PK\x05\x06") ||

@@ -279,7 +279,10 @@ std::optional<std::size_t> TimeChoice::takeBest(PlannedSeries& series, const Tab
     best = score;
     series.time = c;
   }
-  if (series.time) series.time = finestOf(*series.time);
+  if (series.time) {
+    sameTimes_.insert(*series.time);
+    series.time = finestOf(*series.time);
+  }
   return otherRows;
 }
 

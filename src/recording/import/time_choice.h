@@ -35,6 +35,8 @@ class TimeChoice {
   bool isOfFrames(std::size_t column) const { return time_ == column; }
   // Whether a column is one of two that are joined to the time.
   bool isPart(std::size_t column) const { return timeParts_.contains(column); }
+  // Whether a finer column of the same times is used instead of a column, or that one itself.
+  bool hasSameTimes(std::size_t column) const { return sameTimes_.contains(column); }
   // Whether a column is made of these two.
   bool isJoined(std::size_t column) const { return joinedTime_ == column; }
 
@@ -65,6 +67,7 @@ class TimeChoice {
   std::optional<std::size_t> timeWithin_;
   std::optional<std::size_t> joinedTime_;  // column that the source made of the two timeParts_
   std::set<std::size_t> timeParts_;
+  std::set<std::size_t> sameTimes_;  // of which a finer column is used
 };
 
 }  // namespace palpate
