@@ -158,7 +158,7 @@ TEST_F(ImportCommand, RefusesOptionsThatMakeNoSense) {
   refused({"--hand", pad, "--rate", "0"}, 2, "--rate");
   refused({"--hand", pad, "--start", "soon"}, 2, "not a date");
   refused({"--hand", pad, "--delimiter", "pipe"}, 2, "semicolon");
-  refused({"--hand", pad, "--decimal", "comma", "--delimiter", "comma"}, 2, "another delimiter");
+  refused({"--hand", pad, "--decimal", "comma", "--delimiter", "comma"}, 1, "another delimiter");
   refused({"--hand", pad, "--matrix", "300=a"}, 2, "0 to 255");
   refused({"--hand", pad, "--matrix", "0=absent*"}, 1, "absent*");
   refused({"--hand", pad, "--matrix", "0=taxel*", "--scale", "0"}, 2, "--scale 0");

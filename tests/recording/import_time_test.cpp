@@ -42,6 +42,50 @@ TEST(ImportTime, WhatIsNoDateIsNone) {
     EXPECT_EQ(parseDate(date), std::nullopt) << date;
 }
 
+// imports 22.
+TEST(ImportTime, DatesOfTheUsualFormsAreRead) {
+  constexpr std::int64_t kUs = 1'417'084'265'000'000;
+  const auto read = [](const char* date, TimeUnit form = TimeUnit::kDate) {
+    return parseDate(date, nullptr, form);
+  };
+  EXPECT_EQ(read("27.11.2014 10:31:05,0"), kUs);
+  EXPECT_EQ(read("2014-11-27-10:31:05"), kUs);
+  EXPECT_EQ(read("2014-11-27_10:31:05"), kUs);
+  EXPECT_EQ(read("27.11.2014, 10:31:05"), kUs);
+  EXPECT_EQ(read("27/11/2014 10:31:05", TimeUnit::kDayFirst), kUs);
+  EXPECT_EQ(read("27-11-2014 10:31:05", TimeUnit::kDayFirst), kUs);
+  EXPECT_EQ(read("11/27/2014 10:31:05", TimeUnit::kMonthFirst), kUs);
+  EXPECT_EQ(read("11/27/2014 10:31:05 AM", TimeUnit::kMonthFirst), kUs);
+  EXPECT_EQ(read("11/27/2014 10:31:05 pm", TimeUnit::kMonthFirst), kUs + 43'200'000'000);
+  // 3 April and 4 March 2014: date -u -d 2014-04-03 +%s.
+  EXPECT_EQ(read("3/4/2014", TimeUnit::kDayFirst), 1'396'483'200'000'000);
+  EXPECT_EQ(read("3/4/2014", TimeUnit::kMonthFirst), 1'393'891'200'000'000);
+  EXPECT_EQ(read("3/4/2014"), std::nullopt) << "either";
+  EXPECT_EQ(read("13/13/2014", TimeUnit::kDayFirst), std::nullopt);
+  EXPECT_EQ(read("3/4-2014", TimeUnit::kDayFirst), std::nullopt);
+  EXPECT_EQ(read("10:31:05.25", TimeUnit::kClock), 37'865'250'000);
+  EXPECT_EQ(read("12:00:01 AM", TimeUnit::kClock), 1'000'000);
+  EXPECT_EQ(read("12:00:01 PM", TimeUnit::kClock), 43'201'000'000);
+  EXPECT_EQ(read("13:00:01 PM", TimeUnit::kClock), std::nullopt);
+  EXPECT_EQ(read("24:00:00", TimeUnit::kClock), std::nullopt);
+  EXPECT_EQ(read("10:31:05Z", TimeUnit::kClock), std::nullopt);
+}
+
+TEST(ImportTime, ATimeOfDayGoesOnAfterMidnight) {
+  constexpr std::int64_t kDayUs = 86'400'000'000;
+  TimeReader reader(TimeUnit::kClock, 20'000 * kDayUs);
+  EXPECT_EQ(reader.us(text("23:59:59.5")), 20'000 * kDayUs + kDayUs - 500'000);
+  reader.keep();
+  const auto next = reader.wholeOf(text("00:00:00.5"));
+  ASSERT_EQ(next, 500'000);
+  ASSERT_TRUE(reader.mayRestart(*next));
+  EXPECT_TRUE(TimeReader::goesOnFrom(*next, 1'500'000));
+  reader.restart();
+  EXPECT_EQ(reader.us(text("00:00:00.5")), 20'001 * kDayUs + 500'000);
+  TimeReader exact(TimeUnit::kClock, 20'000 * kDayUs + 7);  // no midnight: the first row's time
+  EXPECT_EQ(exact.us(text("13:00:00")), 20'000 * kDayUs + 7);
+}
+
 TEST(ImportTime, UnitsAreTheWordsOfHeaders) {
   EXPECT_EQ(timeUnitNamed("Seconds"), TimeUnit::kSeconds);
   EXPECT_EQ(timeUnitNamed("ms"), TimeUnit::kMilliseconds);

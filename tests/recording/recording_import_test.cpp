@@ -133,10 +133,11 @@ TEST(RecordingImport, OfTwoColumnsOfTheSameTimesTheFinerIsTaken) {
   const auto made = importText(folder, table, pad(1, 2));
   ASSERT_EQ(made.profile.numFrames(), 2u) << made.report.refused.first;
   EXPECT_EQ(made.profile.frameTimeUs(1), 10'750);
-  // The parts of a time: seconds, and nanoseconds within the second.
+  // imports 13: the parts of a time are joined: seconds, and nanoseconds within the second.
   const char* parts = "stamp_s,stamp_ns,p0,p1\n10,250000000,1,2\n11,500000000,3,4\n";
   const auto seconds = importText(folder, parts, pad(1, 2));
-  EXPECT_EQ(seconds.profile.frameTimeUs(1), 11'000'000);
+  EXPECT_EQ(seconds.profile.frameTimeUs(0), 10'250'000);
+  EXPECT_EQ(seconds.profile.frameTimeUs(1), 11'500'000);
 }
 
 TEST(RecordingImport, AFrameThatAListOfTaxelsDoesNotHoldIsCounted) {
@@ -645,6 +646,25 @@ TEST(RecordingImport, ALastLineWithoutAnEndIsNoted) {
                 "line 3, the last one, has no line end: its last number may be cut off"});
   EXPECT_EQ(notes("\n"), std::vector<std::string>());
   EXPECT_EQ(notes("\r\n"), std::vector<std::string>());
+}
+
+TEST(RecordingImport, OurOwnJsonLinesComeBackWithTheirTimes) {
+  const TemporaryFolder folder;
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 5; ++i) {
+    std::vector<float> values(sdh2().layout->numCells(), 0.0F);
+    for (std::size_t m = 0; m < 6; ++m)
+      for (std::size_t k = 0; k < sdh2().layout->matrix(m).numCells(); k += 3)
+        if (sdh2().layout->matrix(m).staticMask[k] != 0)
+          values[sdh2().layout->offset(m) + k] =
+              static_cast<float>(100 * i + 7 * static_cast<int>(m) + static_cast<int>(k));
+    builder.addFrame(1'417'084'265'000'250 + i * 31'000, values);
+  }
+  const Profile before = builder.finish({});
+  saveRecording(before, {}, folder / "a.jsonl");
+  const ImportReport report = importRecording(folder / "a.jsonl", sdh2(), {}, folder / "b.palpate");
+  EXPECT_EQ(report.refused.total(), 0u) << report.refused.first;
+  expectSame(before, openRecording(folder / "b.palpate"));
 }
 
 TEST(RecordingImport, WhatIsMissingIsNamedWithWhatIsThere) {

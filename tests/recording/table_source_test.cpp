@@ -1,5 +1,6 @@
 #include "palpate/recording/table_source.h"
 
+#include <array>
 #include <cmath>
 
 #include <sys/stat.h>
@@ -97,6 +98,9 @@ TEST(TextTable, ArduinosSerialPlotter) {
                            "a:1,b:2.5\na:3,b:4\n",
                            "a:1\tb:2.5\t\na:3\tb:4\t\n",
                            "a: 1, b: 2.5\na: 3, b: 4\n",
+                           "a=1,b=2.5\na=3,b=4\n",
+                           "a = 1; b = 2.5\na = 3; b = 4\n",
+                           ">a:1,b:2.5\n>a:3,b:4\n",
                            "b:2.5 a:1\nb:4 a:3\n",
                            "a:1 b:2.5\nb:4 a:3\n"}) {
     const ReadTable table = readText(text);
@@ -143,18 +147,87 @@ TEST(TextTable, DecimalCommasAreNamed) {
   }
 }
 
+// imports 19.
+TEST(TextTable, QuotedCellsMayHaveDecimalCommas) {
+  const std::string text = "a,b,c\n\"0,00\",\"1,5\",7\n\"0,01\",\"10,25\",8\n";
+  EXPECT_NE(refusalOf(text).find("column 1: \"0,00\" has a decimal comma; read the file with "
+                                 "--decimal comma"),
+            std::string::npos)
+      << refusalOf(text);
+  for (const char delimiter : {'\0', ','}) {
+    const ReadTable table = readText(text, {.delimiter = delimiter, .decimal = ','});
+    EXPECT_EQ(table.names(), (Names{"a", "b", "c"}));
+    EXPECT_EQ(table.rows, (Rows{{0.0, 1.5, 7}, {0.01, 10.25, 8}}));
+  }
+  EXPECT_NE(refusalOf("a,b\n1,5\n2,7\n", {.delimiter = ',', .decimal = ','})
+                .find("decimal commas need another delimiter than a comma, or quotes"),
+            std::string::npos);
+  const std::string thousands = "a,b\n1,990\n2,\"1,010\"\n";
+  EXPECT_NE(refusalOf(thousands).find("\"1,010\" has a comma of thousands or a decimal comma; save "
+                                      "the file without commas of thousands"),
+            std::string::npos)
+      << refusalOf(thousands);
+}
+
 TEST(TextTable, ATextIsNoTable) {
   EXPECT_NE(refusalOf("").find("holds no row"), std::string::npos);
   EXPECT_NE(refusalOf("# only a comment\n").find("holds no row"), std::string::npos);
   EXPECT_NE(refusalOf("hello\nworld\n").find("no numbers"), std::string::npos);
-  EXPECT_NE(refusalOf(std::string("a\0b\n", 4)).find("byte 0"), std::string::npos);
+  for (const std::string& utf16 : {std::string("\xFF\xFE"
+                                               "1\0,\0"
+                                               "2\0",
+                                               8),
+                                   std::string("1\0,\0"
+                                               "2\0\n\0",
+                                               8),
+                                   std::string("\0"
+                                               "1\0,\0"
+                                               "2\0\n",
+                                               8)})
+    EXPECT_NE(refusalOf(utf16).find("is a text in UTF-16; save it as UTF-8"), std::string::npos);
   EXPECT_NE(refusalOf(std::string("1,2\n") + std::string(kMaxLineBytes + 10, '7')).find("longer"),
             std::string::npos);
   EXPECT_NE(refusalOf("\x1F\x8B\x08").find("gunzip"), std::string::npos);
   EXPECT_NE(refusalOf("BZh91AY").find("recording already"), std::string::npos);
   const testing::TemporaryFolder folder;
   EXPECT_THROW(openTable(folder / "absent.csv"), FileError);
-  EXPECT_THROW(openTable(folder.path()), FileError);
+  EXPECT_THROW(openTable(folder.path()), FormatError);
+}
+
+// imports 23: each file has the first bytes that its format's specification gives.
+TEST(OpenTable, NamesFilesOfOtherProgramsAndSaysWhatToDo) {
+  const std::string zeros(600, '\0');
+  const std::string sqlite = "SQLite format 3" + zeros;
+  const testing::TemporaryFolder folder;
+  for (const auto& [name, bytes, words] : std::vector<std::array<std::string, 3>>{
+           {"a.mat",
+            "MATLAB 5.0 MAT-file, Platform: GLNXA64" + zeros,
+            "save it in MATLAB with -v7.3"},
+           {"a.db3", sqlite, "a bag of ROS 2 in SQLite: convert it to MCAP (ros2 bag convert)"},
+           {"a.palpate", sqlite, "is a recording already"},
+           {"a.xlsx",
+            "PK\x03\x04" + zeros.substr(0, 26) + "[Content_Types].xml<Types/>",
+            "is an Excel workbook: save it as CSV"},
+           {"a.xls", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1" + zeros, "is an Excel workbook"},
+           {"a.parquet", "PAR1\x15\x04" + zeros, "is a Parquet file"},
+           {"a.xdf", "XDF:<info>" + zeros, "is an XDF file"},
+           {"a.bag", "#ROSBAG V2.0\n" + zeros, "is a bag of ROS 1"},
+           {"a.pkl", "\x80\x04\x95" + zeros, "is a pickle of Python: save its arrays as .npz"},
+           {"a.csv",
+            "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n",
+            "git lfs pull"},
+           {"a.mcap", "\x89MCAP0\r\n" + zeros, "palpate convert"},
+           {"a.bin", std::string("\1\0\2\0\0\3\0\4\4\0\5\0", 12) + zeros, "neither a text"}}) {
+    testing::writeFile(folder / name, bytes);
+    const std::string what = testing::errorOf([&, &name = name] { openTable(folder / name); });
+    EXPECT_NE(what.find(words), std::string::npos) << what;
+    EXPECT_EQ(what.find("UTF-16"), std::string::npos) << what;
+  }
+  std::filesystem::create_directory(folder / "bag");
+  testing::writeFile(folder / "bag/metadata.yaml", "rosbag2_bagfile_information:\n");
+  testing::writeFile(folder / "bag/bag_0.mcap", "");
+  EXPECT_NE(testing::errorOf([&] { openTable(folder / "bag"); }).find("name its file bag_0.mcap"),
+            std::string::npos);
 }
 
 // Every dtype of whole and real numbers, both byte orders, both orders of the array, compressed or

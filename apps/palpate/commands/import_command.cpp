@@ -40,8 +40,6 @@ ImportMapping importMappingOf(const CommandLine& given) {
     mapping.text.delimiter = *delimiterNamed(*name);
   if (const auto decimal = given.choice("decimal", {"point", "comma"}))
     mapping.text.decimal = *decimal == "comma" ? ',' : '.';
-  if (mapping.text.decimal == ',' && mapping.text.delimiter == ',')
-    throw UsageError("decimal commas need another delimiter than a comma");
   if (const auto header = given.choice("header", {"present", "absent", "detect"}))
     mapping.text.header = *header == "present"  ? HeaderChoice::kPresent
                           : *header == "absent" ? HeaderChoice::kAbsent
@@ -50,7 +48,7 @@ ImportMapping importMappingOf(const CommandLine& given) {
     mapping.time.column = *column;
     mapping.time.rateHz.reset();
   }
-  if (const auto unit = given.choice("time-unit", {"s", "ms", "us", "ns", "iso"}))
+  if (const auto unit = given.choice("time-unit", {"s", "ms", "us", "ns", "iso", "dmy", "mdy"}))
     mapping.time.unit = *unit;
   constexpr double kLowestRateHz = 1e-6;
   constexpr double kHighestRateHz = 1e6;
@@ -146,6 +144,7 @@ Json importJson(const fs::path& out, const ImportReport& report) {
       .set("longest_gap_s", report.longestGapS)
       .set("absent_frames", static_cast<std::int64_t>(report.absentFrames))
       .set("counter_restarts", static_cast<std::int64_t>(report.counterRestarts))
+      .set("nul_bytes", static_cast<std::int64_t>(report.nulBytes.count))
       .set("refused", std::move(refused))
       .set("outside",
            Json::object()
@@ -178,8 +177,9 @@ int importCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis =
            "palpate import DATA --hand NAME|FOLDER [-o OUT.palpate] [--map M.json] [--preview]",
-       .purpose = "Imports a table of another program as a recording: text (CSV, or lines that "
-                  "microcontrollers print), NumPy's .npy and .npz, HDF5. A row is a frame. Columns "
+       .purpose = "Imports a table of another program as a recording: text (CSV, JSON lines, or "
+                  "lines that microcontrollers print), NumPy's .npy and .npz, HDF5. A row is a "
+                  "frame. Columns "
                   "are found by names and shapes, or chosen: NAME, A..B, #3..#86 (by position, "
                   "from 1), left*, m{m}[{y}][{x}] (matrix, row, column), table[0]..table[5]. Rows "
                   "that can't be used are left out and counted, and so are values outside of the "
@@ -201,10 +201,17 @@ int importCommand(const Arguments& words) {
                    {"temperatures",
                     "COLUMNS",
                     "the temperatures, in the order of the sensors, or none"},
-                   {"time", "COLUMN", "the times of the rows"},
-                   {"time-unit", "UNIT", "s, ms, us, ns or iso"},
+                   {"time",
+                    "COLUMN",
+                    "the times of the rows; DATE,CLOCK or S,NS: two columns; or a file with "
+                    "the times of the rows"},
+                   {"time-unit",
+                    "UNIT",
+                    "s, ms, us, ns or iso; dmy or mdy: dates with the day or month first"},
                    {"rate", "HZ", "rows at equal intervals, where there are no times"},
-                   {"start", "DATE", "date of the first row (2026-11-22T10:31:05Z)"},
+                   {"start",
+                    "DATE",
+                    "date of the first row (2026-11-22T10:31:05Z); the day of times of day"},
                    {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
                    {"decimal", "NAME", "point (default) or comma"},
                    {"header", "WORD", "a line of names is present, absent or detect (default)"},

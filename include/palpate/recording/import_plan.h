@@ -37,6 +37,7 @@ struct PlannedSeries {
   std::vector<std::size_t> columns;  // of the file
   std::vector<PlannedValue> values;  // one per number of these columns in a row
   std::optional<std::size_t> time;   // column; empty: rows at equal intervals
+  std::filesystem::path timeFile;    // where that column is; empty: in `file`
   // Where the time is a number of the array columns.front(): which one of a row.
   std::optional<std::size_t> timeWithin;
   TimeUnit timeUnit = TimeUnit::kSeconds;
@@ -49,6 +50,7 @@ struct ImportPlan {
   // The rows are active taxels, as `palpate convert` writes them to .csv:
   // frame,time_ms,matrix,y,x,value,time_us.
   bool isTaxelList = false;
+  std::optional<double> rateHz;  // of rows without a time: the mapping's, or that of the file
   std::string timeDescription;
   std::vector<std::string> notes;  // what was not imported, or was guessed
 };

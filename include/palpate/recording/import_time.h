@@ -10,17 +10,34 @@
 
 namespace palpate {
 
-enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds, kDate };
+enum class TimeUnit {
+  kSeconds,
+  kMilliseconds,
+  kMicroseconds,
+  kNanoseconds,
+  kDate,        // of ISO 8601, or 22.11.2026
+  kDayFirst,    // or 22/11/2026
+  kMonthFirst,  // or 11/22/2026
+  kClock        // a time of day without a date
+};
+constexpr bool isDateUnit(TimeUnit unit) { return unit >= TimeUnit::kDate; }
 
-// "s", "ms", "us", "ns", "iso"; also the words that headers use ("seconds", "millis", "msec").
+// "s", "ms", "us", "ns", "iso", "dmy", "mdy"; also the words that headers use ("seconds", "millis",
+// "msec").
 std::string_view nameOf(TimeUnit unit);
 std::optional<TimeUnit> timeUnitNamed(std::string_view name);
 
-// Host time [us since 1970] of a date of ISO 8601: "2026-11-22T10:31:05.123Z", with a blank instead
-// of the T, with up to nine digits of a second, with an offset "+01:00"; without one it is UTC.
+// Host time [us since 1970] of a date of ISO 8601: "2026-11-22T10:31:05.123Z", with a blank, "-" or
+// "_" instead of the T, with up to nine digits of a second, with an offset "+01:00"; without one it
+// is UTC. Also of "22.11.2026 10:31:05,1" and "10:31:05 PM", and by the form (kDayFirst,
+// kMonthFirst) of "22/11/2026" or "11/22/2026"; of kClock of a time of day alone: since midnight.
 // Nothing when it is no such date (or one outside of 1900..2200). `hasOffset`: whether the date has
 // an offset, or says UTC.
-std::optional<std::int64_t> parseDate(std::string_view text, bool* hasOffset = nullptr);
+std::optional<std::int64_t> parseDate(std::string_view text,
+                                      bool* hasOffset = nullptr,
+                                      TimeUnit form = TimeUnit::kDate);
+// Whether a text is a date or a time of day in one of these forms.
+bool isDateText(std::string_view text);
 
 // What the values of a column that has no unit are, from one of them: seconds, milliseconds,
 // microseconds or nanoseconds since 1970 by their size; smaller ones are seconds when they have
@@ -29,14 +46,14 @@ TimeUnit guessTimeUnit(double value, bool isWhole);
 
 // Converts the times of one table, in order. Whole numbers are converted without rounding errors.
 //
-// A counter of 32 bits starts again at 0: micros() after 71.6 minutes, millis() after 49.7 days.
-// That is a whole number of milliseconds or microseconds that falls from the last to the first 5 %
-// of 2^32, and from which the next row goes on (mayRestart(), goesOnFrom()): a garbled number is
-// none.
+// A time of day goes on after midnight. A counter of 32 bits starts again at 0: micros() after 71.6
+// minutes, millis() after 49.7 days. That is a whole number of milliseconds or microseconds that
+// falls from the last to the first 5 % of 2^32, and from which the next row goes on (mayRestart(),
+// goesOnFrom()): a garbled number is none.
 class TimeReader {
  public:
-  // `startUs`: host time of the first row [us since 1970]; empty: times are as in the file.
-  // `decimal`: the character before decimals in texts.
+  // `startUs`: host time of the first row [us since 1970]; empty: times are as in the file. Of
+  // times of day, midnight of a day: that day. `decimal`: the character before decimals in texts.
   TimeReader(TimeUnit unit, std::optional<std::int64_t> startUs, char decimal = '.');
 
   // Nothing when the cell holds no time, or one that a recording can't hold.
@@ -52,10 +69,11 @@ class TimeReader {
   void restart() noexcept;
   // Whether dates had no offset, and were taken as UTC.
   bool assumedUtc() const noexcept { return assumedUtc_; }
-  // How often the counter started again.
+  // How often the counter started again, or midnight passed.
   std::uint64_t numRestarts() const noexcept { return restarts_; }
 
  private:
+  std::int64_t turn() const noexcept;  // of the counter; 0: it is none
   std::optional<std::int64_t> usOfWhole(std::int64_t value) const;
 
   TimeUnit unit_;

@@ -4,9 +4,10 @@
 //
 // A row is refused, and counted, when it has another number of cells than the table has columns, a
 // text where a number is needed, a cell missing among others, or a time that is not later than that
-// of the row before. Taxels above full scale, below 0 or NaN are imported and counted; places
-// without a taxel are not looked at. A row without any value of a series holds no sample of it:
-// programs that join series of different rates leave such cells empty.
+// of the row before. Bytes 0 in a text are left out and counted. Taxels above full scale, below 0
+// or NaN are imported and counted; places without a taxel are not looked at. A row without any
+// value of a series holds no sample of it: programs that join series of different rates leave such
+// cells empty.
 #pragma once
 
 #include <cstdint>
@@ -67,6 +68,7 @@ struct ImportReport {
   std::uint64_t temperatures = 0;  // samples
   RefusedRows refused;
   OutsideValues outside;
+  NulBytes nulBytes;        // left out of a text
   double durationS = 0.0;   // first to last frame [s]
   double meanRateHz = 0.0;  // (frames - 1) / duration; 0 with fewer than two frames
   std::uint64_t gaps = 0;   // between frames (GapDetector)
@@ -74,12 +76,14 @@ struct ImportReport {
   // Frames of a list of active taxels in which no taxel was active, so that the list does not hold
   // their times.
   std::uint64_t absentFrames = 0;
-  // How often a time counter of 32 bits started again at 0.
+  // How often a time counter of 32 bits started again at 0, or a time of day passed midnight.
   std::uint64_t counterRestarts = 0;
   std::vector<std::string> notes;  // of the plan, and of what was found in the rows
 
-  // Whether rows were left out, or values don't belong to the hand.
-  bool isPartial() const noexcept { return refused.total() + outside.total() > 0; }
+  // Whether something was left out, or values don't belong to the hand.
+  bool isPartial() const noexcept { return refused.total() + outside.total() + nulBytes.count > 0; }
+  // "4096 bytes 0 left out (a power cut?), from line 10"; empty without any.
+  std::string nulText() const;
   // One line that says so, with the first of each; empty otherwise.
   std::string lossText() const;
 };

@@ -18,15 +18,26 @@
 
 namespace palpate {
 
+// The dates of a column, as its first texts tell.
+enum class DateForm {
+  kIso,         // 2026-11-22, 22.11.2026, datetime64
+  kDayFirst,    // 22/11/2026
+  kMonthFirst,  // 11/22/2026
+  kEither,      // 11/12/2026
+  kClock        // times of day without a date
+};
+
 struct TableColumn {
   std::string name;       // as in the file; "column 3" (from 1) where a text has no header
   std::string unit = {};  // as in the file: "kPa"; empty when it is not known
   std::vector<std::size_t> shape = {};        // of the numbers of one row; empty: one number
   std::optional<std::uint64_t> numRows = {};  // known of arrays, not of texts
   std::string type = {};                      // "int16", "float64", "text", "bool", ..
-  std::string example = {};                   // the first text of a column that has texts
+  std::string example = {};                   // the first text of a column that has texts or dates
   bool isNumeric = true;                      // false: texts and other things that can't be values
-  bool hasDates = false;                      // ISO 8601 or datetime64: can only be the time
+  bool hasDates = false;                      // dates or times of day: can only be the time
+  DateForm dateForm = DateForm::kIso;         // of such a column
+  bool isDayOnly = false;                     // dates without a time of day
 
   // Numbers of one row: the product of the shape.
   std::size_t width() const noexcept;
@@ -56,12 +67,19 @@ struct TableRow {
   // Whether the row has as many cells as the table has columns. If not, the rest is not valid.
   bool complete = true;
   std::size_t numCells = 0;       // in the row, when it is not complete
+  std::string fault;              // why it is not complete: " has 4 cells instead of 5"
   std::vector<double> values;     // of the selected columns, one after the other
   std::vector<CellState> states;  // one per value
   TimeCell time;
 };
 
 enum class HeaderChoice { kDetect, kPresent, kAbsent };
+
+// Bytes 0 in a text: what a power cut leaves of data that was not yet on the disk.
+struct NulBytes {
+  std::uint64_t count = 0;
+  std::uint64_t line = 0;  // of the first one
+};
 
 // How a text is read; other files need no choices.
 struct TableOptions {
@@ -94,8 +112,24 @@ class TableSource {
   // The place of value `index` of the last row, and what stands there: "column 3: \"abc\"" (from
   // 1), "m0[3][2] is nan".
   virtual std::string placeOf(std::size_t index) const = 0;
+  // Bytes 0 of a text among the rows read so far; they are left out.
+  virtual NulBytes nulBytes() const { return {}; }
   // After the last row: why the end of the file may be missing; empty where nothing says so.
   virtual std::string endNote() const { return {}; }
+  // Adds a column that joins two of a text which are parts of one time, and returns its number:
+  // whole number * factor + whole number (below the factor); of factor 0 both texts, with a blank
+  // between them. Nothing of arrays. Before start().
+  virtual std::optional<std::size_t> joinTimes(std::size_t /*first*/,
+                                               std::size_t /*second*/,
+                                               std::int64_t /*factor*/) {
+    return std::nullopt;
+  }
+  // Makes one row of `count` lines of a text without names, with all their numbers as columns; a
+  // number that stands alone before each frame is the first column. Returns in words what a frame
+  // is; empty, and nothing is changed, when the lines don't come in such frames. Before start().
+  virtual std::string joinLines(std::size_t /*count*/) { return {}; }
+  // The rate that the head of a file gives.
+  virtual std::optional<double> rateHz() const { return std::nullopt; }
   // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.
   virtual bool isColumnMajor() const noexcept { return false; }
   // Reverses the axes of the array of a column, and with them what its rows are. Before start().

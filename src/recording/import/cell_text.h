@@ -47,6 +47,21 @@ inline std::optional<double> cellNumber(std::string_view cell, char decimal) {
   return parseDouble(cell);
 }
 
+// Whether a number with one comma may have it after its thousands: "1,010".
+inline bool mayBeThousands(std::string_view cell) {
+  cell = trimmedCell(cell);
+  const auto comma = cell.find(',');
+  return comma >= 1 && comma <= 3 && cell.size() == comma + 4 && cell[0] != '0' &&
+         cell.find_first_not_of("0123456789,") == std::string_view::npos;
+}
+
+// A hint at what a cell with a comma is, for messages; empty for others.
+inline std::string commaHint(std::string_view cell) {
+  if (!cellNumber(cell, ',')) return {};
+  return mayBeThousands(cell) ? " (a comma of thousands, or a decimal comma?)"
+                              : " (a decimal comma?)";
+}
+
 // What a text stands for: "not a number" or infinity; nothing for another text.
 inline std::optional<double> notFiniteValue(std::string_view cell) {
   std::string word = smallLetters(trimmedCell(cell));

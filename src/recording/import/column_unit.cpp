@@ -108,7 +108,7 @@ bool isUnitEnding(std::string_view text) {
   const KnownUnit* unit = knownUnit(text);
   if (text == "s") return true;
   if (unit && text.size() >= 2) return unit->quantity != Quantity::kCounts || text == "counts";
-  return !unit && timeUnitNamed(text) && timeUnitNamed(text) != TimeUnit::kDate;
+  return !unit && timeUnitNamed(text) && !isDateUnit(*timeUnitNamed(text));
 }
 
 SplitName splitName(std::string_view name) {

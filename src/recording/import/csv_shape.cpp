@@ -31,7 +31,7 @@ CellKind kindOf(std::string_view cell, char decimal) {
     case CellState::kText:
       break;
   }
-  if (parseDate(trimmedCell(cell))) return CellKind::kDate;
+  if (isDateText(trimmedCell(cell))) return CellKind::kDate;
   return decimal == '.' && cellNumber(cell, ',') ? CellKind::kDecimalComma : CellKind::kText;
 }
 
@@ -48,19 +48,33 @@ struct Candidate {
   }
 };
 
-Candidate candidateOf(const std::vector<std::string_view>& lines, char delimiter, char decimal) {
+// The lines of a sample, and the times before them that a serial monitor wrote; none: empty.
+struct SampleLines {
+  std::vector<std::string_view> texts;
+  std::vector<std::string_view> stamps;
+};
+
+Candidate candidateOf(const SampleLines& lines, char delimiter, char decimal) {
   Candidate made;
   made.delimiter = delimiter;
-  std::map<std::size_t, std::size_t> counts;
-  for (const std::string_view line : lines) {
-    splitCells(line, delimiter, made.rows.emplace_back());
-    ++counts[made.rows.back().size()];
+  std::map<std::size_t, std::size_t> counts;         // of the rows with a number
+  std::map<std::size_t, std::size_t> countsOfTexts;  // of the others
+  for (std::size_t i = 0; i < lines.texts.size(); ++i) {
+    Cells& row = made.rows.emplace_back();
+    splitCells(lines.texts[i], delimiter, row);
+    if (!lines.stamps.empty()) row.insert(row.begin(), lines.stamps[i]);
+    const bool hasNumber = std::any_of(row.begin(), row.end(), [&](std::string_view cell) {
+      const CellKind kind = kindOf(cell, decimal);
+      return kind == CellKind::kNumber || kind == CellKind::kDecimalComma;
+    });
+    ++(hasNumber ? counts : countsOfTexts)[row.size()];
   }
-  for (const auto& [numCells, rows] : counts)
+  for (const auto& [numCells, rows] : counts.empty() ? countsOfTexts : counts)
     if (rows > made.numSuch || (rows == made.numSuch && numCells > made.numCells)) {
       made.numCells = numCells;
       made.numSuch = rows;
     }
+  if (!counts.empty()) made.numSuch += countsOfTexts[made.numCells];
   std::size_t numeric = 0;
   std::size_t all = 0;
   for (const Cells& row : made.rows) {
@@ -74,12 +88,17 @@ Candidate candidateOf(const std::vector<std::string_view>& lines, char delimiter
   return made;
 }
 
-Candidate bestCandidate(const std::vector<std::string_view>& lines, const TableOptions& options) {
+Candidate bestCandidate(const SampleLines& lines, const TableOptions& options) {
   constexpr std::array kDelimiters = {',', ';', '\t', ' '};
+  const bool areQuoted =
+      std::any_of(lines.texts.begin(), lines.texts.end(), [](std::string_view line) {
+        return line.find('"') != std::string_view::npos;
+      });
   std::optional<Candidate> best;
   for (const char delimiter : kDelimiters) {
     if (options.delimiter != 0 && delimiter != options.delimiter) continue;
-    if (options.delimiter == 0 && delimiter == options.decimal) continue;
+    // Decimal commas between commas need quotes.
+    if (options.delimiter == 0 && delimiter == options.decimal && !areQuoted) continue;
     Candidate next = candidateOf(lines, delimiter, options.decimal);
     // A table of one column has no delimiter: any other candidate is better.
     const auto rank = [](const Candidate& each) {
@@ -177,6 +196,31 @@ void dropEmptyEnd(CsvShape& shape, const Candidate& table, std::size_t firstRow)
   shape.columns.pop_back();
 }
 
+// Which form the dates of a column have.
+void describeDates(TableColumn& column,
+                   std::size_t c,
+                   const Candidate& table,
+                   const std::vector<SampleRow>& rows) {
+  const auto fit = [&](TimeUnit form) {
+    return std::all_of(rows.begin(), rows.end(), [&](const SampleRow& row) {
+      return c >= row.kinds.size() || row.kinds[c] != CellKind::kDate ||
+             parseDate(trimmedCell(table.rows[row.index][c]), nullptr, form);
+    });
+  };
+  const bool dayFirst = fit(TimeUnit::kDayFirst);
+  const bool monthFirst = fit(TimeUnit::kMonthFirst);
+  column.dateForm = fit(TimeUnit::kDate)     ? DateForm::kIso
+                    : dayFirst && monthFirst ? DateForm::kEither
+                    : dayFirst               ? DateForm::kDayFirst
+                    : monthFirst             ? DateForm::kMonthFirst
+                    : fit(TimeUnit::kClock)  ? DateForm::kClock
+                                             : DateForm::kIso;
+  column.isDayOnly = std::all_of(rows.begin(), rows.end(), [&](const SampleRow& row) {
+    return c >= row.kinds.size() || row.kinds[c] != CellKind::kDate ||
+           table.rows[row.index][c].find(':') == std::string_view::npos;
+  });
+}
+
 // Marks the columns that hold dates or texts.
 void describeCells(CsvShape& shape,
                    const Candidate& table,
@@ -189,7 +233,9 @@ void describeCells(CsvShape& shape,
     for (const SampleRow& row : rows) {
       if (row.index < firstRow || c >= row.kinds.size()) continue;
       dates += row.kinds[c] == CellKind::kDate ? 1 : 0;
-      if (row.kinds[c] == CellKind::kText && texts++ == 0)
+      texts += row.kinds[c] == CellKind::kText ? 1 : 0;
+      if ((row.kinds[c] == CellKind::kText && texts == 1) ||
+          (row.kinds[c] == CellKind::kDate && shape.columns[c].example.empty()))
         shape.columns[c].example = std::string(trimmedCell(table.rows[row.index][c]));
       numbers += row.kinds[c] == CellKind::kNumber ? 1 : 0;
     }
@@ -197,19 +243,10 @@ void describeCells(CsvShape& shape,
     column.hasDates = dates > 0 && dates >= texts + numbers;
     column.isNumeric = !column.hasDates && (numbers > 0 || texts == 0);
     if (column.isNumeric) column.example.clear();
+    if (column.hasDates) describeDates(column, c, table, rows);
     column.type = column.hasDates ? "date" : column.isNumeric ? "number" : "text";
     if (column.unit.empty()) column.unit = unitInName(column.name);
   }
-}
-
-[[noreturn]] void refuseDecimalComma(const std::filesystem::path& path,
-                                     std::uint64_t line,
-                                     std::size_t column,
-                                     std::string_view cell) {
-  throw FormatError(path,
-                    "line " + std::to_string(line) + ", column " + std::to_string(column) + ": " +
-                        inQuotes(trimmedCell(cell)) +
-                        " has a decimal comma; read the file with --decimal comma");
 }
 
 void requireDecimalPoints(const std::filesystem::path& path,
@@ -218,21 +255,73 @@ void requireDecimalPoints(const std::filesystem::path& path,
                           const std::vector<std::uint64_t>& lineNumbers) {
   std::size_t commas = 0;
   std::size_t numbers = 0;
+  bool mayBeOfThousands = true;  // all of them
   const SampleRow* first = nullptr;
   for (const SampleRow& row : rows)
-    for (const CellKind kind : row.kinds) {
-      commas += kind == CellKind::kDecimalComma ? 1 : 0;
-      numbers += kind == CellKind::kNumber ? 1 : 0;
-      if (kind == CellKind::kDecimalComma && !first) first = &row;
+    for (std::size_t c = 0; c < row.kinds.size(); ++c) {
+      numbers += row.kinds[c] == CellKind::kNumber ? 1 : 0;
+      if (row.kinds[c] != CellKind::kDecimalComma) continue;
+      ++commas;
+      mayBeOfThousands = mayBeOfThousands && mayBeThousands(table.rows[row.index][c]);
+      if (!first) first = &row;
     }
   if (!first || 10 * commas < numbers) return;
   const auto at = std::find(first->kinds.begin(), first->kinds.end(), CellKind::kDecimalComma);
   const auto column = static_cast<std::size_t>(at - first->kinds.begin());
-  refuseDecimalComma(path, lineNumbers[first->index], column + 1, table.rows[first->index][column]);
+  throw FormatError(
+      path,
+      "line " + std::to_string(lineNumbers[first->index]) + ", column " +
+          std::to_string(column + 1) + ": " +
+          inQuotes(trimmedCell(table.rows[first->index][column])) +
+          (mayBeOfThousands ? " has a comma of thousands or a decimal comma; save the file without "
+                              "commas of thousands, or read it with --decimal comma"
+                            : " has a decimal comma; read the file with --decimal comma"));
+}
+
+// Where commas stand between cells, those with decimal commas are in quotes.
+void requireQuotedCommas(const std::filesystem::path& path,
+                         const Candidate& table,
+                         const std::vector<SampleRow>& rows,
+                         const TableOptions& options) {
+  if (table.delimiter != options.decimal) return;
+  for (const SampleRow& row : rows)
+    for (std::size_t c = 0; c < row.kinds.size(); ++c)
+      if (row.kinds[c] == CellKind::kNumber &&
+          table.rows[row.index][c].find(options.decimal) != std::string_view::npos)
+        return;
+  throw FormatError(path,
+                    "decimal commas need another delimiter than a comma, or quotes around the "
+                    "cells");
+}
+
+// The sample without the times of a serial monitor, if most lines have one.
+SampleLines withoutStamps(std::vector<std::string_view> lines) {
+  SampleLines sample{lines, {}};
+  std::size_t such = 0;
+  for (std::string_view& line : lines) {
+    sample.stamps.push_back(takeStamp(line));
+    such += sample.stamps.back().empty() ? 0 : 1;
+  }
+  if (2 * such <= lines.size()) return {std::move(sample.texts), {}};
+  sample.texts = std::move(lines);
+  return sample;
+}
+
+TableColumn stampColumn(const SampleLines& sample) {
+  TableColumn column{.name = "stamp"};
+  column.type = "date";
+  column.isNumeric = false;
+  column.hasDates = true;
+  column.dateForm = DateForm::kClock;
+  for (const std::string_view stamp : sample.stamps)
+    if (!stamp.empty() && !parseDate(stamp, nullptr, TimeUnit::kClock))
+      column.dateForm = DateForm::kIso;
+  return column;
 }
 
 // The shape of name:value lines; nothing when most lines are of another form.
-std::optional<CsvShape> labelledShape(const std::vector<std::string_view>& lines, char decimal) {
+std::optional<CsvShape> labelledShape(const SampleLines& sample, char decimal) {
+  const auto& lines = sample.texts;
   std::size_t such = 0;
   Cells names;
   Cells values;
@@ -247,6 +336,7 @@ std::optional<CsvShape> labelledShape(const std::vector<std::string_view>& lines
   shape.labelled = true;
   shape.delimiter = ' ';
   shape.decimal = decimal;
+  if (!sample.stamps.empty()) shape.columns.push_back(stampColumn(sample));
   for (const std::string_view name : longest) {
     TableColumn column{.name = std::string(name), .unit = unitInName(name)};
     column.type = "number";
@@ -255,7 +345,98 @@ std::optional<CsvShape> labelledShape(const std::vector<std::string_view>& lines
   return shape;
 }
 
+// Which lists the lines have, and the names of their cells; nothing when most lines have none.
+std::optional<CsvShape> nestedForm(const SampleLines& sample, const TableOptions& options) {
+  const auto& lines = sample.texts;
+  const auto areMost = [&](std::size_t such) { return 2 * such > lines.size(); };
+  CsvShape shape;
+  shape.nested = true;
+  shape.decimal = options.decimal;
+  if (areMost(static_cast<std::size_t>(std::count_if(
+          lines.begin(), lines.end(), [](std::string_view line) { return isNestedText(line); }))))
+    return shape;
+  for (const char delimiter : {',', ';', '\t'}) {
+    if (options.delimiter != 0 && delimiter != options.delimiter) continue;
+    Cells cells;
+    Cells first;  // with a list
+    std::size_t such = 0;
+    for (const std::string_view line : lines) {
+      splitNestedCells(line, delimiter, cells);
+      if (cells.size() < 2 || std::none_of(cells.begin(), cells.end(), isNestedText)) continue;
+      if (such++ == 0) first = cells;
+    }
+    if (!areMost(such)) continue;
+    shape.delimiter = delimiter;
+    splitNestedCells(lines.front(), delimiter, cells);
+    const bool named = cells.size() == first.size() && options.header != HeaderChoice::kAbsent &&
+                       std::none_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+                         return isNestedText(cell) || isValue(kindOf(cell, options.decimal));
+                       });
+    for (std::size_t c = 0; c < first.size(); ++c)
+      shape.cellNames.push_back(named ? std::string(trimmedCell(cells[c]))
+                                      : "column " + std::to_string(c + 1));
+    shape.nameLine = named ? 1 : 0;
+    return shape;
+  }
+  return std::nullopt;
+}
+
+// The shape of lines with lists in them; nothing when most lines have none.
+std::optional<CsvShape> nestedShape(const SampleLines& sample, const TableOptions& options) {
+  auto shape = nestedForm(sample, options);
+  if (!shape) return std::nullopt;
+  // The names are those of a line with as many values as most have.
+  std::map<std::size_t, std::size_t> counts;
+  std::map<std::size_t, std::vector<std::string>> namesBySize;
+  Candidate table;
+  for (std::size_t i = shape->nameLine != 0 ? 1 : 0; i < sample.texts.size(); ++i) {
+    NestedLine each;
+    if (!splitNested(sample.texts[i], *shape, each)) continue;
+    ++counts[each.names.size()];
+    namesBySize.try_emplace(each.names.size(), std::move(each.names));
+    table.rows.push_back(std::move(each.values));
+  }
+  if (counts.empty()) return std::nullopt;
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& one, const auto& other) {
+        return one.second < other.second;
+      });
+  const std::vector<std::string>& names = namesBySize[most->first];
+  if (!sample.stamps.empty()) shape->columns.push_back(stampColumn(sample));
+  const std::size_t numBefore = shape->columns.size();
+  for (const std::string& name : names) shape->columns.push_back({.name = name});
+  table.numCells = names.size();
+  CsvShape described;
+  described.columns.assign(shape->columns.begin() + static_cast<std::ptrdiff_t>(numBefore),
+                           shape->columns.end());
+  describeCells(described, table, fullRows(table, options.decimal), 0);
+  std::move(described.columns.begin(),
+            described.columns.end(),
+            shape->columns.begin() + static_cast<std::ptrdiff_t>(numBefore));
+  return shape;
+}
+
 }  // namespace
+
+bool splitNested(std::string_view line, const CsvShape& shape, NestedLine& values) {
+  values.names.clear();
+  values.values.clear();
+  if (shape.cellNames.empty())
+    return flattenNested(trimmed(line), trimmed(line).starts_with('{') ? "" : "list", values);
+  Cells cells;
+  splitNestedCells(line, shape.delimiter, cells);
+  if (cells.size() != shape.cellNames.size()) return false;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::string_view cell = trimmedCell(cells[c]);
+    if (isNestedText(cell)) {
+      if (!flattenNested(cell, shape.cellNames[c], values)) return false;
+    } else {
+      values.names.push_back(shape.cellNames[c]);
+      values.values.push_back(cell);
+    }
+  }
+  return true;
+}
 
 void splitCells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
@@ -283,15 +464,29 @@ void splitCells(std::string_view line, char delimiter, std::vector<std::string_v
   }
 }
 
+std::string_view takeStamp(std::string_view& line) {
+  constexpr std::string_view kArrow = " -> ";
+  const bool bracketed = line.starts_with('[');
+  const std::size_t end = bracketed ? line.find(']') : line.find(kArrow);
+  if (end == std::string_view::npos) return {};
+  const std::string_view stamp = trimmed(line.substr(bracketed ? 1 : 0, end - (bracketed ? 1 : 0)));
+  if (!isDateText(stamp)) return {};
+  line.remove_prefix(end + (bracketed ? 1 : kArrow.size()));
+  line = trimmed(line, " ");
+  return stamp;
+}
+
 bool splitLabelled(std::string_view line,
                    std::vector<std::string_view>& names,
                    std::vector<std::string_view>& values) {
   constexpr std::string_view kBetween = " \t,;";
   names.clear();
   values.clear();
+  line = trimmed(line);
+  if (line.starts_with('>')) line.remove_prefix(1);  // as Teleplot reads it
   std::size_t at = line.find_first_not_of(kBetween);
   while (at != std::string_view::npos) {
-    const auto colon = line.find(':', at);
+    const auto colon = line.find_first_of(":=", at);
     if (colon == std::string_view::npos) return false;
     const std::string_view name = trimmed(line.substr(at, colon - at));
     // A name has a letter first, so that 10:31:05 is none.
@@ -330,16 +525,28 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
     }
   }
   if (kept.empty()) throw FormatError(path, "holds no row");
+  const SampleLines sample = withoutStamps(std::move(kept));
+  const bool isStamped = !sample.stamps.empty();
   if (options.delimiter == 0)
-    if (auto labelled = labelledShape(kept, options.decimal)) return std::move(*labelled);
+    if (auto labelled = labelledShape(sample, options.decimal)) {
+      labelled->stamped = isStamped;
+      return std::move(*labelled);
+    }
 
-  const Candidate table = bestCandidate(kept, options);
+  if (auto nested = nestedShape(sample, options)) {
+    nested->stamped = isStamped;
+    if (nested->nameLine != 0) nested->nameLine = numbers.front();
+    return std::move(*nested);
+  }
+
+  const Candidate table = bestCandidate(sample, options);
   if (table.numCells > kMaxNumbersPerRow)
     throw FormatError(path, "has more than " + std::to_string(kMaxNumbersPerRow) + " columns");
   const std::vector<SampleRow> rows = fullRows(table, options.decimal);
   CsvShape shape;
   shape.delimiter = table.delimiter;
   shape.decimal = options.decimal;
+  shape.stamped = isStamped;
   shape.columns.resize(table.numCells);
   std::size_t firstRow = 0;  // in the sample
   const bool named =
@@ -373,7 +580,9 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
       shape.nameLine = *lastComment + 1;
     }
   }
+  if (isStamped) shape.columns.front() = stampColumn(sample);
   requireDecimalPoints(path, table, rows, numbers);
+  requireQuotedCommas(path, table, rows, options);
   dropEmptyEnd(shape, table, firstRow);
   describeCells(shape, table, rows, firstRow);
   if (std::none_of(shape.columns.begin(), shape.columns.end(), [](const TableColumn& column) {

@@ -3,6 +3,7 @@
 //   time;m0[0][0];m0[0][1]      separated by comma, semicolon, tab, or blanks and tabs; with or
 //   ms;counts;counts            without a line of names and a line of units
 //   left:12 right:17            Arduino's serial plotter: names and values in each line
+//   10:31:00.123 -> 12,17       a serial monitor's time before each line, also in [brackets]
 #pragma once
 
 #include <cstdint>
@@ -13,12 +14,17 @@
 
 #include "palpate/recording/table_source.h"
 
+#include "recording/import/nested_text.h"
+
 namespace palpate {
 
 struct CsvShape {
   char delimiter = ',';
   char decimal = '.';
-  bool labelled = false;  // name:value in each cell
+  bool labelled = false;               // name:value in each cell
+  bool nested = false;                 // lists or objects in each line (see nested_text.h)
+  std::vector<std::string> cellNames;  // of nested lines: of their cells; none: a line is one list
+  bool stamped = false;                // the first column is a serial monitor's time
   std::vector<TableColumn> columns;
   std::uint64_t nameLine = 0;  // 0: none
   std::uint64_t unitLine = 0;
@@ -35,8 +41,15 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
 // The cells are views into `line`.
 void splitCells(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
 
-// Splits "name:value" cells of a line: names and values are views into `line`. False when a cell is
-// of another form. The cells are separated by blanks, tabs, commas or semicolons.
+// The values of a nested line and their names; false when it is of another form.
+bool splitNested(std::string_view line, const CsvShape& shape, NestedLine& values);
+
+// Takes the time of a serial monitor off the beginning of a line; empty: there is none.
+std::string_view takeStamp(std::string_view& line);
+
+// Splits "name:value" or "name=value" cells of a line: names and values are views into `line`.
+// False when a cell is of another form. The cells are separated by blanks, tabs, commas or
+// semicolons.
 bool splitLabelled(std::string_view line,
                    std::vector<std::string_view>& names,
                    std::vector<std::string_view>& values);

@@ -1,9 +1,11 @@
 #include "recording/import/csv_source.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
 
 #include "recording/import/cell_text.h"
 
@@ -32,15 +34,31 @@ std::vector<std::string> firstLines(LineReader& reader) {
 
 CsvSource::CsvSource(const std::filesystem::path& path, const TableOptions& options)
     : path_(path), reader_(path), shape_(detectCsvShape(path, firstLines(reader_), options)) {
-  for (std::size_t c = 0; shape_.labelled && c < shape_.columns.size(); ++c)
+  // The head of a movie of Tekscan.
+  constexpr std::string_view kPeriod = "SECONDS_PER_FRAME";
+  std::string_view line;
+  for (std::size_t i = 0; i < kCsvSampleLines && !rateHz_ && reader_.next(line); ++i)
+    if (line.starts_with(kPeriod))
+      if (const auto period = parseDouble(trimmed(line.substr(kPeriod.size())));
+          period && *period > 0.0)
+        rateHz_ = 1.0 / *period;
+  reader_.restart();
+  for (std::size_t c = 0; (shape_.labelled || shape_.nested) && c < shape_.columns.size(); ++c)
     labelled_.try_emplace(shape_.columns[c].name, c);
 }
 
 std::string CsvSource::form() const {
-  if (shape_.labelled) return "text, name:value in each line";
+  if (shape_.nested)
+    return shape_.cellNames.empty() ? "text, a list or an object in each line"
+                                    : "text, lists in its cells, separated by " +
+                                          std::string(delimiterName(shape_.delimiter)) + "s";
+  if (shape_.labelled)
+    return std::string("text, name:value in each line") +
+           (shape_.stamped ? ", times before the lines" : "");
   std::string text = "text, separated by " + std::string(delimiterName(shape_.delimiter)) + "s";
   if (shape_.columns.size() == 1) text = "text, one number in each line";
   if (shape_.decimal == ',') text += ", with decimal commas";
+  if (shape_.stamped) text += ", times before the lines";
   text += shape_.nameLine == 0 ? ", without names"
                                : ", names in line " + std::to_string(shape_.nameLine);
   if (shape_.unitLine != 0) text += ", units in line " + std::to_string(shape_.unitLine);
@@ -50,22 +68,32 @@ std::string CsvSource::form() const {
 void CsvSource::start(std::span<const std::size_t> columns, std::optional<std::size_t> time) {
   selected_.assign(columns.begin(), columns.end());
   time_ = time;
+  frames_.before.clear();
+  frames_.isBegun = false;
+  frames_.brokenAt = 0;
   reader_.restart();
 }
 
 // Puts the cells of a line into cells_, by column; false when their number is wrong.
 bool CsvSource::readCells(std::string_view line, TableRow& row) {
-  const std::size_t numColumns = shape_.columns.size();
-  if (!shape_.labelled) {
+  const std::size_t numColumns = shape_.columns.size() - joined_.size();
+  const std::string_view stamp = shape_.stamped ? takeStamp(line) : std::string_view();
+  if (!shape_.labelled && !shape_.nested) {
     splitCells(line, shape_.delimiter, cells_);
+    if (!stamp.empty()) cells_.insert(cells_.begin(), stamp);
     const bool emptyEnd = cells_.size() == numColumns + 1 && trimmedCell(cells_.back()).empty();
     row.numCells = cells_.size();
-    return cells_.size() == numColumns || emptyEnd;
+    if (emptyEnd) cells_.pop_back();
+    if (cells_.size() == numColumns) return true;
+    row.fault =
+        " has " + counted(row.numCells, "cell") + " instead of " + std::to_string(numColumns);
+    return false;
   }
   cells_.assign(numColumns, {});
-  if (!splitLabelled(line, names_, values_)) {
-    row.numCells = 0;
-    return false;
+  if (!splitNamed(line, row)) return false;
+  if (shape_.stamped) {
+    names_.insert(names_.begin(), shape_.columns.front().name);
+    values_.insert(values_.begin(), stamp);
   }
   row.numCells = names_.size();
   for (std::size_t i = 0; i < names_.size(); ++i) {
@@ -75,19 +103,172 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
       continue;
     }
     const auto at = labelled_.find(names_[i]);
-    if (at != labelled_.end()) cells_[at->second] = values_[i];
+    if (at != labelled_.end()) {
+      cells_[at->second] = values_[i];
+    } else if (shape_.nested && (!shape_.cellNames.empty() || names_[i].ends_with(']'))) {
+      row.fault = " has a value that the first lines have not: " + shortened(names_[i]);
+      return false;
+    }
   }
   return true;
 }
 
-bool CsvSource::next(TableRow& row) {
+// Splits a line in which values have names; false when it is of another form.
+bool CsvSource::splitNamed(std::string_view line, TableRow& row) {
+  row.numCells = 0;
+  if (!shape_.nested) {
+    row.fault = " has a cell that is not name:value";
+    return splitLabelled(line, names_, values_);
+  }
+  row.fault = " has no list or object as the first lines have";
+  if (!splitNested(line, shape_, nested_)) return false;
+  names_.assign(nested_.names.begin(), nested_.names.end());
+  values_.assign(nested_.values.begin(), nested_.values.end());
+  return true;
+}
+
+std::optional<std::size_t> CsvSource::joinTimes(std::size_t first,
+                                                std::size_t second,
+                                                std::int64_t factor) {
+  TableColumn joined = shape_.columns[first];
+  joined.name += " + " + shape_.columns[second].name;
+  joined.example += " " + shape_.columns[second].example;
+  joined.isDayOnly = false;
+  if (factor != 0) joined.unit = factor == 1'000'000'000 ? "ns" : "us";
+  shape_.columns.push_back(std::move(joined));
+  joined_.push_back({first, second, factor, {}});
+  return shape_.columns.size() - 1;
+}
+
+// Puts the joined times behind the cells of the line.
+void CsvSource::readJoinedTimes() {
+  for (JoinedTime& joined : joined_) {
+    const std::string_view first = trimmedCell(cells_[joined.first]);
+    const std::string_view second = trimmedCell(cells_[joined.second]);
+    const auto whole = parseInteger(first);
+    const auto part = parseInteger(second);
+    std::int64_t sum = 0;
+    const bool isSum = joined.factor != 0 && whole && part && *part >= 0 && *part < joined.factor &&
+                       !__builtin_mul_overflow(*whole, joined.factor, &sum) &&
+                       !__builtin_add_overflow(sum, *part, &sum);
+    joined.text.assign(isSum ? std::to_string(sum) : first);
+    if (!isSum && !second.empty()) joined.text.append(" ").append(second);
+    cells_.push_back(joined.text);
+  }
+}
+
+// Whether a line has the numbers of one line of a frame; its cells are then in cells_.
+bool CsvSource::isFrameLine(std::string_view line, std::size_t numbers) {
+  splitCells(line, shape_.delimiter, cells_);
+  if (cells_.size() == numbers + 1 && trimmedCell(cells_.back()).empty()) cells_.pop_back();
+  const auto isText = [&](std::string_view cell) {
+    double value = 0.0;
+    return cellStateOf(cell, shape_.decimal, value) == CellState::kText;
+  };
+  return cells_.size() == numbers && !isCommentLine(line) &&
+         2 * static_cast<std::size_t>(std::count_if(cells_.begin(), cells_.end(), isText)) <
+             numbers;
+}
+
+std::string CsvSource::joinLines(std::size_t count) {
+  if (shape_.nameLine != 0 || shape_.labelled || shape_.nested || shape_.stamped) return {};
+  FrameLines found{.lines = count, .numbers = shape_.columns.size()};
+  constexpr std::size_t kFrames = 20;
+  std::map<std::size_t, std::size_t> lengths;  // how many blocks have so many lines
+  std::size_t length = 0;
+  std::size_t numBlocks = 0;
+  std::size_t numNumbered = 0;
+  std::string before;
+  std::string_view line;
+  reader_.restart();
+  for (std::size_t i = 0; i < kCsvSampleLines + kFrames * count && reader_.next(line); ++i) {
+    if (isFrameLine(line, found.numbers)) {
+      if (length++ > 0) continue;
+      ++numBlocks;
+      numNumbered += found.numbers > 1 && cellNumber(before, shape_.decimal) ? 1 : 0;
+      continue;
+    }
+    if (length > 0) ++lengths[std::exchange(length, 0)];
+    if (!trimmed(line).empty()) before = trimmed(line);
+  }
+  reader_.restart();
+  const std::size_t numEnded = numBlocks - (length > 0 ? 1 : 0);
+  found.areMarked = numEnded > 0;
+  if (found.areMarked ? 2 * lengths[count] <= numEnded : length < count) return {};
+  found.hasNumber = found.areMarked && numNumbered > 0 && numNumbered + 1 >= numBlocks;
+  shape_.columns.clear();
+  if (found.hasNumber) shape_.columns.push_back({.name = "line before", .type = "number"});
+  for (std::size_t i = 0; i < found.lines * found.numbers; ++i)
+    shape_.columns.push_back({.name = "number " + std::to_string(i + 1), .type = "number"});
+  frames_ = std::move(found);
+  return "a frame is " + std::to_string(count) + " lines of " + counted(frames_.numbers, "number") +
+         (frames_.areMarked ? ", with other lines between the frames"
+                            : ", counted from the first one: nothing marks where a frame begins");
+}
+
+// Reads the lines of the next frame into cells_; false at the end.
+bool CsvSource::readFrame(TableRow& row) {
+  std::string_view line;
+  std::size_t count = 0;
+  bool isCutOff = false;
+  std::string before = frames_.before;
+  frames_.text.clear();
+  while (frames_.areMarked || count < frames_.lines) {
+    if (!reader_.next(line)) {
+      if (count == 0) return false;
+      break;
+    }
+    isCutOff = isCutOff || (reader_.isCutOff() && !trimmed(line).empty());
+    if (isFrameLine(line, frames_.numbers)) {
+      lastRowLine_ = reader_.number();
+      if (count++ == 0) {
+        row.line = lastRowLine_;
+        if (frames_.hasNumber) frames_.text = before + shape_.delimiter;
+      }
+      for (const std::string_view cell : cells_)
+        if (count <= frames_.lines) frames_.text.append(cell) += shape_.delimiter;
+      continue;
+    }
+    if (!trimmed(line).empty()) before = trimmed(line);
+    if (frames_.areMarked && count > 0) break;
+    if (!frames_.areMarked && !isCommentLine(line) && (count > 0 || frames_.isBegun) &&
+        frames_.brokenAt == 0)
+      frames_.brokenAt = reader_.number();
+  }
+  frames_.before = before;
+  frames_.isBegun = true;
+  row.numCells = count * frames_.numbers;
+  row.complete = count == frames_.lines && frames_.brokenAt == 0 && !isCutOff;
+  if (isCutOff)
+    row.fault = " begins a frame that is cut off by bytes 0";
+  else if (frames_.brokenAt != 0)
+    row.fault = " begins a frame at or after line " + std::to_string(frames_.brokenAt) +
+                ", which is none of a frame: nothing marks where the next one begins";
+  else if (!row.complete)
+    row.fault = " begins a frame of " + counted(count, "line") + " instead of " +
+                std::to_string(frames_.lines);
+  frames_.text.pop_back();
+  splitCells(frames_.text, shape_.delimiter, cells_);
+  return true;
+}
+
+// Reads the next row that is one line into cells_; false at the end.
+bool CsvSource::readLine(TableRow& row) {
   std::string_view line;
   do {
     if (!reader_.next(line)) return false;
-  } while (reader_.number() <= shape_.linesBefore || isCommentLine(line));
+  } while (reader_.number() <= shape_.linesBefore || isCommentLine(line) ||
+           (shape_.nested && reader_.number() == shape_.nameLine));
   row.line = lastRowLine_ = reader_.number();
-  row.complete = readCells(line, row);
+  row.complete = readCells(line, row) && !reader_.isCutOff();
+  if (reader_.isCutOff()) row.fault = " is cut off by bytes 0";
+  return true;
+}
+
+bool CsvSource::next(TableRow& row) {
+  if (!(frames_.lines > 0 ? readFrame(row) : readLine(row))) return false;
   if (!row.complete) return true;
+  readJoinedTimes();
   row.values.resize(selected_.size());
   row.states.resize(selected_.size());
   for (std::size_t i = 0; i < selected_.size(); ++i)
@@ -118,7 +299,7 @@ std::string CsvSource::placeOf(std::size_t index) const {
   const std::string_view cell = trimmedCell(cells_[column]);
   if (cell.empty()) return place + " is empty";
   place += ": " + inQuotes(cell);
-  if (shape_.decimal == '.' && cellNumber(cell, ',')) place += " (a decimal comma?)";
+  if (shape_.decimal == '.') place += commaHint(cell);
   return place;
 }
 

@@ -25,15 +25,46 @@ class CsvSource final : public TableSource {
   std::string textOf(std::size_t index) const override;
   std::string placeOf(std::size_t index) const override;
   std::string endNote() const override;
+  std::string joinLines(std::size_t count) override;
+  std::optional<double> rateHz() const override { return rateHz_; }
+  std::optional<std::size_t> joinTimes(std::size_t first,
+                                       std::size_t second,
+                                       std::int64_t factor) override;
+  NulBytes nulBytes() const override { return reader_.nulBytes(); }
 
   char decimal() const noexcept { return shape_.decimal; }
 
  private:
+  struct JoinedTime {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    std::int64_t factor = 0;
+    std::string text;  // of the last line
+  };
+  // Frames of several lines; lines of another form may stand between them.
+  struct FrameLines {
+    std::size_t lines = 0;       // of a frame; 0: each line is a row
+    std::size_t numbers = 0;     // of a line
+    bool areMarked = false;      // by other lines between them
+    bool hasNumber = false;      // a number stands alone before each
+    bool isBegun = false;        // the first one was read
+    std::uint64_t brokenAt = 0;  // the first line that is none of a frame, if frames aren't marked
+    std::string before = {};     // the last line before the frame
+    std::string text = {};       // its cells
+  };
+  bool readLine(TableRow& row);
+  bool readFrame(TableRow& row);
+  bool isFrameLine(std::string_view line, std::size_t numbers);
   bool readCells(std::string_view line, TableRow& row);
+  bool splitNamed(std::string_view line, TableRow& row);
+  void readJoinedTimes();
 
   std::filesystem::path path_;
   LineReader reader_;
   CsvShape shape_;
+  std::vector<JoinedTime> joined_;  // the last columns
+  FrameLines frames_;
+  std::optional<double> rateHz_;
   std::map<std::string, std::size_t, std::less<>> labelled_;  // column of each name of a line
   std::vector<std::size_t> selected_;
   std::optional<std::size_t> time_;
@@ -41,6 +72,7 @@ class CsvSource final : public TableSource {
   std::vector<std::string_view> cells_;  // of the last line, by column
   std::vector<std::string_view> names_;  // of a line of names and values
   std::vector<std::string_view> values_;
+  NestedLine nested_;
 };
 
 }  // namespace palpate

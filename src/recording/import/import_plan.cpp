@@ -93,6 +93,7 @@ class Planner {
   bool takeParts(PlannedSeries& series, const std::vector<ColumnGroup>& groups, bool isOpposite);
   bool takeColumnsInOrder(PlannedSeries& series, const std::vector<ColumnGroup>& groups);
   bool takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group);
+  void joinFrameLines(PlannedSeries& series);
   bool anyFrames() const;
   void noteFirstAxis(const std::vector<std::size_t>& arrays);
   void findFrameAxis();
@@ -122,7 +123,7 @@ class Planner {
   TableSource& source_;
   const std::vector<TableColumn>& columns_;
   const HandDescription& hand_;
-  const ImportMapping& mapping_;
+  ImportMapping mapping_;  // with the rate of the file, if that is all there is
   ImportPlan plan_;
   TimeChoice times_{source_, mapping_, plan_};
   bool isReversed_ = false;              // the axes of all arrays
@@ -199,8 +200,8 @@ std::vector<std::size_t> Planner::candidates() const {
   std::vector<std::size_t> chosen;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const TableColumn& column = columns_[c];
-    if (!column.isNumeric || column.type == "bool" || times_.isOfFrames(c) ||
-        sampleColumns_.contains(c))
+    if (!column.isNumeric || column.type == "bool" || times_.isOfFrames(c) || times_.isJoined(c) ||
+        times_.isPart(c) || sampleColumns_.contains(c))
       continue;
     if (column.width() > kMaxNumbersPerRow) continue;  // images of a camera
     if (timeScore(column, Kind::kFrames) > 0 || timeScore(column, Kind::kAngles) > 0 ||
@@ -523,9 +524,31 @@ bool Planner::takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group) 
   return true;
 }
 
+// Where the lines of a text have as many numbers as a matrix has columns, a frame may be a line for
+// each row of the matrices.
+void Planner::joinFrameLines(PlannedSeries& series) {
+  const auto width = static_cast<std::size_t>(hand_.layout->matrix(0).columns);
+  std::size_t rows = 0;
+  for (const MatrixLayout& matrix : hand_.layout->matrices()) {
+    if (static_cast<std::size_t>(matrix.columns) != width) return;
+    rows += static_cast<std::size_t>(matrix.rows);
+  }
+  const bool areNumbers = std::all_of(columns_.begin(), columns_.end(), [](const auto& column) {
+    return column.isNumeric && !column.numRows;
+  });
+  if (rows < 2 || columns_.size() != width || !areNumbers ||
+      placesInOrder(width, *hand_.layout, std::nullopt, false))
+    return;
+  const std::string how = source_.joinLines(rows);
+  if (how.empty()) return;
+  plan_.notes.push_back(how);
+  if (columns_.size() > rows * width) times_.leaveOutFirst(series, 0, false);
+}
+
 PlannedSeries Planner::foundFrames() {
   PlannedSeries series;
   series.file = source_.path();
+  joinFrameLines(series);
   const std::vector<ColumnGroup> groups = groupColumns(columns_, candidates());
   for (const bool isOpposite : {false, true})
     if (takeWhole(series, groups, isOpposite) || takeParts(series, groups, isOpposite))
@@ -653,26 +676,24 @@ void Planner::noteUnused() {
   std::set<std::size_t> used;
   for (const PlannedSeries& series : plan_.series) {
     used.insert(series.columns.begin(), series.columns.end());
-    if (series.time) used.insert(*series.time);
+    if (series.time && series.timeFile.empty()) used.insert(*series.time);
   }
-  // The same times in another unit: time_ms beside time_us.
-  const auto isSameTime = [&](std::size_t column) {
-    return timeUnitNamed(columns_[column].unit) &&
-           std::any_of(used.begin(), used.end(), [&](std::size_t other) {
-             return timeUnitNamed(columns_[other].unit) &&
-                    nameWithoutUnit(columns_[other].name) == nameWithoutUnit(columns_[column].name);
-           });
-  };
   std::vector<TableColumn> unused;
   for (std::size_t c = 0; c < columns_.size(); ++c)
-    if (!used.contains(c) && !isSameTime(c) && !hasWord(columns_[c], {"active", "mask", "meta"}))
+    if (!used.contains(c) && !times_.isPart(c) && !times_.hasSameTimes(c) &&
+        !hasWord(columns_[c], {"active", "mask", "meta"}))
       unused.push_back(columns_[c]);
   if (!unused.empty()) plan_.notes.push_back("not used: " + namesText(unused));
 }
 
 ImportPlan Planner::plan() {
+  if (const auto rate = source_.rateHz(); rate && mapping_.time == TimeMapping{}) {
+    mapping_.time.rateHz = rate;
+    plan_.notes.push_back("time: the file gives a rate of " + numberText(*rate) + " Hz");
+  }
+  plan_.rateHz = mapping_.time.rateHz;
   findFrameAxis();
-  times_.straighten();
+  times_.prepare();
   // First the columns of the samples are told apart, which have words for it.
   std::vector<PlannedSeries> others;
   for (const Kind kind : {Kind::kAngles, Kind::kTemperatures})
@@ -685,6 +706,7 @@ ImportPlan Planner::plan() {
       series.time = taxels.time;
       series.timeWithin = taxels.timeWithin;
       series.timeUnit = taxels.timeUnit;
+      series.timeFile = taxels.timeFile;
     } else {
       times_.find(series, own);
     }

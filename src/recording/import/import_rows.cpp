@@ -40,7 +40,8 @@ std::vector<ImportRows::Pass> ImportRows::passes() const {
   for (const PlannedSeries& series : plan_.series) {
     const auto same = std::find_if(passes.begin(), passes.end(), [&](const Pass& pass) {
       return pass.first().file == series.file && pass.first().time == series.time &&
-             pass.first().timeWithin == series.timeWithin;
+             pass.first().timeWithin == series.timeWithin &&
+             pass.first().timeFile == series.timeFile;
     });
     if (same != passes.end())
       same->series.push_back(&series);
@@ -90,6 +91,8 @@ void ImportRows::refuse(const TableSource& source,
 void ImportRows::noteRows(const TableSource& source) {
   if (timeReader_ && timeReader_->assumedUtc())
     report_.notes.push_back("time: the dates have no offset and are taken as UTC");
+  report_.nulBytes = source.nulBytes();
+  if (strict_ && report_.nulBytes.count > 0) throw FormatError(source.path(), report_.nulText());
   const std::string end = atEnd_ ? source.endNote() : "";
   if (!end.empty()) report_.notes.push_back(end);
 }
@@ -98,7 +101,7 @@ void ImportRows::noteRows(const TableSource& source) {
 std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const TableRow& row) {
   std::optional<std::int64_t> us;
   if (!timeReader_) {
-    const double elapsed = static_cast<double>(rowIndex_) / *mapping_.time.rateHz * kUsPerS;
+    const double elapsed = static_cast<double>(rowIndex_) / *plan_.rateHz * kUsPerS;
     us = mapping_.time.startUs.value_or(0) + std::llround(elapsed);
   } else {
     us = timeReader_->us(row.time);
@@ -113,8 +116,7 @@ std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const 
       refuse(source,
              row,
              refused.text,
-             ": " + inQuotes(row.time.text) + " is not a time" +
-                 (cellNumber(row.time.text, ',') ? " (a decimal comma?)" : ""));
+             ": " + inQuotes(row.time.text) + " is not a time" + commaHint(row.time.text));
     return std::nullopt;
   }
   if (lastUs_ && *us <= *lastUs_) {
@@ -296,11 +298,7 @@ void ImportRows::finishWaiting(const TableSource& source, const Pass& pass, cons
 
 void ImportRows::takeRow(TableSource& source, const Pass& pass, const TableRow& row) {
   if (!row.complete) {
-    refuse(source,
-           row,
-           report_.refused.wrongCount,
-           " has " + counted(row.numCells, "cell") + " instead of " +
-               std::to_string(source.columns().size()));
+    refuse(source, row, report_.refused.wrongCount, row.fault);
     return;
   }
   finishWaiting(source, pass, &row.time);
@@ -330,17 +328,26 @@ void ImportRows::runPass(TableSource& source,
   timeReader_.reset();
   const PlannedSeries& first = pass.first();
   if (first.time) timeReader_.emplace(first.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
-  source.start(columns, first.timeWithin ? std::nullopt : first.time);
+  const bool isApart = !first.timeFile.empty();
+  const auto times = isApart ? openTable(first.timeFile, mapping_.text) : nullptr;
+  if (times) times->start({}, first.time);
+  source.start(columns, first.timeWithin || isApart ? std::nullopt : first.time);
   const bool hasFrames = first.kind == PlannedSeries::Kind::kFrames;
   TableRow row;
+  TableRow timeRow;
   for (; rowIndex_ < mostRows && source.next(row); ++rowIndex_) {
     if (progress && rowIndex_ % kRowsPerReport == 0 && !progress(source.fraction()))
       throw Cancelled();
     if (hasFrames) ++report_.rows;
     findTimeWithin(pass, row);
+    if (times) row.time = times->next(timeRow) && timeRow.complete ? timeRow.time : TimeCell{};
     takeRow(source, pass, row);
   }
   finishWaiting(source, pass, nullptr);
+  if (times && rowIndex_ < mostRows && times->next(timeRow))
+    report_.notes.push_back("time: " + first.timeFile.filename().string() +
+                            " has more times than " + source.path().filename().string() +
+                            " has rows");
   if (rowIndex_ == mostRows && source.next(row)) atEnd_ = false;
 }
 
@@ -406,11 +413,7 @@ void ImportRows::runTaxelList(TableSource& source,
     ++report_.rows;
     bool isThere = false;
     if (!row.complete) {
-      refuse(source,
-             row,
-             report_.refused.wrongCount,
-             " has " + counted(row.numCells, "cell") + " instead of " +
-                 std::to_string(source.columns().size()));
+      refuse(source, row, report_.refused.wrongCount, row.fault);
       continue;
     }
     countAbsent(row);

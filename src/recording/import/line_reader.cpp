@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include <sys/stat.h>
@@ -30,7 +29,8 @@ void LineReader::restart() {
   buffer_.clear();
   begin_ = 0;
   ended_ = false;
-  endsWithinLine_ = false;
+  endsWithinLine_ = beginsAtNul_ = endsAtNul_ = false;
+  nul_ = {};
   number_ = 0;
 }
 
@@ -58,10 +58,32 @@ bool LineReader::fill() {
   return count > 0;
 }
 
+// Moves behind the bytes 0 at which the next line would begin.
+void LineReader::skipNulBytes() {
+  beginsAtNul_ = endsAtNul_;
+  while (begin_ < buffer_.size() || fill()) {
+    const std::size_t end = std::min(buffer_.find_first_not_of('\0', begin_), buffer_.size());
+    if (end > begin_) {
+      if (nul_.count == 0) nul_.line = number_ + (endsAtNul_ ? 0 : 1);
+      nul_.count += end - begin_;
+      beginsAtNul_ = true;
+    }
+    begin_ = end;
+    if (end < buffer_.size()) return;
+  }
+}
+
+// Where the next line ends in the buffer: npos if it goes on behind it.
+std::size_t LineReader::endFrom(std::size_t from) const {
+  const std::size_t end = buffer_.find('\n', from);
+  return std::min(end, std::string_view(buffer_).substr(0, end).find('\0', from));
+}
+
 bool LineReader::next(std::string_view& line) {
+  skipNulBytes();
   std::size_t searched = begin_;
   std::size_t end = std::string::npos;
-  while ((end = buffer_.find('\n', searched)) == std::string::npos) {
+  while ((end = endFrom(searched)) == std::string::npos) {
     const std::size_t waiting = buffer_.size() - begin_;
     if (waiting > kMaxLineBytes)
       throw FormatError(path_,
@@ -75,15 +97,12 @@ bool LineReader::next(std::string_view& line) {
     searched = waiting;
   }
   line = std::string_view(buffer_).substr(begin_, end - begin_);
-  begin_ = std::min(end + 1, buffer_.size());
-  ++number_;
+  if (!endsAtNul_) ++number_;
+  endsAtNul_ = end < buffer_.size() && buffer_[end] == 0;
+  begin_ = std::min(endsAtNul_ ? end : end + 1, buffer_.size());
   if (line.ends_with('\r')) line.remove_suffix(1);
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (number_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
-  if (std::memchr(line.data(), 0, line.size()))
-    throw FormatError(path_,
-                      "line " + std::to_string(number_) +
-                          " holds a byte 0: no text, or UTF-16 (save it as UTF-8)");
   return true;
 }
 

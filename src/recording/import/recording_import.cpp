@@ -95,6 +95,12 @@ std::string OutsideValues::summary() const {
   return counted(total(), "value") + " outside of the hand's range: " + parts;
 }
 
+std::string ImportReport::nulText() const {
+  if (nulBytes.count == 0) return {};
+  return counted(nulBytes.count, "byte") + " 0 left out (a power cut?), from line " +
+         std::to_string(nulBytes.line) + " on";
+}
+
 std::string ImportReport::lossText() const {
   std::string text;
   const auto add = [&](const std::string& summary, const std::string& first) {
@@ -104,6 +110,7 @@ std::string ImportReport::lossText() const {
   add(refused.summary(), refused.first);
   if (refused.notLater > 0) text += "; where times repeat, --rate keeps all rows";
   add(outside.summary(), outside.first);
+  if (nulBytes.count > 0) text += (text.empty() ? "" : "; ") + nulText();
   return text;
 }
 

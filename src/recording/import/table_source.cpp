@@ -10,6 +10,8 @@
 #include "palpate/recording/hdf5_recording.h"
 
 #include "recording/import/csv_source.h"
+#include "recording/import/folder_source.h"
+#include "recording/import/foreign_file.h"
 #include "recording/import/hdf5_source.h"
 #include "recording/import/npz_source.h"
 
@@ -66,19 +68,22 @@ bool isHdf5Table(const std::filesystem::path& path) noexcept {
 
 std::unique_ptr<TableSource> openTable(const std::filesystem::path& path,
                                        const TableOptions& options) {
-  constexpr std::size_t kFirstBytes = kHdf5RecordingStart.size();
-  std::error_code failure;
-  if (std::filesystem::is_directory(path, failure)) throw FileError(path, "is a folder");
-  const std::string first = beginningOfFile(path, kFirstBytes);
+  // MATLAB's user block may say what HDF5 behind it is.
+  if (isHdf5Table(path) && !std::string_view(beginningOfFile(path, kHdf5RecordingStart.size()))
+                                .starts_with(kHdf5RecordingStart))
+    return std::make_unique<Hdf5Source>(path);
+  if (const std::string foreign = foreignFileText(path); !foreign.empty()) {
+    std::error_code failure;
+    if (std::filesystem::is_directory(path, failure)) throw FileError(path, foreign);
+    throw FormatError(path, foreign);
+  }
+  if (std::error_code failure; std::filesystem::is_directory(path, failure))
+    return std::make_unique<FolderSource>(path, options);
+  constexpr std::string_view kNumpy = "\x93NUMPY";
+  const std::string first = beginningOfFile(path, kNumpy.size());
   if (first.starts_with("PK\x03\x04") || first.starts_with("PK\x05\x06") ||
-      first.starts_with("\x93NUMPY"))
+      first.starts_with(kNumpy))
     return std::make_unique<NpzSource>(path);
-  if (first.starts_with("BZh") || first.starts_with("SQLite f") ||
-      first.starts_with(kHdf5RecordingStart))
-    throw FormatError(path, "is a recording already: open or convert it");
-  if (isHdf5Table(path)) return std::make_unique<Hdf5Source>(path);
-  if (first.starts_with("\x1F\x8B"))
-    throw FormatError(path, "is compressed; unpack it with gunzip");
   return std::make_unique<CsvSource>(path, options);
 }
 

@@ -1,12 +1,16 @@
 #include "recording/import/time_choice.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <span>
+#include <string_view>
+#include <system_error>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
 
 #include "recording/import/column_choice.h"
 #include "recording/import/column_unit.h"
@@ -22,7 +26,8 @@ constexpr std::size_t kMaxTimeRows = 50;
 const std::set<std::string> kTimeWords = {
     "time", "timestamp", "stamp", "date", "datetime", "millis", "micros", "seconds", "clock"};
 // Alone they name the time; in front of a number they may name a taxel.
-const std::set<std::string> kShortTimeWords = {"t", "s", "ms", "us", "ns"};
+const std::set<std::string> kShortTimeWords = {
+    "t", "s", "ms", "us", "ns", "sec", "secs", "nsec", "nsecs", "nanosec", "nanosecs"};
 
 bool namesTime(const TableColumn& column) {
   if (hasWord(column, kTimeWords)) return true;
@@ -31,6 +36,28 @@ bool namesTime(const TableColumn& column) {
          std::all_of(words.begin(), words.end(), [](const std::string& word) {
            return kShortTimeWords.contains(word);
          });
+}
+
+// A name such as "stamp.nanosec": what its last word says, and the rest.
+struct TimePart {
+  std::string stem;
+  std::optional<TimeUnit> unit;
+};
+TimePart timePartOf(const std::string& name) {
+  std::size_t begin = name.size();
+  while (begin > 0 && std::isalpha(static_cast<unsigned char>(name[begin - 1])) != 0) --begin;
+  return {name.substr(0, begin), timeUnitNamed(name.substr(begin))};
+}
+
+// Why times, which are `what`, are not those of the values.
+std::string otherRowsText(const std::string& what,
+                          const TableColumn& time,
+                          const TableColumn& values) {
+  const auto rowsText = [](const TableColumn& column) {
+    return counted(column.numRows.value_or(0), "row");
+  };
+  return what + " has " + rowsText(time) + ", but " + shortened(values.name) + " has " +
+         rowsText(values);
 }
 
 }  // namespace
@@ -49,18 +76,22 @@ int timeScore(const TableColumn& column, Kind kind) {
 }
 
 TimeChoice::TimeChoice(TableSource& source, const ImportMapping& mapping, ImportPlan& plan)
-    : source_(source), columns_(source.columns()), mapping_(mapping), plan_(plan) {
-  // A column of times that the mapping names is none of the taxels.
+    : source_(source), columns_(source.columns()), mapping_(mapping), plan_(plan) {}
+
+void TimeChoice::refuse(const std::string& why) const {
+  throw FormatError(source_.path(), "time: " + why);
+}
+
+void TimeChoice::prepare() {
+  straighten();
+  joinTimes();
   for (std::size_t c = 0; c < columns_.size(); ++c)
     if (!mapping_.time.column.empty() && (columns_[c].name == mapping_.time.column ||
                                           mapping_.time.column == "#" + std::to_string(c + 1)))
       time_ = c;
 }
 
-void TimeChoice::refuse(const std::string& why) const {
-  throw FormatError(source_.path(), "time: " + why);
-}
-
+// A vector of MATLAB is an array of one row or one column: those of times become columns.
 void TimeChoice::straighten() {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const TableColumn& column = columns_[c];
@@ -68,6 +99,83 @@ void TimeChoice::straighten() {
         (namesTime(column) || column.name == mapping_.time.column))
       source_.reverseAxes(c);
   }
+}
+
+// What joins two columns that are parts of one time (see TableSource::joinTimes()): a date and a
+// time of day, or seconds and what is within the second. Nothing: they are not.
+std::optional<std::int64_t> TimeChoice::joinFactor(std::size_t first,
+                                                   std::size_t second,
+                                                   bool isChosen) {
+  const TableColumn& a = columns_[first];
+  const TableColumn& b = columns_[second];
+  if (a.hasDates && b.hasDates) {
+    const bool fit = a.isDayOnly && b.dateForm == DateForm::kClock;
+    return fit ? std::optional<std::int64_t>(0) : std::nullopt;
+  }
+  const TimePart whole = timePartOf(a.name);
+  const TimePart part = timePartOf(b.name);
+  if (a.numRows || !a.isNumeric || !b.isNumeric) return std::nullopt;
+  if (!isChosen && (whole.stem != part.stem || whole.unit != TimeUnit::kSeconds))
+    return std::nullopt;
+  if (!isChosen && part.unit != TimeUnit::kNanoseconds && part.unit != TimeUnit::kMicroseconds)
+    return std::nullopt;
+  const std::int64_t factor = part.unit == TimeUnit::kMicroseconds ? 1'000'000 : 1'000'000'000;
+  const std::vector<double> wholes = sampleValues(first, 0);
+  const std::vector<double> parts = sampleValues(second, 0);
+  const auto isWhole = [](double value) { return value == std::floor(value); };
+  const auto isPart = [&](double value) {
+    return isWhole(value) && value >= 0.0 && value < static_cast<double>(factor);
+  };
+  const auto isSameTime = [&](double seconds, double within) {
+    return std::abs(seconds - within / static_cast<double>(factor)) < 1.0;
+  };
+  if (wholes.empty() || parts.empty() || !std::all_of(wholes.begin(), wholes.end(), isWhole) ||
+      !std::all_of(parts.begin(), parts.end(), isPart))
+    return std::nullopt;
+  if (!isChosen && std::equal(wholes.begin(), wholes.end(), parts.begin(), parts.end(), isSameTime))
+    return std::nullopt;
+  return factor;
+}
+
+// Joins the two columns that the mapping names ("Date,Time"), or that are found.
+void TimeChoice::joinTimes() {
+  if (mapping_.time.rateHz || mapping_.time.column == kNoColumns) return;
+  const std::string& named = mapping_.time.column;
+  const auto comma = named.find(',');
+  const bool isChosen = comma != std::string::npos && !numberNamed(columns_, named);
+  if (!named.empty() && !isChosen) return;
+  std::optional<std::int64_t> factor;
+  std::size_t first = 0;
+  std::size_t second = 0;
+  if (isChosen) {
+    const auto a = numberNamed(columns_, trimmed(std::string_view(named).substr(0, comma)));
+    const auto b = numberNamed(columns_, trimmed(std::string_view(named).substr(comma + 1)));
+    if (a && b) {
+      first = a->column;
+      second = b->column;
+      factor = joinFactor(first, second, true);
+    }
+    if (!factor)
+      refuse(inQuotes(named) +
+             " are not a date and a time of day, or whole seconds and nanoseconds, of a text; "
+             "there are " +
+             namesText(columns_));
+  }
+  constexpr std::size_t kMaxLookedAt = 64;  // times stand in front
+  const std::size_t numLooked = std::min(kMaxLookedAt, columns_.size());
+  for (std::size_t a = 0; a < numLooked && !factor; ++a)
+    for (std::size_t b = 0; b < numLooked && !factor; ++b) {
+      if (a == b || columns_[a].hasDates != columns_[b].hasDates) continue;
+      first = a;
+      second = b;
+      factor = joinFactor(first, second, false);
+    }
+  if (!factor) return;
+  joinedTime_ = source_.joinTimes(first, second, *factor);
+  if (!joinedTime_) return;
+  timeParts_ = {first, second};
+  plan_.notes.push_back("time: " + inQuotes(columns_[first].name) + " and " +
+                        inQuotes(columns_[second].name) + " are joined");
 }
 
 // One of the numbers of a column, in the first rows that have it.
@@ -111,8 +219,9 @@ std::size_t TimeChoice::finestOf(std::size_t time) {
   return finest;
 }
 
-void TimeChoice::takeNamed(PlannedSeries& series, const std::string& named) const {
+void TimeChoice::takeNamed(PlannedSeries& series, const std::string& named) {
   const auto chosen = numberNamed(columns_, named);
+  if (!chosen && takeTimeFile(series, named)) return;
   if (!chosen)
     refuse("there is no column " + inQuotes(named) + "; there are " + namesText(columns_));
   if (!isScalar(columns_[chosen->column]) && !chosen->within)
@@ -123,31 +232,58 @@ void TimeChoice::takeNamed(PlannedSeries& series, const std::string& named) cons
   series.timeWithin = chosen->within;
 }
 
-// Takes the column that fits best. Returns one that would have, but for its number of rows.
-std::optional<std::size_t> TimeChoice::takeBest(PlannedSeries& series) {
+// The times of a file beside the table, such as "t_ns.csv"; false when there is no such file.
+bool TimeChoice::takeTimeFile(PlannedSeries& series, const std::string& named) {
+  const std::filesystem::path file = source_.path().parent_path() / named;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  const auto table = openTable(file, mapping_.text);
+  const std::vector<TableColumn>& columns = table->columns();
+  ImportMapping mapping;
+  mapping.time.unit = mapping_.time.unit;
+  mapping.time.startUs = mapping_.time.startUs;
+  const std::string unit = unitInName(file.stem().string());
+  if (mapping.time.unit.empty() && timeUnitNamed(unit)) mapping.time.unit = unit;
+  ImportPlan plan;
+  TimeChoice choice(*table, mapping, plan);
+  const TableColumn& values = columns_[series.columns.front()];
+  PlannedSeries times;
+  if (columns.size() == 1 && isScalar(columns[0])) times.time = 0;
+  const auto otherRows = choice.takeBest(times, values);
+  if (!times.time) times.time = otherRows;
+  if (!times.time) refuse(named + " has no column of times; there are " + namesText(columns));
+  if (!sameRows(columns[*times.time], values))
+    refuse(otherRowsText(named, columns[*times.time], values));
+  choice.setTimeUnit(times);
+  series.time = times.time;
+  series.timeWithin.reset();
+  series.timeUnit = times.timeUnit;
+  series.timeFile = file;
+  plan_.notes.insert(plan_.notes.end(), plan.notes.begin(), plan.notes.end());
+  if (series.kind == Kind::kFrames) plan_.timeDescription = named + ": " + plan.timeDescription;
+  return true;
+}
+
+// Takes the column that fits best as the time of rows of `values`. Returns one that would have, but
+// for its number of rows.
+std::optional<std::size_t> TimeChoice::takeBest(PlannedSeries& series, const TableColumn& values) {
   std::optional<std::size_t> otherRows;
   int best = 0;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const int score = timeScore(columns_[c], series.kind);
     if (score <= best) continue;
-    if (!sameRows(columns_[c], columns_[series.columns.front()])) {
+    if (!sameRows(columns_[c], values)) {
       otherRows = c;
       continue;
     }
     best = score;
     series.time = c;
   }
-  if (series.time) series.time = finestOf(*series.time);
+  if (series.time) {
+    sameTimes_.insert(*series.time);
+    series.time = finestOf(*series.time);
+  }
   return otherRows;
-}
-
-std::string TimeChoice::otherRowsText(const PlannedSeries& series, std::size_t time) const {
-  const auto rowsText = [&](std::size_t column) {
-    return counted(columns_[column].numRows.value_or(0), "row");
-  };
-  const std::size_t values = series.columns.front();
-  return inQuotes(columns_[time].name) + " has " + rowsText(time) + ", but " +
-         shortened(columns_[values].name) + " has " + rowsText(values);
 }
 
 void TimeChoice::find(PlannedSeries& series, const std::string& named) {
@@ -155,41 +291,76 @@ void TimeChoice::find(PlannedSeries& series, const std::string& named) {
   const bool isFrames = series.kind == Kind::kFrames;
   const TableColumn& values = columns_[series.columns.front()];
   std::optional<std::size_t> otherRows;
-  if (!named.empty() && named != kNoColumns)
+  if (joinedTime_ && !series.time && (isFrames || named.empty())) {
+    series.time = joinedTime_;
+  } else if (!named.empty() && named != kNoColumns) {
     takeNamed(series, named);
-  else if (named.empty() && !series.time)
-    otherRows = takeBest(series);
+    if (!series.timeFile.empty()) return;
+  } else if (named.empty() && !series.time) {
+    otherRows = takeBest(series, values);
+  }
   if (!series.time && !isFrames && time_ && sameRows(columns_[*time_], values)) {
     series.time = time_;
     series.timeWithin = timeWithin_;
   }
   if (!series.time && isFrames && otherRows)
-    refuse(otherRowsText(series, *otherRows) +
+    refuse(otherRowsText(inQuotes(columns_[*otherRows].name), columns_[*otherRows], values) +
            "; save as many times as frames, or give the rate of the rows (--rate)");
   if (!series.time && isFrames)
     refuse("no column of times was found" +
            (rowNumber_.empty() ? "" : " (" + rowNumber_ + " counts the rows)") +
            "; name that column (--time), or give the rate of the rows (--rate)");
   if (!series.time) return;
-  if (!sameRows(columns_[*series.time], values)) refuse(otherRowsText(series, *series.time));
+  const TableColumn& time = columns_[*series.time];
+  if (!sameRows(time, values)) refuse(otherRowsText(inQuotes(time.name), time, values));
   setTimeUnit(series);
   if (!isFrames) return;
   time_ = series.time;
   timeWithin_ = series.timeWithin;
 }
 
+// How the dates of a column are read.
+TimeUnit TimeChoice::dateUnitOf(const TableColumn& column) {
+  if (const auto chosen = timeUnitNamed(mapping_.time.unit);
+      chosen == TimeUnit::kDayFirst || chosen == TimeUnit::kMonthFirst)
+    return *chosen;
+  switch (column.dateForm) {
+    case DateForm::kIso:
+      return TimeUnit::kDate;
+    case DateForm::kDayFirst:
+      return TimeUnit::kDayFirst;
+    case DateForm::kMonthFirst:
+      return TimeUnit::kMonthFirst;
+    case DateForm::kEither:
+      if (column.example.find_last_of("Mm") == std::string::npos)
+        refuse("the day or the month may come first in " + inQuotes(column.example) +
+               "; choose by --time-unit dmy or mdy");
+      plan_.notes.push_back("time: in " + inQuotes(column.example) +
+                            " the month is taken to come first; choose the other order by "
+                            "--time-unit dmy");
+      return TimeUnit::kMonthFirst;
+    case DateForm::kClock:
+      break;
+  }
+  if (!mapping_.time.startUs)
+    plan_.notes.push_back("time: " + inQuotes(column.name) +
+                          " has times of day without a date; give the day by --start 2026-11-22");
+  return TimeUnit::kClock;
+}
+
 void TimeChoice::setTimeUnit(PlannedSeries& series) {
   const TableColumn& column = columns_[*series.time];
   std::string origin = "as given";
   if (column.hasDates) {
-    series.timeUnit = TimeUnit::kDate;
+    series.timeUnit = dateUnitOf(column);
     origin = "dates";
-  } else if (!mapping_.time.unit.empty() && series.kind == Kind::kFrames) {
+  } else if (!mapping_.time.unit.empty() && series.kind == Kind::kFrames &&
+             series.time != joinedTime_) {
     series.timeUnit = *timeUnitNamed(mapping_.time.unit);
-  } else if (const auto unit = timeUnitNamed(column.unit); unit && unit != TimeUnit::kDate) {
+  } else if (const auto unit = timeUnitNamed(column.unit); unit && !isDateUnit(*unit)) {
     series.timeUnit = *unit;
     origin = "by the file";
-  } else if (const auto word = timeUnitNamed(column.name); word && word != TimeUnit::kDate) {
+  } else if (const auto word = timeUnitNamed(column.name); word && !isDateUnit(*word)) {
     series.timeUnit = *word;
     origin = "by the name";
   } else {
@@ -238,10 +409,10 @@ bool TimeChoice::leaveOutFirst(PlannedSeries& series, std::size_t column, bool i
     plan_.notes.push_back(name + " counts the rows; not used");
     return true;
   }
-  const bool hasTime =
-      time_ || std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& each) {
-        return timeScore(each, Kind::kFrames) > 0;
-      });
+  const bool hasTime = time_ || joinedTime_ ||
+                       std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& each) {
+                         return timeScore(each, Kind::kFrames) > 0;
+                       });
   if (hasTime || mapping_.time.column == kNoColumns) return false;
   if (mapping_.time.rateHz) {
     plan_.notes.push_back(name + " ascends; not used, since the rate is given");

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,8 +22,9 @@ class TimeChoice {
   // Adds its notes, and the description of the time, to `plan`.
   TimeChoice(TableSource& source, const ImportMapping& mapping, ImportPlan& plan);
 
-  // A vector of MATLAB is an array of one row or one column: those of times become columns.
-  void straighten();
+  // Straightens vectors of times, joins columns that are parts of one time, and finds the column
+  // that the mapping names: it is none of the taxels. Before the columns of the values are chosen.
+  void prepare();
   // Whether a first number more than the taxels is not one of them: the time, or the number of the
   // row. Before find().
   bool leaveOutFirst(PlannedSeries& series, std::size_t column, bool isArray);
@@ -30,6 +33,12 @@ class TimeChoice {
   void find(PlannedSeries& series, const std::string& named);
   // Whether a column is known to be the time of the frames.
   bool isOfFrames(std::size_t column) const { return time_ == column; }
+  // Whether a column is one of two that are joined to the time.
+  bool isPart(std::size_t column) const { return timeParts_.contains(column); }
+  // Whether a finer column of the same times is used instead of a column, or that one itself.
+  bool hasSameTimes(std::size_t column) const { return sameTimes_.contains(column); }
+  // Whether a column is made of these two.
+  bool isJoined(std::size_t column) const { return joinedTime_ == column; }
 
  private:
   struct Counting {
@@ -38,10 +47,14 @@ class TimeChoice {
   };
   Counting countingOf(std::size_t column, std::size_t within);
   std::vector<double> sampleValues(std::size_t column, std::size_t within);
-  void takeNamed(PlannedSeries& series, const std::string& named) const;
-  std::optional<std::size_t> takeBest(PlannedSeries& series);
-  std::string otherRowsText(const PlannedSeries& series, std::size_t time) const;
+  void straighten();
+  std::optional<std::int64_t> joinFactor(std::size_t first, std::size_t second, bool isChosen);
+  void joinTimes();
+  void takeNamed(PlannedSeries& series, const std::string& named);
+  bool takeTimeFile(PlannedSeries& series, const std::string& named);
+  std::optional<std::size_t> takeBest(PlannedSeries& series, const TableColumn& values);
   std::size_t finestOf(std::size_t time);
+  TimeUnit dateUnitOf(const TableColumn& column);
   void setTimeUnit(PlannedSeries& series);
   [[noreturn]] void refuse(const std::string& why) const;
 
@@ -52,6 +65,9 @@ class TimeChoice {
   std::string rowNumber_;            // a column that counts the rows
   std::optional<std::size_t> time_;  // column of the frames
   std::optional<std::size_t> timeWithin_;
+  std::optional<std::size_t> joinedTime_;  // column that the source made of the two timeParts_
+  std::set<std::size_t> timeParts_;
+  std::set<std::size_t> sameTimes_;  // of which a finer column is used
 };
 
 }  // namespace palpate

@@ -185,7 +185,9 @@ QWidget* ImportDialog::makeFile() {
                               {"ms", "ms"},
                               {"µs", "us"},
                               {"ns", "ns"},
-                              {"date (ISO 8601)", "iso"}});
+                              {"date (ISO 8601)", "iso"},
+                              {"date, day first", "dmy"},
+                              {"date, month first", "mdy"}});
   rate_ = new QDoubleSpinBox;
   rate_->setObjectName("importRate");
   rate_->setRange(0.0, kHighestImportRateHz);

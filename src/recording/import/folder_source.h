@@ -1,0 +1,48 @@
+// A folder with a file per frame: texts or NumPy arrays, in the order of the numbers in their
+// names. A row is all numbers of a file, row by row.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "palpate/recording/table_source.h"
+
+namespace palpate {
+
+class FolderSource final : public TableSource {
+ public:
+  // Throws FileError, FormatError: fewer than two files of one ending (.csv, .txt, .npy).
+  FolderSource(const std::filesystem::path& path, const TableOptions& options);
+
+  const std::filesystem::path& path() const noexcept override { return path_; }
+  const std::vector<TableColumn>& columns() const noexcept override { return columns_; }
+  std::string form() const override;
+  const char* rowWord() const noexcept override { return "file"; }
+  void start(std::span<const std::size_t> columns, std::optional<std::size_t> time) override;
+  bool next(TableRow& row) override;
+  double fraction() const noexcept override;
+  std::string textOf(std::size_t index) const override;
+  std::string placeOf(std::size_t index) const override;
+
+ private:
+  struct FrameFile {
+    std::filesystem::path path;
+    std::int64_t number = 0;  // in its name
+    bool operator<(const FrameFile& other) const { return number < other.number; }
+  };
+  std::vector<double> numbersOf(const std::filesystem::path& file) const;
+
+  std::filesystem::path path_;
+  TableOptions options_;
+  std::vector<FrameFile> files_;
+  std::vector<TableColumn> columns_;  // the number in the name, then those of the file
+  std::vector<std::size_t> selected_;
+  std::optional<std::size_t> time_;
+  std::size_t next_ = 0;
+  std::vector<double> numbers_;  // of the last file
+  std::string timeText_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,326 @@
+// The forms of texts that programs write: dates, times in several columns or in another file,
+// frames of several lines, lists.
+#include "palpate/recording/recording_import.h"
+
+#include "recording/import_samples.h"
+
+namespace palpate::import_forms_test {
+namespace {
+namespace fs = std::filesystem;
+
+using testing::importText;
+using testing::pad;
+using testing::TemporaryFolder;
+using testing::twoPads;
+
+// imports 14.
+TEST(ImportForms, BytesZeroOfAPowerCutAreLeftOutAndCounted) {
+  const TemporaryFolder folder;
+  const std::string before = "time_ms,a,b\n10,1,2\n20,3,4\n";
+  // Longer than what is read at once, and than the longest line.
+  const std::string block(5'000'000, '\0');
+  const auto behind = importText(folder, before + block, pad(1, 2));
+  EXPECT_EQ(behind.report.frames, 2u);
+  EXPECT_EQ(behind.report.refused.total(), 0u);
+  EXPECT_TRUE(behind.report.isPartial());
+  EXPECT_EQ(behind.report.lossText(), "5000000 bytes 0 left out (a power cut?), from line 4 on");
+  EXPECT_EQ(behind.report.notes, std::vector<std::string>());
+  // Within a row: neither its beginning nor what follows in the same line is taken.
+  const auto within = importText(
+      folder, before + "30,5,6" + std::string(100, '\0') + "50,7,8\n60,9,10\n", pad(1, 2));
+  EXPECT_EQ(within.report.frames, 3u);
+  EXPECT_EQ(within.profile.frameTimeUs(2), 60'000);
+  EXPECT_EQ(within.report.refused.wrongCount, 2u);
+  EXPECT_EQ(within.report.refused.first, "line 4 is cut off by bytes 0");
+  EXPECT_EQ(within.report.nulBytes.count, 100u);
+  EXPECT_EQ(within.report.nulBytes.line, 4u);
+  const std::string strict = testing::errorOf([&] {
+    importText(folder, before + block, pad(1, 2), {}, {true, Overwrite::kReplace});
+  });
+  EXPECT_NE(strict.find("5000000 bytes 0"), std::string::npos) << strict;
+}
+
+// imports 22.
+TEST(ImportForms, DatesAndTimesOfDayOfTheUsualForms) {
+  const TemporaryFolder folder;
+  constexpr std::int64_t kDayUs = 86'400'000'000;
+  // 2025-03-30 is 20,177 days after 1970 (Python: date(2025, 3, 30).toordinal() - 719163).
+  constexpr std::int64_t kMarch30Us = 20'177 * kDayUs;
+  constexpr std::int64_t kOneUs = 13 * 3'600'000'000LL;
+  const auto start = [&](const std::string& times, const ImportMapping& mapping = {}) {
+    std::string text = "Zeit;p0;p1\n";
+    for (const char* second : {"00", "01"}) {
+      std::string time = times;
+      text += time.replace(time.find("SS"), 2, second) + ";1;2\n";
+    }
+    const auto made = importText(folder, text, pad(1, 2), mapping);
+    EXPECT_EQ(made.report.frames, 2u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(1) - made.profile.frameTimeUs(0), 1'000'000) << text;
+    return made.profile.frameTimeUs(0);
+  };
+  EXPECT_EQ(start("30.03.2025 13:00:SS,5"), kMarch30Us + kOneUs + 500'000);
+  EXPECT_EQ(start("3/30/2025 1:00:SS PM"), kMarch30Us + kOneUs);
+  EXPECT_EQ(start("30/3/2025 13:00:SS"), kMarch30Us + kOneUs);
+  EXPECT_EQ(start("2025-03-30-13:00:SS"), kMarch30Us + kOneUs);
+  EXPECT_EQ(start("13:00:SS.250"), kOneUs + 250'000);
+  ImportMapping day;
+  day.time.startUs = kMarch30Us;
+  EXPECT_EQ(start("13:00:SS.250", day), kMarch30Us + kOneUs + 250'000);
+  const std::string clock = "t,p0,p1\n23:59:59,1,2\n00:00:00,3,4\n00:00:01,5,6\n";
+  const auto night = importText(folder, clock, pad(1, 2), day);
+  ASSERT_EQ(night.report.frames, 3u) << night.report.refused.first;
+  EXPECT_EQ(night.profile.frameTimeUs(2), kMarch30Us + kDayUs + 1'000'000);
+  EXPECT_EQ(importText(folder, clock, pad(1, 2)).report.notes,
+            std::vector<std::string>{"time: \"t\" has times of day without a date; give the day by "
+                                     "--start 2026-11-22"});
+}
+
+// imports 13.
+TEST(ImportForms, ATimeInTwoColumnsIsJoined) {
+  const TemporaryFolder folder;
+  // 2014-11-27 10:31:05 UTC.
+  constexpr std::int64_t kUs = 1'417'084'265'000'000;
+  const std::string rows = "2014-11-27,10:31:05.000,1,2\n2014-11-27,10:31:05.010,3,4\n";
+  ImportMapping byPosition;
+  byPosition.time.column = "#1,#2";
+  ImportMapping byName;
+  byName.time.column = "Date, Time";
+  for (const auto& [head, mapping] : std::vector<std::pair<std::string, ImportMapping>>{
+           {"Date,Time,p0,p1\n", {}}, {"Date,Time,p0,p1\n", byName}, {"", {}}, {"", byPosition}}) {
+    const auto made = importText(folder, head + rows, pad(1, 2), mapping);
+    ASSERT_EQ(made.report.frames, 2u) << head << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(0), kUs);
+    EXPECT_EQ(made.profile.frameTimeUs(1), kUs + 10'000);
+    EXPECT_EQ(made.report.refused.total(), 0u);
+    EXPECT_EQ(made.report.notes.size(), 2u) << "joined, and UTC";
+  }
+  const std::string german = "Datum;Zeit;p0;p1\n27.11.2014;10:31:05,5;1;2\n";
+  EXPECT_EQ(importText(folder, german, pad(1, 2)).profile.frameTimeUs(0), kUs + 500'000);
+  // ROS 2: seconds and nanoseconds, with and without names; one row is damaged.
+  const std::string ros = "1417084265,999999000,1,2\n1417084266,1000000,3,4\n1417084266,x,5,6\n";
+  for (const auto& [head, mapping] : std::vector<std::pair<std::string, ImportMapping>>{
+           {"header.stamp.sec,header.stamp.nanosec,p0,p1\n", {}},
+           {"sec,nanosec,p0,p1\n", {}},
+           {"", byPosition}}) {
+    const auto made = importText(folder, head + ros, pad(1, 2), mapping);
+    ASSERT_EQ(made.report.frames, 2u) << head << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(0), kUs + 999'999);
+    EXPECT_EQ(made.profile.frameTimeUs(1), kUs + 1'001'000);
+    EXPECT_EQ(made.report.refused.text, 1u);
+  }
+  ImportMapping wrong;
+  wrong.time.column = "p0,p1";
+  const std::string what =
+      testing::errorOf([&] { importText(folder, "t,p0,p1\n1,0.5,2\n2,3,4\n", pad(1, 2), wrong); });
+  EXPECT_NE(what.find("\"p0,p1\" are not a date and a time of day"), std::string::npos) << what;
+}
+
+// imports 22.
+TEST(ImportForms, ASerialMonitorsTimesBeforeTheLines) {
+  const TemporaryFolder folder;
+  constexpr std::int64_t kUs = 37'860'123'000;  // 10:31:00.123 after midnight
+  for (const char* text :
+       {"10:31:00.123 -> 1,2,3,4\r\n10:31:01.123 -> 5,6,7,8\r\n",
+        "10:31:00.100 -> a,b,c,d\n10:31:00.123 -> 1,2,3,4\n10:31:01.123 -> 5,6,7,8\n",
+        "[10:31:00.123] 1 2 3 4\n[10:31:01.123] 5 6 7 8\n",
+        "10:31:00.123 -> A0:1,A1:2,A2:3,A3:4\n10:31:01.123 -> A0:5,A1:6,A2:7,A3:8\n",
+        "[1970-01-01 10:31:00.123] 1;2;3;4\n[1970-01-01 10:31:01.123] 5;6;7;8\n"}) {
+    const auto made = importText(folder, text, pad(2, 2));
+    ASSERT_EQ(made.report.frames, 2u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(0), kUs) << text;
+    EXPECT_EQ(made.profile.frameTimeUs(1), kUs + 1'000'000) << text;
+    EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{5, 6, 7, 8})) << text;
+    EXPECT_EQ(made.report.refused.total(), 0u) << text;
+  }
+  // A line that the monitor did not stamp is refused.
+  const auto one = importText(folder,
+                              "10:31:00.123 -> 1,2\n3,4\n10:31:01.123 -> 5,6\n"
+                              "10:31:02.123 -> 7,8\n",
+                              pad(1, 2));
+  EXPECT_EQ(one.report.frames, 3u);
+  EXPECT_EQ(one.report.refused.first, "line 2 has 2 cells instead of 3");
+}
+
+TEST(ImportForms, ADayThatMayBeTheMonthIsAsked) {
+  const TemporaryFolder folder;
+  const std::string text = "t,p0,p1\n03/04/2025 13:00:00,1,2\n03/04/2025 13:00:01,3,4\n";
+  EXPECT_NE(testing::errorOf([&] { importText(folder, text, pad(1, 2)); })
+                .find("the day or the month may come first in \"03/04/2025 13:00:00\"; choose by "
+                      "--time-unit dmy or mdy"),
+            std::string::npos);
+  ImportMapping mapping;
+  mapping.time.unit = "dmy";
+  // date -u -d "2025-04-03 13:00" +%s; 2025-03-04.
+  EXPECT_EQ(importText(folder, text, pad(1, 2), mapping).profile.frameTimeUs(0),
+            1'743'685'200'000'000);
+  mapping.time.unit = "mdy";
+  EXPECT_EQ(importText(folder, text, pad(1, 2), mapping).profile.frameTimeUs(0),
+            1'741'093'200'000'000);
+  const std::string noon = "t,p0,p1\n3/4/2025 1:00:00 PM,1,2\n3/4/2025 1:00:01 PM,3,4\n";
+  const auto guessed = importText(folder, noon, pad(1, 2));
+  EXPECT_EQ(guessed.profile.frameTimeUs(0), 1'741'093'200'000'000);
+  ASSERT_FALSE(guessed.report.notes.empty());
+  EXPECT_NE(guessed.report.notes[0].find("the month is taken to come first"), std::string::npos);
+}
+
+// imports 17.
+TEST(ImportForms, AFrameOfSeveralLines) {
+  const TemporaryFolder folder;
+  ImportMapping rate;
+  rate.time.rateHz = 100.0;
+  const std::vector<float> second{10, 11, 12, 13, 14, 15};
+  for (const char* text : {"0 1 2 \r\n3 4 5 \r\n\r\n10 11 12 \r\n13 14 15 \r\n\r\n",
+                           "START\n0,1,2\n3,4,5\nSTART\n10,11,12\n13,14,15\n",
+                           "frame 1 of 2\n0 1 2\n3 4 5\nframe 2 of 2\n10 11 12\n13 14 15\n",
+                           "0,1,2\n3,4,5\n10,11,12\n13,14,15\n",
+                           "boot: ready\n0,1,2,\n3,4,5,\n10,11,12,\n13,14,15,\n"}) {
+    const auto made = importText(folder, text, pad(2, 3), rate);
+    ASSERT_EQ(made.report.frames, 2u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.frame(0).values, (std::vector<float>{0, 1, 2, 3, 4, 5})) << text;
+    EXPECT_EQ(made.profile.frame(1).values, second) << text;
+    EXPECT_EQ(made.report.refused.total(), 0u) << text << made.report.refused.first;
+    ASSERT_FALSE(made.report.notes.empty());
+    EXPECT_NE(made.report.notes[0].find("a frame is 2 lines of 3 numbers"), std::string::npos);
+  }
+  // Two matrices, one below the other; a time that stands alone before each frame.
+  const auto two = importText(folder,
+                              "10\n1 2\n3 4\n5 6\n7 8\n20\n0 0\n0 1\n0 2\n0 3\n"
+                              "45\n0 0\n0 1\n0 2\n0 3\n",
+                              twoPads());
+  ASSERT_EQ(two.report.frames, 3u) << two.report.refused.first;
+  EXPECT_EQ(two.profile.frame(0).values, (std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(two.profile.frameTimeUs(2), 45'000);
+}
+
+TEST(ImportForms, AFrameThatLacksALineIsRefusedAndShiftsNoOther) {
+  const TemporaryFolder folder;
+  ImportMapping rate;
+  rate.time.rateHz = 100.0;
+  const auto marked =
+      importText(folder, "0 1\n2 3\n\n4 5\n\n6 7\n8 9\n\n1 1\n2 2\n\n3 3\n", pad(2, 2), rate);
+  EXPECT_EQ(marked.report.frames, 3u);
+  EXPECT_EQ(marked.report.refused.wrongCount, 2u) << "one within, and the last one";
+  EXPECT_EQ(marked.report.refused.first, "line 4 begins a frame of 1 line instead of 2");
+  EXPECT_EQ(marked.profile.frame(1).values, (std::vector<float>{6, 7, 8, 9}));
+  EXPECT_EQ(marked.profile.frameTimeUs(1), 20'000);
+  // Where nothing marks frames, none is taken after a line that is none of a frame.
+  std::string text;
+  for (int i = 0; i < 300; ++i) text += "1 2\n3 4\n";
+  text += "5 6\nreset\n7 8\n9 1\n2 3\n";
+  const auto counted = importText(folder, text, pad(2, 2), rate);
+  EXPECT_EQ(counted.report.frames, 300u);
+  EXPECT_EQ(counted.report.refused.wrongCount, 2u);
+  EXPECT_NE(counted.report.refused.first.find("line 602"), std::string::npos)
+      << counted.report.refused.first;
+}
+
+// The head and the frames of Tekscan's ASCII export.
+TEST(ImportForms, AMovieOfTekscanHasItsRate) {
+  const TemporaryFolder folder;
+  std::string text =
+      "DATA_TYPE MOVIE\r\nVERSION 2\r\nROWS 2\r\nCOLS 3\r\nROW_SPACING 5.08 mm\r\n"
+      "SECONDS_PER_FRAME 0.01\r\nSTART_FRAME 1\r\nEND_FRAME 8\r\nUNITS Raw\r\n"
+      "ASCII_DATA @@\r\n\r\n";
+  for (const char* number : {"1", "2", "3", "4", "5", "6", "7", "8"})
+    text += std::string("Frame ") + number + "\r\n" + number + ",1,2\r\n3,4,5\r\n\r\n";
+  const auto made = importText(folder, text + "@@\r\n", pad(2, 3));
+  ASSERT_EQ(made.report.frames, 8u) << made.report.refused.first;
+  EXPECT_EQ(made.profile.frameTimeUs(1) - made.profile.frameTimeUs(0), 10'000);
+  EXPECT_EQ(made.profile.frame(7).values, (std::vector<float>{8, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(made.report.notes[0], "time: the file gives a rate of 100 Hz");
+}
+
+// imports 20.
+TEST(ImportForms, ListsInCellsAndInLines) {
+  const TemporaryFolder folder;
+  for (const char* text : {"time_ms,data\n10,\"[1, 2, 3, 4]\"\n20,\"[5, 6, 7, 8]\"\n",
+                           "time_ms,data\n10,[1 2 3 4]\n20,[ 5  6  7  8]\n",
+                           "time_ms,data\n10,[1, 2, 3, 4]\n20,[5, 6, 7, 8]\n",
+                           "10;(1, 2, 3, 4)\n20;(5, 6, 7, 8)\n",
+                           "[10, 1, 2, 3, 4]\n[20, 5, 6, 7, 8]\n",
+                           "(10, 1, 2, 3, 4)\n(20, 5, 6, 7, 8)\n",
+                           "[10, [[1, 2], [3, 4]]]\n[20, [[5, 6], [7, 8]]]\n",
+                           "{\"t\": 0.01, \"id\": \"a\", \"data\": [1, 2, 3, 4]}\n"
+                           "{\"t\": 0.02, \"id\": \"b\", \"data\": [5, 6, 7, 8]}\n",
+                           "{\"time_ms\":10,\"pad\":{\"raw\":[[1,2],[3,4]]}}\r\n"
+                           "{\"pad\":{\"raw\":[[5,6],[7,8]]},\"time_ms\":20}\r\n"}) {
+    ImportMapping mapping;
+    if (text[0] == '[' && std::string_view(text).find("[[") != std::string_view::npos)
+      mapping.time.column = "list[0]";
+    if (std::string_view(text).starts_with("10;")) mapping.time.column = "#1";
+    const auto made = importText(folder, text, pad(2, 2), mapping);
+    ASSERT_EQ(made.report.frames, 2u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.frameTimeUs(0), 10'000) << text;
+    EXPECT_EQ(made.profile.frameTimeUs(1), 20'000) << text;
+    EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{5, 6, 7, 8})) << text;
+    EXPECT_EQ(made.report.refused.total(), 0u) << text << made.report.refused.first;
+  }
+  // A number too many, one too few, a list that is cut.
+  const auto damaged = importText(folder,
+                                  "time_ms,data\n10,\"[1, 2]\"\n20,\"[1, 2]\"\n30,\"[1, 2, 3]\"\n"
+                                  "40,\"[1]\"\n50,\"[1, \n60,\"[5, 6]\"\n",
+                                  pad(1, 2));
+  EXPECT_EQ(damaged.report.frames, 3u);
+  EXPECT_EQ(damaged.report.refused.wrongCount, 2u);
+  EXPECT_EQ(damaged.report.refused.missing, 1u);
+  EXPECT_NE(damaged.report.refused.first.find("line 4 has"), std::string::npos)
+      << damaged.report.refused.first;
+}
+
+// imports 25.
+TEST(ImportForms, TimesOfAnotherFile) {
+  const TemporaryFolder folder;
+  testing::writeFile(folder / "t_ns.csv", "1417084265000250000\n1417084265010250000\n");
+  testing::writeFile(folder / "times.csv", "frame,time_ms\n0,10\n1,25\n2,40\n");
+  ImportMapping mapping;
+  mapping.time.column = "t_ns.csv";
+  const auto made = importText(folder, "1,2\n3,4\n", pad(1, 2), mapping);
+  ASSERT_EQ(made.report.frames, 2u) << made.report.refused.first;
+  EXPECT_EQ(made.profile.frameTimeUs(1), 1'417'084'265'010'250);
+  EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{3, 4}));
+  EXPECT_EQ(made.report.notes, std::vector<std::string>());
+  // A row without a time is refused; a time without a row is said.
+  const auto less = importText(folder, "1,2\n3,4\n5,6\n", pad(1, 2), mapping);
+  EXPECT_EQ(less.report.frames, 2u);
+  EXPECT_EQ(less.report.refused.missing, 1u);
+  mapping.time.column = "times.csv";
+  const auto more = importText(folder, "1,2\n3,4\n", pad(1, 2), mapping);
+  EXPECT_EQ(more.profile.frameTimeUs(1), 25'000);
+  ASSERT_FALSE(more.report.notes.empty());
+  EXPECT_EQ(more.report.notes.back(), "time: times.csv has more times than table.csv has rows");
+}
+
+TEST(ImportForms, AFolderWithAFilePerFrame) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "session");
+  const auto write = [&](const char* name, const std::string& text) {
+    testing::writeFile(folder / "session" / name, text);
+  };
+  write("frame_2.csv", "5,6\n7,8\n");
+  write("frame_10.csv", "9,1\n2,3\n");
+  write("frame_1.csv", "1,2\n3,4\n");
+  write("frame_11.csv", "1,2\n");
+  write("notes.txt", "nothing");
+  ImportMapping mapping;
+  mapping.time.rateHz = 100.0;
+  const ImportReport report =
+      importRecording(folder / "session", pad(2, 2), mapping, folder / "o.palpate");
+  EXPECT_EQ(report.frames, 3u) << report.refused.first;
+  EXPECT_EQ(report.refused.first, "file 4 (frame_11.csv) has 2 numbers instead of 4");
+  const Profile profile = openRecording(folder / "o.palpate");
+  EXPECT_EQ(profile.frame(1).values, (std::vector<float>{5, 6, 7, 8}));
+  EXPECT_EQ(profile.frame(2).values, (std::vector<float>{9, 1, 2, 3}));
+  // The numbers in the names may be the times.
+  mapping.time = {};
+  mapping.time.column = "file";
+  mapping.time.unit = "ms";
+  importRecording(folder / "session",
+                  pad(2, 2),
+                  mapping,
+                  folder / "o.palpate",
+                  {.overwrite = Overwrite::kReplace});
+  EXPECT_EQ(openRecording(folder / "o.palpate").frameTimeUs(2), 10'000);
+}
+
+}  // namespace
+}  // namespace palpate::import_forms_test
