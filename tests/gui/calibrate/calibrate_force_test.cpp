@@ -115,7 +115,7 @@ TEST_F(CalibrateForceTest, ASavedCalibrationIsReadAsItIs) {
   const QString facts = panel_->pressure().facts().join('\n');
   EXPECT_TRUE(facts.contains("2014-11-27T10:31:05Z by palpate 0.1.0")) << facts.toStdString();
   EXPECT_TRUE(facts.contains("K 50 to 850 counts, 28.0 to 44.0 °C")) << facts.toStdString();
-  EXPECT_TRUE(facts.contains("not known: the whole area of every active taxel is used"));
+  EXPECT_TRUE(facts.contains("indenter of 50")) << facts.toStdString();
   EXPECT_EQ(sliceTemperatures(tenth().pressure, tenth().samples),
             (std::vector<double>{28.0, 36.0, 44.0}));
   // Applied without saving: it is on disk.
