@@ -281,17 +281,17 @@ TEST(CalibrateCommand, ContactHasNoForceOutsideTheMeasuredRange) {
 TEST(CalibrateCommand, AThresholdIsBoundedByTheFullScaleOfTheHand) {
   const TemporaryFolder folder;
   for (const float fullScale : {4095.0F, 65535.0F}) {
-    HandDescription hand;
-    hand.name = "pad";
-    hand.maximumCounts = hand.saturationCounts = fullScale;
-    hand.layout = std::make_shared<const SensorLayout>(
-        std::vector<MatrixLayout>{MatrixLayout::full(2, 2, 1.0)});
-    hand.matrices.resize(1);
+    const HandDescription hand =
+        parseHand(R"({"format":"palpate-hand","version":1,"name":"pad","full_scale":)" +
+                      numberText(fullScale) +
+                      R"(,"matrices":[{"name":"m","rows":2,"columns":2,"pitch_mm":1}]})",
+                  "",
+                  "hand.json");
     ProfileBuilder builder(hand);
     for (int i = 0; i < 100; ++i)
       builder.addFrame(i * 30'000, std::vector<float>{5000.5F, 0.0F, 0.0F, 0.0F});
     const std::string file = folder / (numberText(fullScale) + ".palpate");
-    saveRecording(builder.finish(handMeta(hand)), {}, file);
+    saveRecording(builder.finish({}), {}, file);
     const auto tare = palpate({"calibrate", "tare", file, "--most", "6000"});
     if (fullScale > 6000.0F) {
       EXPECT_EQ(tare.exitCode, 0) << tare.err;
