@@ -19,8 +19,6 @@
 namespace palpate {
 namespace {
 
-using Kind = PlannedSeries::Kind;
-
 constexpr std::size_t kMaxTimeRows = 50;
 
 const std::set<std::string> kTimeWords = {
@@ -62,14 +60,14 @@ std::string otherRowsText(const std::string& what,
 
 }  // namespace
 
-int timeScore(const TableColumn& column, Kind kind) {
+int timeScore(const TableColumn& column, PlannedSeries::Kind kind) {
   if (!isScalar(column) || (!column.isNumeric && !column.hasDates)) return 0;
   const bool named = namesTime(column);
   if (!named && !column.hasDates) return 0;
   const bool ofAngles = hasWord(column, kAngleWords);
   const bool ofTemperatures = hasWord(column, kTemperatureWords);
-  const bool own =
-      (kind == Kind::kAngles && ofAngles) || (kind == Kind::kTemperatures && ofTemperatures);
+  const bool own = (kind == PlannedSeries::Kind::kAngles && ofAngles) ||
+                   (kind == PlannedSeries::Kind::kTemperatures && ofTemperatures);
   if ((ofAngles || ofTemperatures) && !own) return 0;
   return 1 + (own ? 4 : 0) + (named ? 1 : 0) + (column.hasDates ? 1 : 0) +
          (wordsOf(column.name).size() == 1 ? 1 : 0);
@@ -260,7 +258,8 @@ bool TimeChoice::takeTimeFile(PlannedSeries& series, const std::string& named) {
   series.timeUnit = times.timeUnit;
   series.timeFile = file;
   plan_.notes.insert(plan_.notes.end(), plan.notes.begin(), plan.notes.end());
-  if (series.kind == Kind::kFrames) plan_.timeDescription = named + ": " + plan.timeDescription;
+  if (series.kind == PlannedSeries::Kind::kFrames)
+    plan_.timeDescription = named + ": " + plan.timeDescription;
   return true;
 }
 
@@ -288,7 +287,7 @@ std::optional<std::size_t> TimeChoice::takeBest(PlannedSeries& series, const Tab
 
 void TimeChoice::find(PlannedSeries& series, const std::string& named) {
   if (mapping_.time.rateHz) return;
-  const bool isFrames = series.kind == Kind::kFrames;
+  const bool isFrames = series.kind == PlannedSeries::Kind::kFrames;
   const TableColumn& values = columns_[series.columns.front()];
   std::optional<std::size_t> otherRows;
   if (joinedTime_ && !series.time && (isFrames || named.empty())) {
@@ -354,7 +353,7 @@ void TimeChoice::setTimeUnit(PlannedSeries& series) {
   if (column.hasDates) {
     series.timeUnit = dateUnitOf(column);
     origin = "dates";
-  } else if (!mapping_.time.unit.empty() && series.kind == Kind::kFrames &&
+  } else if (!mapping_.time.unit.empty() && series.kind == PlannedSeries::Kind::kFrames &&
              series.time != joinedTime_) {
     series.timeUnit = *timeUnitNamed(mapping_.time.unit);
   } else if (const auto unit = timeUnitNamed(column.unit); unit && !isDateUnit(*unit)) {
@@ -382,7 +381,7 @@ void TimeChoice::setTimeUnit(PlannedSeries& series) {
                             "; choose another one by --time-unit");
     }
   }
-  if (series.kind == Kind::kFrames)
+  if (series.kind == PlannedSeries::Kind::kFrames)
     plan_.timeDescription =
         shortened(column.name) + " [" + std::string(nameOf(series.timeUnit)) + ", " + origin + "]";
 }
@@ -411,7 +410,7 @@ bool TimeChoice::leaveOutFirst(PlannedSeries& series, std::size_t column, bool i
   }
   const bool hasTime = time_ || joinedTime_ ||
                        std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& each) {
-                         return timeScore(each, Kind::kFrames) > 0;
+                         return timeScore(each, PlannedSeries::Kind::kFrames) > 0;
                        });
   if (hasTime || mapping_.time.column == kNoColumns) return false;
   if (mapping_.time.rateHz) {
