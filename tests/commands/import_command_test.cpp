@@ -80,7 +80,7 @@ TEST_F(ImportCommand, ValuesThatTheHandDoesNotHaveAreKeptAndTheCodeSaysSo) {
       {"import", in("pad.csv"), "--hand", "flat_pad_16x16", "-o", in("o.palpate"), "--json"});
   EXPECT_EQ(result.exitCode, 3);
   EXPECT_NE(result.out.find("\"below\": 1"), std::string::npos) << result.out;
-  EXPECT_NE(result.err.find("1 value outside of the hand's range: 1 below 0; the first: line 22"),
+  EXPECT_NE(result.err.find("1 value outside the hand's range: 1 below 0; the first: line 22"),
             std::string::npos)
       << result.err;
   EXPECT_EQ(openRecording(in("o.palpate")).frame(20).values[3], -5.0F);

@@ -603,9 +603,8 @@ TEST(RecordingImport, ValuesOutsideOfTheRangeAreKeptAndCounted) {
   EXPECT_EQ(made.report.refused.notFinite, 1u);  // a frame without any number
   EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{1, 0, 1024, 4}));
   EXPECT_EQ(made.profile.frame(2).values, (std::vector<float>{-0.5F, 0, -3, 2000}));
-  EXPECT_EQ(
-      made.report.outside.summary(),
-      "6 values outside of the hand's range: 2 above full scale, 2 below 0, 2 NaN (taken as 0)");
+  EXPECT_EQ(made.report.outside.summary(),
+            "6 values outside the hand's range: 2 above full scale, 2 below 0, 2 NaN (taken as 0)");
   EXPECT_TRUE(made.report.isPartial());
   EXPECT_EQ(ImportReport().lossText(), "");
 }

@@ -88,10 +88,10 @@ GeometryDescription geometryOf(const CommandLine& given,
 }
 
 void requireWithinFullScale(const std::string& option, double value, const HandDescription& hand) {
-  const auto most = static_cast<double>(hand.maximumCounts);
-  if (value > most)
+  const auto fullScale = static_cast<double>(hand.maximumCounts);
+  if (value > fullScale)
     throw UsageError("--" + option + " " + numberText(value) + " is above the full scale of " +
-                     shortened(hand.name) + ", " + numberText(most) + " " + hand.unit);
+                     shortened(hand.name) + ", " + numberText(fullScale) + " " + hand.unit);
 }
 
 }  // namespace palpate::commands

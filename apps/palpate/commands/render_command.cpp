@@ -454,10 +454,10 @@ int renderCommand(const Arguments& words) {
   const std::string& file = given.words()[0];
   const Profile profile = [&] {
     ProgressLine progress("reading " + file, given.quiet());
-    Profile recorded = openRecording(file, progress.callback());
+    const Profile recorded = openRecording(file, progress.callback());
     progress.wipe();
     reportOpened(file, recorded, given.quiet());
-    return filteredBy(recipe, std::move(recorded), file);
+    return filteredBy(recipe, recorded, file);
   }();
   options.title = QString::fromStdString(fs::path(file).filename().string());
   sheet.paper.title = options.title;

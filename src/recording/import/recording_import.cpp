@@ -92,7 +92,7 @@ std::string OutsideValues::summary() const {
   add(above, "above full scale");
   add(below, "below 0");
   add(notANumber, "NaN (taken as 0)");
-  return counted(total(), "value") + " outside of the hand's range: " + parts;
+  return counted(total(), "value") + " outside the hand's range: " + parts;
 }
 
 std::string ImportReport::nulText() const {

@@ -126,8 +126,7 @@ TEST_F(RecordFeatureTest, WhatTheConnectionLostIsSaid) {
 TEST_F(RecordFeatureTest, WhatAStreamRefusedOrHadOutOfRangeIsSaid) {
   for (const auto& [name, said] :
        {std::pair("suspect", "1 refused"),
-        std::pair("out_of_range",
-                  "1 frame with values that the description of the hand excludes")}) {
+        std::pair("out_of_range", "1 frame with values outside the hand's range")}) {
     RecordingReport report;
     report.paths = {folder_ / "run_001.palpate"};
     report.frames = 316;

@@ -275,7 +275,7 @@ double heightOfHead(const PictureLook& look,
   return paintHead(painter, look, plot, options);
 }
 
-// The axes and what lies in them, below the head.
+// The axes and their content, below the header.
 struct ChartBody {
   QPicture picture;
   QRectF axes = {};  // place of the first ones

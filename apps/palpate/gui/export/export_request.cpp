@@ -21,9 +21,9 @@ constexpr double kScreenPerInch = 96.0;
 // halves of a point; lines of one pixel on screen are half a point wide on paper.
 constexpr double kPaperPerInch = 144.0;
 constexpr double kUnitsPerPt = 2.0;
-constexpr double kExportRequestLeastMm = 20.0, kMostMm = 1200.0;
-constexpr double kLeastPt = 4.0, kMostPt = 40.0;
-constexpr int kMostPixels = 16384;  // largest side
+constexpr double kExportRequestMinMm = 20.0, kExportRequestMaxMm = 1200.0;
+constexpr double kMinPt = 4.0, kMaxPt = 40.0;
+constexpr int kMaxPixels = 16384;  // largest side
 
 const QString kExportRequestGroup = "export/";
 const QString kExportSizesGroup = "export/sizes/";  // and the name of the view
@@ -40,9 +40,10 @@ ExportSize loadExportSize(const QSettings& settings,
   const QString preset = settings.value(group + "size").toString();
   for (std::size_t i = 0; i < kPaperPresets.size(); ++i)
     if (kPaperPresets[i].name == preset) size.preset = static_cast<int>(i);
-  size.sizeMm = {number("width_mm", usual.sizeMm.width(), kExportRequestLeastMm, kMostMm),
-                 number("height_mm", usual.sizeMm.height(), kExportRequestLeastMm, kMostMm)};
-  size.textPt = number("text_pt", usual.textPt, kLeastPt, kMostPt);
+  size.sizeMm = {
+      number("width_mm", usual.sizeMm.width(), kExportRequestMinMm, kExportRequestMaxMm),
+      number("height_mm", usual.sizeMm.height(), kExportRequestMinMm, kExportRequestMaxMm)};
+  size.textPt = number("text_pt", usual.textPt, kMinPt, kMaxPt);
   return size;
 }
 
@@ -258,7 +259,7 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
     if (const QString reason = movieProblem(view); !reason.isEmpty()) return reason;
   if (request.form == ExportFormat::kPng || request.isMovie()) {
     const QSize pixels = paperOf(request, view.sizeOnScreen()).pixels();
-    if (std::max(pixels.width(), pixels.height()) > kMostPixels)
+    if (std::max(pixels.width(), pixels.height()) > kMaxPixels)
       return QString("%1 × %2 pixels are too many: choose %3.")
           .arg(pixels.width())
           .arg(pixels.height())

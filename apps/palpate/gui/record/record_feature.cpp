@@ -118,8 +118,7 @@ QString summaryOf(const RecordingReport& report) {
   const std::int64_t outOfRange = counterOf(report, "out_of_range");
   if (suspect > 0) text += ", " + QString::number(suspect) + " refused";
   if (outOfRange > 0)
-    text += ", " + countedText(outOfRange, "frame") +
-            " with values that the description of the hand excludes";
+    text += ", " + countedText(outOfRange, "frame") + " with values outside the hand's range";
   if (report.lost > 0) text += ", " + QString::number(report.lost) + " lost by the recorder";
   if (report.gaps > 0)
     text +=

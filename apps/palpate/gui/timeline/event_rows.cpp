@@ -34,8 +34,8 @@ class EventTextField : public QLineEdit {
 
 constexpr int kAboveText = 3;          // [px] above and below the text of a row
 constexpr double kEventRowsGap = 2.0;  // [px] between rows
-// Least width of a bar [px], also that of a moment.
-constexpr double kLeastBar = 3.0;
+// Minimum width of a bar [px], also that of a moment.
+constexpr double kMinBar = 3.0;
 // Distance from an end at which the mouse still takes it [px].
 constexpr double kReach = 5.0;
 constexpr double kTextRoom = 4.0;   // [px] before a text
@@ -142,14 +142,14 @@ QRectF EventRows::barOf(std::size_t index) const {
   const EventMark& mark = marks_[index];
   const bool dragged = drag_ != Part::kNone && chosen_ == index && dragged_;
   double from = pixelOf(dragged ? dragFromS_ : mark.fromS);
-  double to = std::max(pixelOf(dragged ? dragToS_ : mark.toS), from + kLeastBar);
+  double to = std::max(pixelOf(dragged ? dragToS_ : mark.toS), from + kMinBar);
   if (const auto [place, count] = shares_[index]; count > 1 && !dragged) {
     // Each has a share of what is visible.
     if (from < right_ && to > left_) {
       from = std::max<double>(from, left_);
       to = std::min<double>(to, right_);
     }
-    const double width = std::max((to - from) / static_cast<double>(count), kLeastBar + 1.0);
+    const double width = std::max((to - from) / static_cast<double>(count), kMinBar + 1.0);
     const double all = static_cast<double>(count) * width;
     // Moments at the right border lie before it.
     if (all > to - from && from <= right_) from = std::min(from, right_ - all);
@@ -159,7 +159,7 @@ QRectF EventRows::barOf(std::size_t index) const {
   if (to < left_ || from > right_) return {};
   const auto row = std::find(lanes_.begin(), lanes_.end(), mark.lane) - lanes_.begin();
   // A mark at the end is as wide as one elsewhere.
-  const double x0 = std::max<double>(std::min<double>(from, right_ - kLeastBar), left_);
+  const double x0 = std::max<double>(std::min<double>(from, right_ - kMinBar), left_);
   const double x1 = std::min<double>(to, right_);
   return {x0,
           static_cast<double>(row) * rowHeight() + kEventRowsGap,
