@@ -10,6 +10,7 @@ namespace {
 
 using palpate::testing::expectOneLineError;
 using palpate::testing::palpate;
+using palpate::testing::startedPalpate;
 
 const CommandSpec kSpec{.synopsis = "palpate try FILE",
                         .purpose = "A command for this test.",
@@ -53,13 +54,41 @@ TEST(CommandLine, ChecksRangesAndChoices) {
 
 TEST(Program, EveryCommandExplainsItselfWithAnExample) {
   for (const Command& command : allCommands()) {
-    const auto result = palpate({command.name, "--help"});
+    const auto result = startedPalpate({command.name, "--help"});
     EXPECT_EQ(result.exitCode, 0) << command.name;
     EXPECT_NE(result.out.find("Usage: palpate " + std::string(command.name)), std::string::npos);
     EXPECT_NE(result.out.find("Example:\n  palpate " + std::string(command.name)),
               std::string::npos);
     EXPECT_NE(result.out.find("--quiet"), std::string::npos) << command.name;
     EXPECT_EQ(result.err, "");
+  }
+}
+
+// The other tests call the commands without starting the program.
+TEST(Program, StartedItDoesWhatItsCommandsDo) {
+  const testing::TemporaryFolder folder;
+  const std::string file = folder / "a.dsa";
+  ASSERT_EQ(startedPalpate({"synthesize", "-o", file, "--seed", "1"}).exitCode, 0);
+  for (const char* command : {"compare",
+                              "contact",
+                              "features",
+                              "filter",
+                              "ghosts",
+                              "grasps",
+                              "info",
+                              "kinematics",
+                              "labels",
+                              "signals",
+                              "slip",
+                              "verify"}) {
+    Arguments words = {command, file};
+    if (words[0] == "compare") words.push_back(file);
+    if (words[0] == "filter")
+      words.insert(words.end(), {"-o", folder / "b.dsa", "--filter", "median"});
+    const auto started = startedPalpate(words), called = palpate(words);
+    EXPECT_EQ(started.exitCode, called.exitCode) << command << started.err;
+    EXPECT_EQ(started.out, called.out) << command;
+    if (words[0] != "labels") EXPECT_NE(started.out, "") << command;  // it has none
   }
 }
 

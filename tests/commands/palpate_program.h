@@ -8,18 +8,14 @@
 
 namespace palpate::testing {
 
-inline ProgramResult palpate(const std::vector<std::string>& arguments,
-                             std::map<std::string, std::string> environment = {}) {
-  const TemporaryFolder home;  // the user's own settings are never touched
-  for (const char* variable : {"XDG_CONFIG_HOME",
-                               "XDG_DATA_HOME",
-                               "XDG_STATE_HOME",
-                               "XDG_CACHE_HOME",
-                               "XDG_RUNTIME_DIR",
-                               "HOME"})
-    environment.try_emplace(variable, home.path().string());
-  return runProgram(PALPATE_PROGRAM, arguments, environment);
-}
+// Runs `palpate` with settings and folders of its own, which are empty. It isn't started, but
+// called in a copy of this process: loading its libraries would take most of the time of these
+// tests.
+ProgramResult palpate(const std::vector<std::string>& arguments,
+                      std::map<std::string, std::string> environment = {});
+// The same by starting the program.
+ProgramResult startedPalpate(const std::vector<std::string>& arguments,
+                             std::map<std::string, std::string> environment = {});
 
 // Failed with `exitCode` and exactly one line on stderr that contains `words`.
 inline void expectOneLineError(const ProgramResult& result,

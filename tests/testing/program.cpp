@@ -20,12 +20,7 @@ ProgramResult runProgram(const std::filesystem::path& program,
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
-    const int in = ::open("/dev/null", O_RDONLY);
-    const int out = ::open(outPath.c_str(), O_WRONLY | O_CREAT, 0600);
-    const int err = ::open(errPath.c_str(), O_WRONLY | O_CREAT, 0600);
-    ::dup2(in, STDIN_FILENO);
-    ::dup2(out, STDOUT_FILENO);
-    ::dup2(err, STDERR_FILENO);
+    redirectStreams(outPath, errPath);
     for (const auto& [name, value] : environment) {
       if (value.empty())
         ::unsetenv(name.c_str());
@@ -42,11 +37,19 @@ ProgramResult runProgram(const std::filesystem::path& program,
   }
   int status = 0;
   if (::waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
-  ProgramResult result;
-  result.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  result.out = readFile(outPath);
-  result.err = readFile(errPath);
-  return result;
+  return resultOf(status, outPath, errPath);
+}
+
+void redirectStreams(const std::string& outPath, const std::string& errPath) {
+  ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+  ::dup2(::open(outPath.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+  ::dup2(::open(errPath.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+}
+
+ProgramResult resultOf(int status, const std::string& outPath, const std::string& errPath) {
+  return {.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          .out = readFile(outPath),
+          .err = readFile(errPath)};
 }
 
 }  // namespace palpate::testing

@@ -22,4 +22,10 @@ ProgramResult runProgram(const std::filesystem::path& program,
                          const std::vector<std::string>& arguments,
                          const std::map<std::string, std::string>& environment = {});
 
+// What both ways of running a program need. In the new process: nothing to read, and files of its
+// output and errors.
+void redirectStreams(const std::string& outPath, const std::string& errPath);
+// Of the status that waitpid() gives.
+ProgramResult resultOf(int status, const std::string& outPath, const std::string& errPath);
+
 }  // namespace palpate::testing
