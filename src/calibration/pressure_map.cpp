@@ -223,6 +223,7 @@ void PressureMap::apply(const TactileFrame& frame,
                        ? std::hypot(estimate.sdKpa, matrix.extraSdCounts * estimate.kpaPerCount)
                        : estimate.sdKpa;
     result.inRange = estimate.inRange && matrix.extraSdCounts == 0.0;
+    result.tooLight = estimate.tooLight && matrix.extraSdCounts == 0.0;
     result.temperatureKnown = estimate.temperatureKnown;
     const double scale = result.kpa * contact.active / contact.sum;
     for (std::size_t place = 0; place < count; ++place)

@@ -104,6 +104,7 @@ PressureEstimate PressureModel::pressureAt(double staticResponseCounts,
   if (!estimate.temperatureKnown)
     estimate.sdKpa = std::hypot(at.sd, at.byT * options.assumedSdDegC);
   estimate.inRange = at.inRange;
+  estimate.tooLight = at.tooLight;
   estimate.kpaPerCount = at.byX;
   return estimate;
 }

@@ -133,17 +133,20 @@ std::vector<SurfacePoint> hullOf(std::vector<SurfacePoint> points) {
   return hull;
 }
 
-bool inHull(const std::vector<SurfacePoint>& hull, double x, double t) {
+enum class HullPlace { kInside, kBelow, kOutside };  // kBelow: a larger x would be inside
+
+HullPlace placeIn(const std::vector<SurfacePoint>& hull, double x, double t) {
   if (hull.size() < 3) {
     // With one temperature (or one gain) the hull is a line; points close to it are in range.
-    if (hull.empty()) return false;
+    if (hull.empty()) return HullPlace::kOutside;
     const auto [leastX, mostX] =
         std::minmax_element(hull.begin(), hull.end(), [](auto& a, auto& b) { return a.x < b.x; });
     const auto [leastT, mostT] =
         std::minmax_element(hull.begin(), hull.end(), [](auto& a, auto& b) { return a.t < b.t; });
     const double slackX = (kHullGrowth - 1.0) * (mostX->x - leastX->x), slackT = 2.0;
-    return x >= leastX->x - slackX && x <= mostX->x + slackX && t >= leastT->t - slackT &&
-           t <= mostT->t + slackT;
+    if (!(t >= leastT->t - slackT && t <= mostT->t + slackT && x <= mostX->x + slackX))
+      return HullPlace::kOutside;
+    return x >= leastX->x - slackX ? HullPlace::kInside : HullPlace::kBelow;
   }
   SurfacePoint middle;
   for (const SurfacePoint& corner : hull) {
@@ -152,9 +155,17 @@ bool inHull(const std::vector<SurfacePoint>& hull, double x, double t) {
   }
   const SurfacePoint at{
       middle.x + (x - middle.x) / kHullGrowth, middle.t + (t - middle.t) / kHullGrowth, 0.0};
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    if (turn(hull[i], hull[(i + 1) % hull.size()], at) < 0.0) return false;
-  return true;
+  bool inside = true, below = false;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const SurfacePoint& a = hull[i];
+    const SurfacePoint& b = hull[(i + 1) % hull.size()];
+    if (turn(a, b, at) < 0.0) inside = false;
+    // Where the hull has this t, its x is larger.
+    if ((a.t <= at.t) != (b.t <= at.t))
+      below = a.x + (b.x - a.x) * (at.t - a.t) / (b.t - a.t) > at.x;
+  }
+  if (inside) return HullPlace::kInside;
+  return below ? HullPlace::kBelow : HullPlace::kOutside;
 }
 
 }  // namespace
@@ -168,7 +179,7 @@ std::vector<SurfaceTerm> surfaceTerms(int degree) {
 
 SurfaceEstimate Surface::at(double x, double t) const {
   SurfaceEstimate estimate;
-  if (!valid) return {kSurfaceNaN, kSurfaceNaN, kSurfaceNaN, kSurfaceNaN, false};
+  if (!valid) return {kSurfaceNaN, kSurfaceNaN, kSurfaceNaN, kSurfaceNaN, false, false};
   double basis[kMostTerms] = {};
   const auto p = static_cast<Eigen::Index>(terms.size());
   for (Eigen::Index k = 0; k < p; ++k) {
@@ -186,7 +197,9 @@ SurfaceEstimate Surface::at(double x, double t) const {
       for (Eigen::Index b = 0; b < p; ++b) variance += basis[a] * covariance(a, b) * basis[b];
   estimate.sd = std::sqrt(std::max(variance, 0.0));
   if (std::isnan(variance)) estimate.sd = kSurfaceNaN;
-  estimate.inRange = inHull(hull, x, t);
+  const HullPlace place = placeIn(hull, x, t);
+  estimate.inRange = place == HullPlace::kInside;
+  estimate.tooLight = place == HullPlace::kBelow;
   return estimate;
 }
 

@@ -37,9 +37,7 @@ double IntervalStatistics::rateHz() const noexcept {
   double between = static_cast<double>(lastUs_ - firstUs_);
   for (const std::int64_t interval : longOnes_)
     if (static_cast<double>(interval) > gapUs) between -= static_cast<double>(interval);
-  const double mean =
-      between / static_cast<double>(std::max<std::int64_t>(frames_ - 1 - gaps(), 1));
-  return 1e6 / (isInBursts(median, mean) ? mean : median);
+  return usualRateOf(median, between, static_cast<std::size_t>(frames_ - 1 - gaps())).hz;
 }
 
 std::int64_t IntervalStatistics::gaps() const noexcept {

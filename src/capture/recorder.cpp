@@ -42,6 +42,17 @@ CaptureQueueOptions feedFor(CaptureQueueOptions options) {
 
 }  // namespace
 
+std::int64_t RecordingReport::counter(const std::string& name) const {
+  const auto at = counters.find(name);
+  return at == counters.end() ? 0 : at->second;
+}
+
+FrameLosses RecordingReport::losses() const {
+  return {.lost = counter("lost"),
+          .refused = counter("suspect"),
+          .outOfRange = counter("out_of_range")};
+}
+
 struct Recorder::Impl {
   Impl(RecorderOptions given, const Clock& theClock)
       : options(std::move(given)), clock(theClock), queue("the recorder", feedFor(options.queue)) {

@@ -9,6 +9,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 
 #include "device/stream_source.h"
 
@@ -275,10 +276,8 @@ void StreamLink::takeFrame(const StreamItem& item) {
   frame.hostUs = stampAfter(session_.lastStampUs);
   const std::int64_t hostUs = frame.hostUs;
   const auto deviceUs = deviceTime(item, nowUs);
-  if (deviceUs) {
-    frame.deviceMs = floorMs(*deviceUs);
-    measureAge(hostUs, *deviceUs);
-  }
+  frame.deviceUs = deviceUs;
+  if (deviceUs) measureAge(hostUs, *deviceUs);
   if (session_.gapFromUs) {
     endGap(hostUs, step.missing, /*frameReceived=*/true);
   } else {

@@ -9,6 +9,7 @@
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 #include "palpate/device/sdh2.h"
 
 #include "device/dsa_records.h"
@@ -193,7 +194,7 @@ void TactileLink::checkStamp(TactileFrame&& frame, const DsaFrame& packet) {
 }
 
 void TactileLink::deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size_t packetBytes) {
-  frame.deviceMs = deviceMs;
+  frame.deviceUs = deviceMs * kUsPerMs;
   const std::int64_t hostUs = frame.hostUs;
   const bool counts = session_.loss.known();
   const std::uint64_t counted = session_.loss.next(deviceMs, packetBytes);

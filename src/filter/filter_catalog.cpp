@@ -18,6 +18,7 @@ using FilterCatalogKind = FilterOption::Kind;
 constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFilterCatalogLargestSize = 31;  // taxels
 constexpr double kLargestWindow = 1001;           // frames
+constexpr double kLargestThreshold = 1e6;         // counts, or the unit of the hand
 constexpr double kLowestEdgeHz = 0.001;
 constexpr double kHighestEdgeHz = 10'000;
 
@@ -142,6 +143,14 @@ std::vector<FilterKind> spatialKinds() {
        "Erosion, then dilation: removes contacts into which the structuring element doesn't fit.",
        kSpatialBorder,
        "study 2.4"},
+      {"threshold",
+       "Threshold",
+       FilterDomain::kSpatial,
+       {real("above", 0, kLargestThreshold, 10, "counts", "values up to this become 0")},
+       "Values up to the threshold become 0, others stay: noise of a sensor without a threshold of "
+       "its own is no contact.",
+       "every taxel by itself",
+       "what the SDH-2's controller does"},
   };
 }
 

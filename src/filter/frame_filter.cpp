@@ -17,6 +17,7 @@ std::unique_ptr<MatrixKernel> kernelOf(const FilterStep& step, const MatrixLayou
   if (step.name == "bilateral") return detail::bilateralKernel(layout, step);
   if (step.name == "nlm") return detail::nonLocalMeansKernel(layout, step);
   if (step.name == "opening") return detail::openingKernel(layout, step);
+  if (step.name == "threshold") return detail::thresholdKernel(layout, step);
   throw std::logic_error("makeFrameFilter: " + step.name + " has no kernel");
 }
 

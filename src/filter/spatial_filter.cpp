@@ -37,7 +37,7 @@ void keepOriginal(const float* original, float* values, const MatrixLayout& layo
 SpatialFilter::SpatialFilter(const FilterStep& step,
                              std::shared_ptr<const SensorLayout> layout,
                              const MakeKernel& make)
-    : layout_(std::move(layout)), masked_(step.flag("masked")) {
+    : layout_(std::move(layout)), masked_(step.valueOrZero("masked") != 0.0) {
   for (std::size_t m = 0; m < layout_->numMatrices(); ++m)
     kernels_.push_back(worksOn(step, m) ? make(layout_->matrix(m)) : nullptr);
 }

@@ -47,6 +47,7 @@ std::unique_ptr<MatrixKernel> bilateralKernel(const MatrixLayout& layout, const 
 std::unique_ptr<MatrixKernel> nonLocalMeansKernel(const MatrixLayout& layout,
                                                   const FilterStep& step);
 std::unique_ptr<MatrixKernel> openingKernel(const MatrixLayout& layout, const FilterStep& step);
+std::unique_ptr<MatrixKernel> thresholdKernel(const MatrixLayout& layout, const FilterStep& step);
 
 // Returns whether a step applies to a matrix.
 bool worksOn(const FilterStep& step, std::size_t matrix);

@@ -81,7 +81,7 @@ void appendSignalJson(std::string& out,
   JsonLine json(out);
   json.number("t", static_cast<double>(results.frame->hostUs) / kUsPerS);
   json.integer("sequence", static_cast<std::int64_t>(sequence));
-  if (results.frame->deviceMs) json.integer("device_ms", *results.frame->deviceMs);
+  if (results.frame->deviceUs) json.integer("device_ms", floorMs(*results.frame->deviceUs));
   for (std::size_t m = 0; m < results.matrixSignals.size(); ++m) addMatrix(json, results, m);
   if (!results.matrixSignals.empty()) {
     json.begin("whole");

@@ -80,7 +80,7 @@ void LiveMeasurement::addFrame(const TactileFrame& frame) {
   if (!first && frame.hostUs > lastUs_ && gaps_.afterGap(frame.hostUs))
     return fail("no frames for " + fixedText(secondsBetween(lastUs_, frame.hostUs), 1) + " s");
   try {
-    builder_.addFrame(frame.hostUs, frame.values, frame.deviceMs);
+    builder_.addFrame(frame.hostUs, frame.values, frame.deviceUs);
   } catch (const std::invalid_argument&) {
     ++numUnusable_;
     return;

@@ -22,7 +22,7 @@ struct FrameChunk {
   std::vector<std::int64_t> hostUs;
   std::vector<std::uint32_t> begin;  // of each frame in `bytes`
   std::vector<FrameCoding> coding;
-  std::vector<std::optional<std::int64_t>> deviceMs;  // empty when no frame of the chunk has one
+  std::vector<std::optional<std::int64_t>> deviceUs;  // empty when no frame of the chunk has one
   std::vector<std::byte> bytes;
 };
 
@@ -80,7 +80,7 @@ class ProfileBuilder::Storage final : public ProfileStorage {
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     const FrameChunk& chunk = chunks_[frame / kFramesPerChunk];
     const std::size_t i = frame % kFramesPerChunk;
-    out.deviceMs = i < chunk.deviceMs.size() ? chunk.deviceMs[i] : std::nullopt;
+    out.deviceUs = i < chunk.deviceUs.size() ? chunk.deviceUs[i] : std::nullopt;
     decodeFrame(std::span(chunk.bytes).subspan(chunk.begin[i]), chunk.coding[i], out);
   }
   std::size_t numAngles() const override { return angleSeries.size(); }
@@ -98,7 +98,7 @@ class ProfileBuilder::Storage final : public ProfileStorage {
 
   // `Values` is a span of values, or a frame that may also have filtered values.
   template <typename Values>
-  void addFrame(std::int64_t hostUs, const Values& values, std::optional<std::int64_t> deviceMs) {
+  void addFrame(std::int64_t hostUs, const Values& values, std::optional<std::int64_t> deviceUs) {
     if (numFrames_ % kFramesPerChunk == 0) chunks_.emplace_back();
     FrameChunk& chunk = chunks_.back();
     const FrameCoding coding = codingFor(values);
@@ -107,8 +107,8 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     encodeFrame(values, coding, chunk.bytes);
     chunk.hostUs.push_back(hostUs);
     // Many recordings have no device times; then no memory is used for them.
-    if (deviceMs && chunk.deviceMs.empty()) chunk.deviceMs.resize(chunk.hostUs.size() - 1);
-    if (deviceMs || !chunk.deviceMs.empty()) chunk.deviceMs.push_back(deviceMs);
+    if (deviceUs && chunk.deviceUs.empty()) chunk.deviceUs.resize(chunk.hostUs.size() - 1);
+    if (deviceUs || !chunk.deviceUs.empty()) chunk.deviceUs.push_back(deviceUs);
     chunk.coding.push_back(coding);
     ++numFrames_;
     if (numFrames_ % kFramesPerChunk == 0) chunk.bytes.shrink_to_fit();
@@ -148,15 +148,15 @@ void ProfileBuilder::require(std::int64_t hostUs, std::span<const float> values)
 
 void ProfileBuilder::addFrame(std::int64_t hostUs,
                               std::span<const float> values,
-                              std::optional<std::int64_t> deviceMs) {
+                              std::optional<std::int64_t> deviceUs) {
   require(hostUs, values);
-  storage_->addFrame(hostUs, values, deviceMs);
+  storage_->addFrame(hostUs, values, deviceUs);
 }
 
 void ProfileBuilder::addFrame(const TactileFrame& frame) {
   require(frame.hostUs, frame.values);
   if (!frame.filtered.empty()) require(frame.hostUs, frame.filtered);
-  storage_->addFrame(frame.hostUs, frame, frame.deviceMs);
+  storage_->addFrame(frame.hostUs, frame, frame.deviceUs);
 }
 
 void ProfileBuilder::addAngles(std::int64_t hostUs, std::span<const double> deg) {

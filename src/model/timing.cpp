@@ -28,10 +28,9 @@ TimingReport timingOf(std::span<const std::int64_t> stampsUs) {
       report.gaps.push_back({i, static_cast<double>(intervals[i]) / 1e6});
       betweenUs -= static_cast<double>(intervals[i]);
     }
-  const double meanUs = betweenUs / static_cast<double>(std::max<std::size_t>(
-                                        intervals.size() - report.gaps.size(), 1));
-  report.inBursts = isInBursts(medianUs, meanUs);
-  report.rateHz = 1e6 / (report.inBursts ? meanUs : medianUs);
+  const UsualRate rate = usualRateOf(medianUs, betweenUs, intervals.size() - report.gaps.size());
+  report.rateHz = rate.hz;
+  report.inBursts = rate.inBursts;
   return report;
 }
 

@@ -110,7 +110,7 @@ void GraspCollector::trimAngles() {
 
 Profile GraspCollector::clip() const {
   ProfileBuilder builder(hand_);
-  for (const auto& frame : frames_) builder.addFrame(frame->hostUs, frame->values, frame->deviceMs);
+  for (const auto& frame : frames_) builder.addFrame(frame->hostUs, frame->values, frame->deviceUs);
   for (const JointAngles& sample : angles_)
     if (sample.hostUs <= frames_.back()->hostUs) builder.addAngles(sample.hostUs, sample.deg);
   ProfileInfo info;

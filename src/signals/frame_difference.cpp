@@ -88,7 +88,7 @@ void FrameComparison::difference(const TactileFrame& a,
   check(a, b);
   out.layout = layout_;
   out.hostUs = a.hostUs;
-  out.deviceMs = a.deviceMs;
+  out.deviceUs = a.deviceUs;
   out.values.assign(layout_->numCells(), 0.0F);
   for (std::size_t m = 0; m < layout_->numMatrices(); ++m) {
     if (!compared_[m]) continue;

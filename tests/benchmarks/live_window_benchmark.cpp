@@ -110,7 +110,7 @@ class Bench {
     QObject::connect(&window_->state().live,
                      &gui::LiveController::frameReceived,
                      [this](const palpate::TactileFrame& frame) {
-                       if (frame.deviceMs) deviceMs_[frame.hostUs] = *frame.deviceMs;
+                       if (frame.deviceUs) deviceMs_[frame.hostUs] = *frame.deviceUs / 1000;
                      });
     QObject::connect(&window_->feature<gui::MatricesFeature>().panel().view(),
                      &gui::MatricesView::painted,
@@ -226,8 +226,8 @@ void wireToMailbox(benchmark::State& state) {
     std::map<std::uint32_t, std::int64_t> taken;
     const std::int64_t endUs = systemClock().monotonicUs() + 15'000'000;
     while (systemClock().monotonicUs() < endUs) {
-      if (const auto frame = session.takeFrame(); frame && frame->deviceMs)
-        taken[static_cast<std::uint32_t>(*frame->deviceMs)] = systemClock().wallUs();
+      if (const auto frame = session.takeFrame(); frame && frame->deviceUs)
+        taken[static_cast<std::uint32_t>(*frame->deviceUs / 1000)] = systemClock().wallUs();
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
     std::vector<double> ages;

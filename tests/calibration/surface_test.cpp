@@ -148,6 +148,20 @@ TEST(Surface, KnowsWhereItWasMeasured) {
   EXPECT_FALSE(s.at(530.0, 35.0).inRange);
   EXPECT_FALSE(s.at(300.0, 42.0).inRange);
   EXPECT_FALSE(s.at(0.0, 0.0).inRange);
+  EXPECT_TRUE(s.at(20.0, 35.0).tooLight);
+  EXPECT_FALSE(s.at(300.0, 35.0).tooLight) << "in range";
+  EXPECT_FALSE(s.at(530.0, 35.0).tooLight) << "too strong";
+  EXPECT_FALSE(s.at(20.0, 42.0).tooLight) << "nothing was measured at this temperature";
+}
+
+TEST(Surface, ASlantingHullKnowsItsLightEnd) {
+  // K begins higher where it is warmer, as in the study's calibration.
+  const std::vector<SurfacePoint> slanting = {
+      {50, 26, 1}, {550, 28, 5}, {800, 45, 6}, {130, 42, 2}, {300, 35, 3}};
+  const Surface s = fitSurface(slanting, surfaceTerms(1), SurfaceSelection::kAllTerms);
+  EXPECT_TRUE(s.at(60.0, 36.0).tooLight);
+  EXPECT_FALSE(s.at(760.0, 30.0).tooLight) << "too strong at this temperature";
+  EXPECT_FALSE(s.at(760.0, 30.0).inRange);
 }
 
 TEST(Surface, OneTemperatureGivesALineInGain) {
@@ -158,6 +172,8 @@ TEST(Surface, OneTemperatureGivesALineInGain) {
   EXPECT_EQ(s.numTerms, 2u);
   EXPECT_TRUE(s.at(300.0, 31.0).inRange);
   EXPECT_FALSE(s.at(300.0, 40.0).inRange);
+  EXPECT_TRUE(s.at(-60.0, 31.0).tooLight);
+  EXPECT_FALSE(s.at(-60.0, 40.0).tooLight);
   const Surface all = fitSurface(points, surfaceTerms(1), SurfaceSelection::kAllTerms);
   EXPECT_FALSE(all.valid) << "four terms aren't determined";
   EXPECT_TRUE(std::isnan(all.at(300.0, 30.0).value));

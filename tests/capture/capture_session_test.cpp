@@ -67,7 +67,7 @@ TEST(CaptureSession, RecordsWhatTheDeviceDelivers) {
     const TactileFrame frame = profile.frame(i);
     ASSERT_EQ(frame.values, expected.values) << i;
     ASSERT_EQ(frame.hostUs, expected.hostUs);
-    ASSERT_EQ(frame.deviceMs, expected.deviceMs);
+    ASSERT_EQ(frame.deviceUs, expected.deviceUs);
   }
   ASSERT_EQ(profile.numAngles(), 600u);
   EXPECT_EQ(profile.angles(599).deg, numberedAngles(599, 0).deg);

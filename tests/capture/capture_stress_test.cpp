@@ -143,7 +143,7 @@ TEST(CaptureStress, everyFrameOfALongRunIsRecordedAndNothingGrows) {
     profile.readFrame(i, frame);
     ASSERT_EQ(frame.values, sent.values) << i;
     ASSERT_EQ(frame.hostUs, sent.hostUs) << i;
-    ASSERT_EQ(frame.deviceMs, sent.deviceMs) << i;
+    ASSERT_EQ(frame.deviceUs, sent.deviceUs) << i;
   }
   std::printf("%zu frames: %zu kB when warm, %zu kB at the end, %.0f MB on disk\n",
               frames,

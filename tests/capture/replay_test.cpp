@@ -88,8 +88,8 @@ TEST(Replay, deliversInOrderOfTimeAndWhatBelongsToAFrameBeforeIt) {
   EXPECT_EQ(listener.events[0].matrix, 2);
   EXPECT_EQ(listener.events[0].t1Us, kWallStartUs + 12'000);
   EXPECT_EQ(listener.events[1].text, "the recording has ended");
-  EXPECT_EQ(listener.frames[1].deviceMs, std::nullopt);
-  EXPECT_EQ(listener.frames[2].deviceMs, 20);
+  EXPECT_EQ(listener.frames[1].deviceUs, std::nullopt);
+  EXPECT_EQ(listener.frames[2].deviceUs, 20'000);
   replay.advance(1'000'000);  // nothing is delivered twice
   EXPECT_EQ(listener.items.size(), 10u);
 }
@@ -210,7 +210,7 @@ void expectSame(const Profile& a, const Profile& b) {
     const TactileFrame y = b.frame(i);
     ASSERT_EQ(x.values, y.values) << i;
     ASSERT_EQ(x.hostUs, y.hostUs) << i;
-    ASSERT_EQ(x.deviceMs, y.deviceMs) << i;
+    ASSERT_EQ(x.deviceUs, y.deviceUs) << i;
   }
   for (std::size_t i = 0; i < a.numAngles(); ++i) {
     ASSERT_EQ(a.angles(i).deg, b.angles(i).deg) << i;

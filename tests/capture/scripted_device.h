@@ -37,7 +37,7 @@ class HandClock : public Clock {
 inline TactileFrame numberedFrame(std::size_t n, std::int64_t hostUs) {
   TactileFrame frame(sdh2().layout);
   frame.hostUs = hostUs;
-  frame.deviceMs = static_cast<std::int64_t>(n) * 32 + 7;
+  frame.deviceUs = static_cast<std::int64_t>(n) * 32'000 + 7'000;
   frame.values[0] = static_cast<float>(n % 4096);
   frame.values[1] = static_cast<float>(n / 4096 % 4096);
   for (std::size_t k = 2; k < 60; ++k)

@@ -54,7 +54,7 @@ TEST_F(LiveHandTest, DeliversFramesInOrderWithTheirStamps) {
   const auto frames = sink.takeFrames();
   for (std::size_t i = 1; i < frames.size(); ++i) {
     EXPECT_GT(frames[i].hostUs, frames[i - 1].hostUs);
-    EXPECT_GT(*frames[i].deviceMs, *frames[i - 1].deviceMs);
+    EXPECT_GT(*frames[i].deviceUs, *frames[i - 1].deviceUs);
     EXPECT_EQ(frames[i].values.size(), 486u);
   }
   EXPECT_EQ(hand.facts().serial, "1D9B0057");

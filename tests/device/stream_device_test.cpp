@@ -109,13 +109,13 @@ TEST(StreamDevice, DeliversLinesAndPacketsWithBothTimes) {
   lines.send("frame#1,250,1,2,3\n");
   ASSERT_EQ(lines.sink.frames.size(), 1u);
   EXPECT_EQ(lines.sink.frames[0].values, (std::vector<float>{1, 2, 3}));
-  EXPECT_EQ(lines.sink.frames[0].deviceMs, 250);
+  EXPECT_EQ(lines.sink.frames[0].deviceUs, 250'000);
   EXPECT_EQ(lines.sink.frames[0].hostUs, lines.time.nowUs());
   Bench packets;
   packets.frame(7);
   ASSERT_EQ(packets.sink.frames.size(), 1u);
   EXPECT_EQ(packets.sink.frames[0].values, (std::vector<float>{1, 2, 7}));
-  EXPECT_EQ(packets.sink.frames[0].deviceMs, packets.clock.nowUs / 1000);
+  EXPECT_EQ(packets.sink.frames[0].deviceUs, packets.clock.nowUs);
   EXPECT_EQ(packets.status().items, 1u);
   EXPECT_EQ(packets.status().bytes, 24u + 6u);
   EXPECT_EQ(packets.status().skippedBytes, 0u);

@@ -67,16 +67,16 @@ void recordAndCompare(const std::string& sender, float offset, const std::string
   EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
   const Profile profile = openRecording(folder / "a.palpate");
   ASSERT_EQ(static_cast<std::int64_t>(profile.numFrames()), kFrames);
-  std::optional<std::int64_t> lastMs;
+  std::optional<std::int64_t> lastUs;
   for (std::int64_t n = 0; n < kFrames; ++n) {
     const TactileFrame frame = profile.frame(static_cast<std::size_t>(n));
     ASSERT_EQ(frame.values.size(), 256u);
     for (std::int64_t k = 0; k < 256; ++k)
       ASSERT_EQ(frame.values[static_cast<std::size_t>(k)], sentValue(n, k, offset))
           << "frame " << n << ", value " << k;
-    ASSERT_TRUE(frame.deviceMs);
-    ASSERT_GE(*frame.deviceMs, lastMs.value_or(*frame.deviceMs));
-    lastMs = frame.deviceMs;
+    ASSERT_TRUE(frame.deviceUs);
+    ASSERT_GE(*frame.deviceUs, lastUs.value_or(*frame.deviceUs));
+    lastUs = frame.deviceUs;
   }
 }
 

@@ -10,7 +10,7 @@
 
 namespace palpate::testing {
 
-class NumberedHand final : public HandModel {
+class NumberedHand : public HandModel {
  public:
   // loaded: number of taxels (0..300) with values besides the number, which make frames longer.
   explicit NumberedHand(std::size_t loaded = 20)

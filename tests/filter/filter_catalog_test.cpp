@@ -19,6 +19,7 @@ TEST(FilterCatalog, HasThePromisedNamesKeysAndDefaults) {
       {"bilateral", {{"diameter", 3}, {"sigma_value", 50}, {"sigma_space", 3}, {"masked", 0}}},
       {"nlm", {{"patch", 3}, {"search", 5}, {"h", 50}, {"masked", 0}}},
       {"opening", {{"size", 3}, {"masked", 0}}},
+      {"threshold", {{"above", 10}}},
       {"running-mean", {{"window", 5}, {"centred", 0}}},
       {"temporal-gaussian", {{"window", 5}, {"sigma", 1.5}, {"centred", 0}}},
       {"temporal-min", {{"window", 3}, {"centred", 0}}},

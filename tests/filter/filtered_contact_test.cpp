@@ -23,6 +23,7 @@ const char* const kEach[] = {"box",
                              "bilateral",
                              "nlm",
                              "opening",
+                             "threshold:above=300",
                              "running-mean",
                              "running-mean:centred=1",
                              "temporal-gaussian",
@@ -115,6 +116,26 @@ TEST(FilteredContact, AnNpzSaysWhichTaxelsAreActive) {
   saveRecording(recorded, {}, folder / "b.npz");
   EXPECT_EQ(testing::readFile(folder / "b.npz").find("_active"), std::string::npos)
       << "as recorded, the values say it";
+}
+
+// analyst M10: a sensor sends its noise, every taxel of it above 0 at times, and is touched once.
+TEST(FilteredContact, NoiseBelowTheThresholdIsNoContact) {
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 40; ++i) {
+    std::vector<float> values(sdh2().layout->numCells());
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = static_cast<float>((7 * k + 3 * static_cast<std::size_t>(i)) % 11);  // 0..10
+    if (i >= 10 && i < 20) values[40] = 10.5F;
+    builder.addFrame(31'546 * i + 1, values);
+  }
+  const Profile source = builder.finish({});
+  EXPECT_GT(wholeFrameSignals(source.frame(0)).active, 400);
+  const Profile filtered = filteredProfile(source, recipeOf("threshold:above=10"));
+  for (std::size_t i = 0; i < 40; ++i) {
+    const CharacteristicSignals signals = wholeFrameSignals(filtered.frame(i));
+    EXPECT_EQ(signals.active, i >= 10 && i < 20 ? 1 : 0) << i;
+    EXPECT_EQ(signals.mean, i >= 10 && i < 20 ? 10.5 : 0.0) << i;
+  }
 }
 
 TEST(FilteredContact, NoContactOutlivesTheRecordedOneAndTheTailIsStillThere) {

@@ -21,7 +21,7 @@ LiveResults largeResults(std::size_t numMatrices, std::size_t numAxes) {
   std::vector<MatrixLayout> matrices(numMatrices, MatrixLayout::full(8, 8, 1.7));
   TactileFrame frame(std::make_shared<const SensorLayout>(std::move(matrices)));
   frame.hostUs = 1'416'996'123'250'007;
-  frame.deviceMs = 123'456'789;
+  frame.deviceUs = 123'456'789;
   for (std::size_t i = 0; i < frame.values.size(); ++i)
     frame.values[i] = 1000.0F + static_cast<float>(i % 97) / 7.0F;
   LiveResults results;

@@ -93,7 +93,7 @@ def test_savitzky_golay_weights_are_those_of_the_tables():
 
 def test_the_list_of_filters():
     kinds = {kind["name"]: kind for kind in palpate.filters()}
-    assert {"box", "gaussian", "median", "bilateral", "nlm", "opening", "running-mean", "kalman",
+    assert {"box", "gaussian", "median", "bilateral", "nlm", "opening", "threshold", "running-mean", "kalman",
             "temporal-gaussian", "temporal-min", "kelvin-voigt", "rts", "median3d", "min-median",
             "savitzky-golay"} <= set(kinds)
     assert {o["key"]: o["default"] for o in kinds["opening"]["options"]}["shape"] == "cross"

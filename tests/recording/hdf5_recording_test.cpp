@@ -59,7 +59,7 @@ Profile randomProfile(std::uint32_t seed, bool floats, std::size_t frames) {
   for (std::size_t i = 0; i < frames; ++i) {
     TactileFrame frame(layout);
     frame.hostUs = timeUs += 1 + random() % 50'000;
-    if (i > 10 && random() % 4 != 0) frame.deviceMs = static_cast<std::int64_t>(random());
+    if (i > 10 && random() % 4 != 0) frame.deviceUs = 1000 * static_cast<std::int64_t>(random());
     for (float& value : frame.values)
       value = random() % 3 == 0 ? static_cast<float>(random() % 4096) : 0.0F;
     if (floats && i % 3 == 0) {
@@ -94,7 +94,7 @@ void expectSame(const Profile& a, const Profile& b) {
     const TactileFrame x = a.frame(i);
     const TactileFrame y = b.frame(i);
     ASSERT_EQ(x.hostUs, y.hostUs) << i;
-    ASSERT_EQ(x.deviceMs, y.deviceMs) << i;
+    ASSERT_EQ(x.deviceUs, y.deviceUs) << i;
     ASSERT_TRUE(x.values == y.values) << i;
     ASSERT_TRUE(x.filtered == y.filtered) << i;
   }

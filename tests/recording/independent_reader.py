@@ -3,7 +3,7 @@
     independent_reader.py FILE OUT
 
 Checks every promise of the format (AssertionError otherwise) and writes all samples to OUT: for each
-stream the number of items as i64, then per item host time [us] and device time [ms] as i64 and the
+stream the number of items as i64, then per item host time [us] and device time [us] as i64 and the
 values, f32 for frames, f64 for the others; everything little-endian.
 """
 import sqlite3
@@ -62,7 +62,8 @@ def read(path):
     db = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
     one = lambda sql: db.execute(sql).fetchone()[0]
     assert one("PRAGMA application_id") == 0x50414C50
-    assert one("PRAGMA user_version") == 1
+    version = 2 if one("SELECT EXISTS(SELECT 1 FROM block WHERE coding & 8)") else 1
+    assert one("PRAGMA user_version") == version
     assert one("PRAGMA page_size") == 4096
     assert one("PRAGMA integrity_check") == "ok"
     columns = lambda table: [row[1] for row in db.execute(f"PRAGMA table_info({table})")]
@@ -91,6 +92,7 @@ def read(path):
                 "SELECT first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE stream=?"
                 " ORDER BY first", (stream,)):
             assert crc == block_crc(stream, first, n, t0, t1, coding, data)
+            in_us, coding = coding & 8, coding & 7
             assert len(data) <= 4000 or n == 1
             assert first == len(items)
             if width is None:
@@ -98,6 +100,8 @@ def read(path):
             at = 0
             for i in range(n):
                 offset, device = struct.unpack_from("<Iq", data, at)
+                if device != NO_DEVICE_TIME and not in_us:
+                    device *= 1000
                 values, contact, at = values_of(coding, data, at + 12, width)
                 items.append((t0 + offset, device, values, contact))
             assert at == len(data)

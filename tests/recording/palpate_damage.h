@@ -79,7 +79,7 @@ inline std::set<std::size_t> framesOf(const Profile& profile) {
     const auto number = static_cast<std::size_t>((frame.hostUs - kSampleStartUs) / kSampleStepUs);
     const TactileFrame expected = sampleFrame(number);
     EXPECT_EQ(frame.hostUs, expected.hostUs);
-    EXPECT_EQ(frame.deviceMs, expected.deviceMs);
+    EXPECT_EQ(frame.deviceUs, expected.deviceUs);
     EXPECT_TRUE(frame.values == expected.values) << "frame " << number << " is wrong";
     EXPECT_TRUE(found.insert(number).second) << "frame " << number << " is there twice";
   }

@@ -156,6 +156,38 @@ TEST(PalpateDamage, aBlockThatSqliteNoLongerReachesKeepsItsTimesOfAnySize) {
   }
 }
 
+TEST(PalpateDamage, filteredBlocksAndTheirMicrosecondsAreFoundOnThePagesToo) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "a.palpate";
+  {
+    PalpateWriterOptions options;
+    options.synced = false;
+    PalpateWriter writer(path, sdh2().layout, {}, options);
+    TactileFrame frame(sdh2().layout);
+    frame.hostUs = 5'000;
+    frame.deviceUs = 1'234'567;
+    frame.values[3] = 2.5F;
+    frame.filtered = frame.values;
+    frame.filtered[4] = 0.5F;
+    writer.addFrame(frame);
+    writer.finish();
+  }
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(
+      sqlite3_exec(db, "PRAGMA secure_delete=OFF;DELETE FROM block", nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(db);
+  const PalpateRecovery recovery = recoverPalpateProfile(path);
+  EXPECT_EQ(recovery.blocksFromPages, 1u);
+  ASSERT_TRUE(recovery.profile && recovery.frames == 1);
+  const TactileFrame frame = recovery.profile->frame(0);
+  EXPECT_EQ(frame.deviceUs, 1'234'567);
+  EXPECT_EQ(frame.values[3], 2.5F);
+  ASSERT_EQ(frame.filtered.size(), frame.values.size());
+  EXPECT_EQ(frame.filtered[4], 0.5F);
+}
+
 // What an attacker writes with SQL into a sound recording. %: a block whose checksum is made right.
 struct Hostile {
   std::string name;
@@ -260,7 +292,7 @@ INSTANTIATE_TEST_SUITE_P(
                 " (zeroblob(1000000000)))"},
         Hostile{"indexOnExpression", "CREATE INDEX i ON block(length(zeroblob(id)))"},
         Hostile{"missingTable", "DROP TABLE counter"},
-        Hostile{"otherVersion", "PRAGMA user_version=2"},
+        Hostile{"otherVersion", "PRAGMA user_version=3"},
         Hostile{"otherProgram", "PRAGMA application_id=7"},
         Hostile{"manyFrames",
                 "UPDATE meta SET value='9223372036854775807' WHERE key='frames';"

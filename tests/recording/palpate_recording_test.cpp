@@ -73,7 +73,7 @@ TEST(PalpateRecording, anIndependentReaderFindsWhatWasWritten) {
   for (std::size_t i = 0; i < 300; ++i) {
     const TactileFrame frame = sampleFrame(i);
     put(frame.hostUs);
-    put(*frame.deviceMs);
+    put(*frame.deviceUs);
     for (float value : frame.values) put(value);
   }
   put(std::int64_t{1200});
@@ -90,6 +90,43 @@ TEST(PalpateRecording, anIndependentReaderFindsWhatWasWritten) {
   }
   expectIndependentlyEqual(folder / "a.palpate", expected);
   EXPECT_TRUE(dumped(openRecording(folder / "a.palpate")) == expected);
+}
+
+// arrays A2: senders of streams have clocks of microseconds.
+TEST(PalpateRecording, deviceTimesAreKeptToTheMicrosecond) {
+  const TemporaryFolder folder;
+  const auto timeOf = [](std::size_t i) -> std::optional<std::int64_t> {
+    if (i % 7 == 3) return std::nullopt;
+    // Whole milliseconds at first.
+    return 32'000 * static_cast<std::int64_t>(i) - (i < 100 ? 1'000'000 : 999'500);
+  };
+  PalpateWriterOptions options;
+  options.synced = false;
+  PalpateWriter writer(folder / "a.palpate", sdh2().layout, {}, options);
+  const auto add = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      TactileFrame frame = sampleFrame(i);
+      frame.deviceUs = timeOf(i);
+      writer.addFrame(frame);
+    }
+    writer.commit();
+  };
+  // The last byte of the user version in the header of an SQLite file.
+  const auto version = [&] { return int{testing::readFile(folder / "a.palpate").at(63)}; };
+  add(0, 100);
+  EXPECT_EQ(version(), 1) << "readable by older programs";
+  add(100, 200);
+  EXPECT_EQ(version(), 2);
+  writer.finish();
+  const Profile profile = openRecording(folder / "a.palpate");
+  EXPECT_EQ(profile.info().valueType, ValueType::kCounts);
+  ASSERT_EQ(profile.numFrames(), 200u);
+  for (std::size_t i = 0; i < 200; ++i) {
+    EXPECT_EQ(profile.frame(i).deviceUs, timeOf(i)) << i;
+    EXPECT_EQ(profile.frame(i).values, sampleFrame(i).values) << i;
+  }
+  expectIndependentlyEqual(folder / "a.palpate", dumped(profile));
+  EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
 }
 
 TEST(PalpateRecording, floatValuesAreKeptToTheBit) {
@@ -129,7 +166,7 @@ TEST(PalpateRecording, randomAccessGivesWhatReadingInOrderGives) {
       const TactileFrame frame = profile.frame(i);
       ASSERT_EQ(frame.values, expected.values) << i;
       ASSERT_EQ(frame.hostUs, expected.hostUs);
-      ASSERT_EQ(frame.deviceMs, expected.deviceMs);
+      ASSERT_EQ(frame.deviceUs, expected.deviceUs);
       ASSERT_EQ(profile.frameAt(expected.hostUs + 1), i);
       const std::size_t k = random() % 20000;
       ASSERT_EQ(profile.angles(k).deg, sampleAngles(k).deg);
@@ -183,7 +220,7 @@ TEST(PalpateRecording, aCropKeepsTheEventsInsideAndTheDeviceTimes) {
   writeSamples(folder / "c.palpate", 100);
   const Profile crop = cropped(openRecording(folder / "c.palpate"), 10, 19);
   ASSERT_EQ(crop.numFrames(), 10u);
-  EXPECT_EQ(crop.frame(3).deviceMs, sampleFrame(13).deviceMs);
+  EXPECT_EQ(crop.frame(3).deviceUs, sampleFrame(13).deviceUs);
   const std::int64_t begin = crop.frameTimeUs(0);
   const std::int64_t end = crop.frameTimeUs(9);
   const std::vector<RecordingEvent> events{{begin - 9, begin - 1, "a", {}, "", ""},

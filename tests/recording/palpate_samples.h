@@ -21,7 +21,7 @@ constexpr std::int64_t kSampleStepUs = 33'000;
 inline TactileFrame sampleFrame(std::size_t i, bool floats = false) {
   TactileFrame frame(sdh2().layout);
   frame.hostUs = kSampleStartUs + static_cast<std::int64_t>(i) * kSampleStepUs;
-  frame.deviceMs = static_cast<std::int64_t>(i) * 32 + 7;
+  frame.deviceUs = static_cast<std::int64_t>(i) * 32'000 + 7'000;
   frame.values[0] = static_cast<float>(i % 4096);
   frame.values[1] = static_cast<float>(i / 4096);
   for (std::size_t k = 2; k < 80; ++k) {
@@ -86,7 +86,7 @@ inline std::string dumped(const Profile& profile) {
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     profile.readFrame(i, frame);
     put(frame.hostUs);
-    put(frame.deviceMs.value_or(INT64_MIN));
+    put(frame.deviceUs.value_or(INT64_MIN));
     for (float value : frame.values) put(value);
   }
   put(static_cast<std::int64_t>(profile.numAngles()));

@@ -92,9 +92,7 @@ int calibrateApply(const Arguments& words) {
   const auto outPath = given.text("output");
   if (outPath) requireOther(file, *outPath);
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openRecording(file, progress.callback());
-  progress.wipe();
-  reportOpened(file, profile, given.quiet());
+  const Profile profile = openReported(file, progress, given.quiet());
   CalibratedFrames frames(*choice, file, profile);
   // Without the pressures' forces the result is not whole: that is said with --quiet, too.
   const bool noForces = !frames.areaKnown() && !outPath;
@@ -120,7 +118,7 @@ int calibrateApply(const Arguments& words) {
       calibrateApplyAppendRow(line, i, m, pressures);
       out.write(line);
     }
-    if (outPath) builder.addFrame(frame.hostUs, pressures.kpa, frame.deviceMs);
+    if (outPath) builder.addFrame(frame.hostUs, pressures.kpa, frame.deviceUs);
   }
   out.finish();
   progress.wipe();

@@ -35,10 +35,9 @@ int calibrateNoise(const Arguments& words) {
   NoiseFloorOptions options;
   options.bins = static_cast<std::size_t>(given.integer("bins", 2, 1000).value_or(20));
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openRecording(file, progress.callback());
+  const Profile profile = openReported(file, progress, given.quiet());
   const NoiseFloor floor = fitNoiseFloor(profile, options, progress.callback());
   progress.wipe();
-  reportOpened(file, profile, given.quiet());
   const auto out = given.text("output");
   const bool xml = out && std::filesystem::path(*out).extension() == ".xml";
   if (xml) {

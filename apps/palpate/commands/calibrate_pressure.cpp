@@ -73,11 +73,8 @@ int calibratePressure(const Arguments& words) {
   {
     ProgressLine line("reading", given.quiet());
     const auto open = [&](const fs::path& file, const Progress& progress) {
-      line.setLabel("reading " + file.string());
-      CalibrationSource source{openRecording(file, progress), sha256OfFile(file)};
-      line.wipe();
-      reportOpened(file, source.profile, given.quiet());
-      return source;
+      return CalibrationSource{openReported(file, line, given.quiet(), progress),
+                               sha256OfFile(file)};
     };
     all = collectCalibrationSteps(rows, table.parent_path(), open, gather, line.callback());
   }

@@ -62,12 +62,11 @@ int calibrateSensitivity(const Arguments& words) {
   options.fit.loss = lossGiven(given);
   const double threshold = given.number("threshold", 0.0, kLargestFullScale).value_or(100.0);
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openRecording(file, progress.callback());
+  const Profile profile = openReported(file, progress, given.quiet());
   requireMatrix(file, profile.layout().numMatrices(), matrix);
   requireWithinFullScale("threshold", threshold, profile.hand());
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();
-  reportOpened(file, profile, given.quiet());
   const std::size_t n = report.steps.size();
   const std::vector<double> named = sensitivitiesGiven(given, n);
   std::vector<SensitivityPoint> points;

@@ -43,11 +43,10 @@ int calibrateStep(const Arguments& words) {
   options.fit.loss = lossGiven(given);
   if (given.choice("damping", {"over", "any"}) == "any") options.fit.damping = StepDamping::kAny;
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openRecording(file, progress.callback());
+  const Profile profile = openReported(file, progress, given.quiet());
   requireMatrix(file, profile.layout().numMatrices(), matrix);
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();
-  reportOpened(file, profile, given.quiet());
   Json json = provenance("step");
   json.set("file", file.string()).set("sha256", sha256OfFile(file));
   const Json found = jsonOf(report);

@@ -75,11 +75,10 @@ int calibrateTare(const Arguments& words) {
   options.maxRestCounts =
       given.number("most", 0.0, kLargestFullScale).value_or(options.maxRestCounts);
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openRecording(file, progress.callback());
+  const Profile profile = openReported(file, progress, given.quiet());
   requireWithinFullScale("most", options.maxRestCounts, profile.hand());
   const Tare tare = findTare(profile, options, progress.callback());
   progress.wipe();
-  reportOpened(file, profile, given.quiet());
   std::size_t found = 0;
   for (const MatrixTare& matrix : tare.matrices) found += matrix.valid ? 1 : 0;
   if (given.has("apply")) {

@@ -33,9 +33,7 @@ constexpr int kMicroseconds = 6;  // decimals: the resolution of time stamps
 
 TimedProfile opened(const std::string& file, bool quiet) {
   ProgressLine progress("reading " + file, quiet);
-  Profile profile = openRecording(file, progress.callback());
-  progress.wipe();
-  reportOpened(file, profile, quiet);
+  Profile profile = openReported(file, progress, quiet);
   return timedProfile(std::move(profile), {}, progress.callback());
 }
 

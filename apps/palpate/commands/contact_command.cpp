@@ -62,6 +62,8 @@ struct AngleProblems {
   std::string firstOutOfRange = {}, firstUnusable = {};
   std::size_t notFinite = 0;  // frames with values that are not finite
   std::size_t noForce = 0;    // frames whose force is not known
+  // Frames whose force is not known only because a contact is lighter than the calibration's.
+  std::size_t tooLight = 0;
 };
 
 void appendVector(std::string& line, const Eigen::Vector3d& vector) {
@@ -87,6 +89,15 @@ std::optional<double> knownForceN(const PressureFrame& pressures) {
                                    [](const MatrixPressure& each) { return each.active > 0; });
   if (touched && !(pressures.areaKnown && pressures.inRange)) return std::nullopt;
   return pressures.forceN;
+}
+
+// Whether that is so only because contacts are lighter than all that were measured, as they are
+// where a grasp begins and ends.
+bool isOnlyTooLight(const PressureFrame& pressures) {
+  return pressures.areaKnown &&
+         std::all_of(pressures.matrices.begin(),
+                     pressures.matrices.end(),
+                     [](const MatrixPressure& each) { return each.inRange || each.tooLight; });
 }
 
 // `forceN`: nothing without a calibration, and where it isn't known.
@@ -211,8 +222,9 @@ AngleProblems writeContact(StandardOutput& out,
     if (contact.numNotFinite > 0) ++problems.notFinite;
     std::optional<double> forceN;
     if (calibrated) {
-      forceN = knownForceN(calibrated->of(frame));
-      if (!forceN) ++problems.noForce;
+      const PressureFrame& pressures = calibrated->of(frame);
+      forceN = knownForceN(pressures);
+      if (!forceN) ++(isOnlyTooLight(pressures) ? problems.tooLight : problems.noForce);
     }
     const std::size_t rows = request.matrices ? contact.matrices.size() : 1;
     for (std::size_t m = 0; m < rows; ++m) {
@@ -245,6 +257,9 @@ bool reportProblems(const std::filesystem::path& file,
         "have joint angles that the hand can't take: " + problems.firstOutOfRange);
   if (problems.notFinite > 0)
     say(problems.notFinite, "have values that are not numbers; these were left out");
+  if (problems.tooLight > 0 && !quiet)
+    say(problems.tooLight,
+        "have no force_n: a contact is lighter than all that the calibration measured");
   if (problems.noForce > 0)
     say(problems.noForce,
         areaKnown ? "have no force_n: a contact is outside the measured range of the calibration "

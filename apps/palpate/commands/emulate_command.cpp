@@ -114,8 +114,8 @@ std::unique_ptr<PhysicalHand> streamedHandOf(const CommandLine& given, std::uint
 
 std::unique_ptr<HandModel> modelOf(const CommandLine& given, std::uint64_t seed) {
   if (const auto recording = given.text("replay")) {
-    Profile profile = openRecording(*recording);
-    reportOpened(*recording, profile, given.quiet());
+    ProgressLine line("reading " + *recording, given.quiet());
+    Profile profile = openReported(*recording, line, given.quiet());
     return std::make_unique<ReplayedHand>(std::move(profile));
   }
   const Scene scene = loadScene(given.text("scene").value_or("empty"), dataFolder() / "scenes");

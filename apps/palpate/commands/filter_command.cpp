@@ -76,7 +76,7 @@ int filterCommand(const Arguments& words) {
   if (recipePath) requireWritable(*recipePath, overwrite);
 
   ProgressLine line("reading " + in, given.quiet());
-  const Profile profile = openRecording(in, line.callback());
+  const Profile profile = openReported(in, line, given.quiet());
   line.setLabel("filtering " + in);
   const Profile filtered = filteredBy(recipe, profile, in, line.callback());
   EventsReport events = readEvents(in);
@@ -91,8 +91,7 @@ int filterCommand(const Arguments& words) {
                 counted(filtered.numFrames(), "frame").c_str(),
                 fullRecipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
-  const int code = reportOpened(in, profile, given.quiet());
-  if (events.damaged == 0) return code;
+  if (events.damaged == 0) return kDone;
   std::fprintf(
       stderr, "palpate: %s\n", escapedLine(in + ": " + eventsLeftOutText(events.damaged)).c_str());
   return kPartlyDone;

@@ -135,7 +135,7 @@ Profile lookedAtOver(double belowCounts,
       for (std::size_t place = from; place < from + layout.matrix(m).numCells(); ++place)
         frame.values[place] = std::max(0.0F, frame.values[place] - threshold);
     }
-    builder.addFrame(frame.hostUs, frame.values, frame.deviceMs);
+    builder.addFrame(frame.hostUs, frame.values, frame.deviceUs);
   }
   return builder.finish(profile.info());
 }

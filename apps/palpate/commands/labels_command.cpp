@@ -24,11 +24,8 @@ void sayLabels(const std::string& message) {
 
 int importLabels(const CommandLine& given, const std::string& file, const std::string& from) {
   const std::string csv = readTextFile(from, kMaxLabelTableBytes);
-  const Profile profile = [&] {
-    ProgressLine progress("reading " + file, given.quiet());
-    return openRecording(file, progress.callback());
-  }();
-  reportOpened(file, profile, given.quiet());
+  ProgressLine line("reading " + file, given.quiet());
+  const Profile profile = openReported(file, line, given.quiet());
   const EventsReport present = readEvents(file);
   const LabelTable table = [&] {
     try {

@@ -157,11 +157,6 @@ std::uint64_t badChecksumsOf(const DeviceStatus& device) {
 
 Json recordRateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
 
-std::int64_t countOf(const RecordingReport& report, const char* name) {
-  const auto found = report.counters.find(name);
-  return found == report.counters.end() ? 0 : found->second;
-}
-
 Json textOrNull(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
 std::string recordJsonText(const RecordingReport& report,
@@ -176,13 +171,12 @@ std::string recordJsonText(const RecordingReport& report,
       .set("angles", report.angles)
       .set("temperatures", report.temperatures)
       .set("bad_checksums", static_cast<std::int64_t>(badChecksumsOf(device)))
-      .set("suspect",
-           stream ? countOf(report, "suspect") : static_cast<std::int64_t>(device.tactile.suspect))
+      .set("suspect", report.counter("suspect"))
       .set("last_refused", textOrNull(stream ? stream->lastFault() : std::string()))
-      .set("out_of_range", countOf(report, "out_of_range"))
+      .set("out_of_range", report.counter("out_of_range"))
       .set("last_out_of_range", textOrNull(stream ? stream->lastOutOfRange() : std::string()))
-      .set("lost", countOf(report, "lost") + report.lost)
-      .set("lost_estimated", countOf(report, "lost_estimated"))
+      .set("lost", report.counter("lost") + report.lost)
+      .set("lost_estimated", report.counter("lost_estimated"))
       .set("recorder_lost", report.lost)
       .set("gaps", report.gaps)
       .set("events", report.events)
@@ -202,7 +196,7 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
          fixedText(report.durationS, 1) + " s (" + fixedText(report.meanRateHz, 1) + "/s), " +
          counted(static_cast<std::uint64_t>(report.angles), "angle sample") + ", " +
          counted(static_cast<std::uint64_t>(report.temperatures), "temperature sample") + "; " +
-         std::to_string(countOf(report, "lost") + report.lost) + " lost, " +
+         std::to_string(report.counter("lost") + report.lost) + " lost, " +
          counted(badChecksumsOf(device), "bad checksum") + ", " +
          counted(static_cast<std::uint64_t>(report.gaps), "gap");
 }
@@ -227,7 +221,9 @@ CommandSpec recordSpec() {
           "{date}, {time}, {operator}, {object}, {run} (next free number). With --remote it "
           "records only when another program asks for it (palpate remote start); OUT is then a "
           "folder, or a folder with a template of file names. Exit code 3: the recorder lost "
-          "something, or a stream lost or refused frames or sent values outside the hand's range.",
+          "something, frames were refused or hold values outside the hand's range, or a stream "
+          "lost "
+          "some.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"output,o", "OUT.palpate", "where to record"},
@@ -305,7 +301,7 @@ int recordCommand(const Arguments& words) {
     std::fprintf(stderr,
                  "palpate: the MCAP file stopped before the end: %s\n",
                  escapedLine(report.mcapFailure).c_str());
-  const std::string leftOut = leftOutText(report, streamOf(session));
+  const std::string leftOut = leftOutText(report.losses(), streamOf(session));
   if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
   if (!report.complete) std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
   return report.complete && report.mcapFailure.empty() && leftOut.empty() ? kDone : kPartlyDone;

@@ -315,6 +315,17 @@ int reportOpened(const fs::path& file, const Profile& profile, bool quiet) {
   return kPartlyDone;
 }
 
+Profile openReported(const fs::path& file,
+                     ProgressLine& line,
+                     bool quiet,
+                     const Progress& progress) {
+  line.setLabel("reading " + file.string());
+  Profile profile = openRecording(file, progress ? progress : line.callback());
+  line.wipe();
+  reportOpened(file, profile, quiet);
+  return profile;
+}
+
 int partlyDoneAfterLoss(int code) { return code == kDone && lossReported ? kPartlyDone : code; }
 
 int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work) {

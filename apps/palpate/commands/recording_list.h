@@ -11,6 +11,7 @@
 #include <palpate/model/profile.h>
 #include <palpate/recording/recording.h>
 
+#include "commands/command_line.h"
 #include "commands/commands.h"
 
 namespace palpate::commands {
@@ -68,6 +69,12 @@ std::string lostLine(const std::filesystem::path& file, const Profile& profile);
 // Prints on standard error what was guessed, unless quiet, and what was lost when a recording of
 // another program was opened. Returns kPartlyDone where something was lost, else kDone.
 int reportOpened(const std::filesystem::path& file, const Profile& profile, bool quiet);
+// Opens a recording with `line` ("reading FILE", wiped at the end) and then calls reportOpened():
+// a loss is part of the program's exit code. With `progress` it is used instead of that of `line`.
+Profile openReported(const std::filesystem::path& file,
+                     ProgressLine& line,
+                     bool quiet,
+                     const Progress& progress = {});
 // `code`, the exit code of the program; kPartlyDone in the place of kDone after a loss that
 // reportOpened() has printed.
 int partlyDoneAfterLoss(int code);

@@ -454,9 +454,7 @@ int renderCommand(const Arguments& words) {
   const std::string& file = given.words()[0];
   const Profile profile = [&] {
     ProgressLine progress("reading " + file, given.quiet());
-    const Profile recorded = openRecording(file, progress.callback());
-    progress.wipe();
-    reportOpened(file, recorded, given.quiet());
+    const Profile recorded = openReported(file, progress, given.quiet());
     return filteredBy(recipe, recorded, file);
   }();
   options.title = QString::fromStdString(fs::path(file).filename().string());

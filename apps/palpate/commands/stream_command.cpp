@@ -146,10 +146,10 @@ Profile playedRecording(const CommandLine& given, std::string& damage) {
 std::string sessionLosses(const CaptureSession& session, const CommandLine& given) {
   const DeviceStatus status = session.device().status();
   if (given.has("stream"))
-    return leftOutText(StreamLosses{.lost = status.tactile.lost,
-                                    .refused = status.tactile.suspect,
-                                    .outOfRange = status.tactile.outOfRange},
-                       *streamOf(session));
+    return leftOutText({.lost = static_cast<std::int64_t>(status.tactile.lost),
+                        .refused = static_cast<std::int64_t>(status.tactile.suspect),
+                        .outOfRange = static_cast<std::int64_t>(status.tactile.outOfRange)},
+                       streamOf(session));
   const std::uint64_t lost = status.tactile.lost + (status.motion ? status.motion->lost : 0);
   if (given.words().empty() || lost == 0) return {};
   return given.words()[0] + ": " + std::to_string(lost) +

@@ -96,31 +96,14 @@ void StreamNotice::show() {
   for (; remarksShown_ < remarks.size(); ++remarksShown_) print(remarks[remarksShown_]);
 }
 
-std::string leftOutText(const StreamLosses& losses, const StreamDevice& stream) {
-  std::string text;
-  const auto add = [&](const std::string& part, const std::string& last) {
-    text += (text.empty() ? "" : ", ") + part;
-    if (!last.empty()) text += " (the last: " + escapedLine(last) + ")";
-  };
-  if (losses.lost > 0) add(counted(losses.lost, "frame") + " lost", "");
-  if (losses.refused > 0) add(std::to_string(losses.refused) + " refused", stream.lastFault());
-  if (losses.outOfRange > 0)
-    add(counted(losses.outOfRange, "frame") + " with values outside the hand's range",
-        stream.lastOutOfRange());
-  return text;
-}
-
-std::string leftOutText(const RecordingReport& report, const StreamDevice* stream) {
-  if (stream == nullptr) return {};
-  const auto countOf = [&](const char* name) {
-    const auto found = report.counters.find(name);
-    return found == report.counters.end() ? std::uint64_t{0}
-                                          : static_cast<std::uint64_t>(found->second);
-  };
-  return leftOutText(StreamLosses{.lost = countOf("lost"),
-                                  .refused = countOf("suspect"),
-                                  .outOfRange = countOf("out_of_range")},
-                     *stream);
+std::string leftOutText(FrameLosses losses, const StreamDevice* stream) {
+  if (stream == nullptr) {
+    losses.lost = 0;
+  } else {
+    losses.lastRefused = stream->lastFault();
+    losses.lastOutOfRange = stream->lastOutOfRange();
+  }
+  return textOf(losses);
 }
 
 }  // namespace palpate::commands

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <palpate/capture/capture_session.h>
+#include <palpate/device/frame_losses.h>
 #include <palpate/device/stream_device.h>
 
 #include "commands/command_line.h"
@@ -37,13 +38,8 @@ class StreamNotice {
   bool placeShown_ = false;
   std::size_t remarksShown_ = 0;
 };
-struct StreamLosses {
-  std::uint64_t lost = 0, refused = 0, outOfRange = 0;  // frames
-};
-// What a stream lacks, or has beyond the description of the hand: "31 frames lost, 2 refused (the
-// last: line 812: ..)"; empty: nothing.
-std::string leftOutText(const StreamLosses& losses, const StreamDevice& stream);
-// The same of the recording of a stream; empty also where `stream` is null.
-std::string leftOutText(const RecordingReport& report, const StreamDevice* stream);
+// What ends `record` and `stream` with kPartlyDone, in one line; empty: nothing. `stream` may be
+// null: frames that a hand's own controller sent and that were damaged on the line are normal.
+std::string leftOutText(FrameLosses losses, const StreamDevice* stream);
 
 }  // namespace palpate::commands

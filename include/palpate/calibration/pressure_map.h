@@ -33,6 +33,7 @@ struct MatrixPressure {
   double sdForceN = 0.0;
   // Whether the pressure is within the measured range; true without contact.
   bool inRange = true;
+  bool tooLight = false;  // out of range only because it is lighter than all that was measured
   bool temperatureKnown = true;
   bool saturated = false;    // a taxel is saturated, so the true pressure is higher
   bool compensated = false;  // creep was removed

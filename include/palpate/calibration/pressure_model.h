@@ -51,9 +51,10 @@ struct PressureModelOptions {
 
 // A pressure with its uncertainty.
 struct PressureEstimate {
-  double kpa = 0.0;      // never below 0
-  double sdKpa = 0.0;    // of this single estimate
-  bool inRange = false;  // within the measured range; otherwise extrapolated
+  double kpa = 0.0;       // never below 0
+  double sdKpa = 0.0;     // of this single estimate
+  bool inRange = false;   // within the measured range; otherwise extrapolated
+  bool tooLight = false;  // out of range only because it is lighter than all that was measured
   bool temperatureKnown = true;
   double kpaPerCount = 0.0;  // dP / dK
 };

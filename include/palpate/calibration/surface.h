@@ -38,6 +38,9 @@ struct SurfaceEstimate {
   double byT = 0.0;
   // Whether the point is in the convex hull of the data (enlarged by 5 % about its middle).
   bool inRange = false;
+  // Not in it, but a larger x would be, at this t: the contact is lighter than all that were
+  // measured.
+  bool tooLight = false;
 };
 
 // A fitted surface.

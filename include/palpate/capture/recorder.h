@@ -22,6 +22,7 @@
 #include <palpate/capture/capture_queue.h>
 #include <palpate/capture/contact_trigger.h>
 #include <palpate/core/time.h>
+#include <palpate/device/frame_losses.h>
 #include <palpate/recording/mcap_recording.h>
 
 namespace palpate {
@@ -108,6 +109,10 @@ struct RecordingReport {
   // The newest RecordingOptions::counters, as stored in the file: what the connection counted
   // during the recording (bad_checksums, lost: frames that were sent but not received, ..).
   std::map<std::string, std::int64_t> counters;
+  // One of them; 0 where it wasn't counted.
+  std::int64_t counter(const std::string& name) const;
+  // What the hand sent and the recording lacks, and what it has beyond the hand's range.
+  FrameLosses losses() const;
   std::int64_t gaps = 0;           // intervals longer than max(1 s, 5 median intervals)
   std::int64_t writeFailures = 0;  // commits that failed, and were tried again
   // Stamps of the first and the last recorded frame [us since 1970]; 0: no frame was recorded.

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace palpate {
@@ -15,6 +16,11 @@ constexpr std::int64_t usOf(std::chrono::milliseconds time) { return kUsPerMs * 
 // Whole milliseconds of a time [us], rounded down also before 1970.
 constexpr std::int64_t floorMs(std::int64_t us) {
   return us / kUsPerMs - (us % kUsPerMs < 0 ? 1 : 0);
+}
+// The microseconds of a time [ms] that was read from a file; nothing where they are out of range.
+constexpr std::optional<std::int64_t> checkedUs(std::int64_t ms) {
+  constexpr std::int64_t kMostMs = INT64_MAX / kUsPerMs;
+  return ms < -kMostMs || ms > kMostMs ? std::nullopt : std::optional(ms * kUsPerMs);
 }
 
 // A source of time; tests use one that they set themselves.

@@ -48,7 +48,7 @@ struct StreamDeviceOptions {
 };
 
 // Host times of frames, angles and temperatures are their times of arrival, as with LiveHand; the
-// device's time of a frame is kept beside it (TactileFrame::deviceMs).
+// device's time of a frame is kept beside it (TactileFrame::deviceUs).
 //
 // Lost frames are counted by the sender's sequence numbers. Without these they are estimated during
 // a silence only, from the usual rate. Each loss and each silence is an event "gap"; the end of a

@@ -32,6 +32,18 @@ constexpr bool isInBursts(double medianUs, double meanUs) {
   return kBurstIntervals * medianUs < meanUs;
 }
 
+// The rate of frames [Hz]: 1 / median interval, or 1 / mean interval when they come in bursts.
+// `withoutGapsUs` is the sum of the `intervals` that are no gaps.
+struct UsualRate {
+  double hz = 0.0;
+  bool inBursts = false;
+};
+constexpr UsualRate usualRateOf(double medianUs, double withoutGapsUs, std::size_t intervals) {
+  const double meanUs = withoutGapsUs / static_cast<double>(std::max<std::size_t>(intervals, 1));
+  const bool inBursts = isInBursts(medianUs, meanUs);
+  return {1e6 / (inBursts ? meanUs : medianUs), inBursts};
+}
+
 // Finds gaps in a series of time stamps that are passed one by one.
 class GapDetector {
  public:

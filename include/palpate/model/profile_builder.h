@@ -27,7 +27,7 @@ class ProfileBuilder {
   // std::invalid_argument that names the violated rule.
   void addFrame(std::int64_t hostUs,
                 std::span<const float> values,
-                std::optional<std::int64_t> deviceMs = {});
+                std::optional<std::int64_t> deviceUs = {});
   // Appends a frame of another profile with its filtered values, if any.
   void addFrame(const TactileFrame& frame);
   void addAngles(std::int64_t hostUs, std::span<const double> deg);

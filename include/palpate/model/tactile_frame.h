@@ -23,8 +23,9 @@ using ConstMatrixMap = Eigen::Map<const MatrixValues>;
 // The values of all taxels at one instant, with the time stamps of host and controller.
 struct TactileFrame {
   std::shared_ptr<const SensorLayout> layout;
-  // Time of the controller's clock, unwrapped [ms]; empty in recordings from a .dsa.
-  std::optional<std::int64_t> deviceMs;
+  // Time of the controller's or the sender's clock, unwrapped [us]; empty in recordings from a
+  // .dsa.
+  std::optional<std::int64_t> deviceUs;
   std::int64_t hostUs = 0;  // host time [us since 1970]
   // layout->numCells() values: counts as recorded, or values that filters computed from them. A
   // taxel is active (touched) exactly when its value is above 0. Filtered values are 0 where the

@@ -21,9 +21,10 @@ class BlockPacker {
   using Sink = std::function<void(const Block&)>;
   BlockPacker(Stream stream, Sink sink);
 
-  // Adds the values of a frame. The host time [us since 1970] must not go back.
+  // Adds the values of a frame. The host time [us since 1970] must not go back. Device times [us]
+  // are stored in milliseconds until one of them isn't a whole number of these.
   void addFrame(std::int64_t hostUs,
-                std::optional<std::int64_t> deviceMs,
+                std::optional<std::int64_t> deviceUs,
                 std::span<const float> values);
   // Adds a sample of joint angles [deg] or temperatures [deg C].
   void addSample(std::int64_t hostUs, std::span<const double> values);
@@ -35,13 +36,14 @@ class BlockPacker {
   bool empty() const noexcept { return block_.n == 0; }
 
  private:
-  void add(std::int64_t hostUs, std::optional<std::int64_t> deviceMs, BlockCoding coding);
+  void add(std::int64_t hostUs, std::optional<std::int64_t> deviceUs, BlockCoding coding);
 
   Stream stream_;
   Sink sink_;
   Block block_;
   std::vector<std::byte> item_;  // the values of the item being added
   std::int64_t numItems_ = 0;
+  bool deviceUs_ = false;  // device times are stored in microseconds
 };
 
 // Whether the fields of a block make sense. It is asked before the data is looked at.
@@ -57,7 +59,7 @@ std::size_t sampleWidth(const Block& block) noexcept;
 // damaged data.
 struct BlockIndex {
   std::vector<std::int64_t> hostUs;
-  std::vector<std::optional<std::int64_t>> deviceMs;
+  std::vector<std::optional<std::int64_t>> deviceUs;
   std::vector<std::uint32_t> begin;  // of the values [bytes]
 };
 bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index);

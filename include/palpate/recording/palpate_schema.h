@@ -3,7 +3,7 @@
 //
 // A block holds consecutive items of one stream: frames, samples of joint angles, or samples of
 // temperatures. Its data is, per item and little-endian:
-//   u32 host time offset from the block's t0_us [us] | i64 device time [ms] | values
+//   u32 host time offset from the block's t0_us [us] | i64 device time [ms or us] | values
 // A device time of INT64_MIN stands for none. The values of a frame are run-length coded
 // (model/frame_coding.h). An angle or a temperature is one number: f32 where all numbers of the
 // sample are exact in it, f64 otherwise.
@@ -21,6 +21,8 @@ namespace palpate {
 
 constexpr std::int32_t kPalpateApplicationId = 0x50414C50;  // "PALP"
 constexpr std::int32_t kPalpateVersion = 1;                 // user_version
+// The user_version of a file that has blocks with device times in microseconds.
+constexpr std::int32_t kPalpateVersionWithDeviceUs = 2;
 // The most bytes of data in a block of several items. Its row then never overflows its 4096-byte
 // page of SQLite, so that recovery finds it in the raw bytes of the page.
 constexpr std::size_t kMaxBlockBytes = 4000;
@@ -43,6 +45,19 @@ enum class BlockCoding : std::uint8_t {
   // (frame_coding.h, kFiltered).
   kFilteredRuns = 4,
 };
+// Added to the number of a coding: the device times of the block are in microseconds, not in
+// milliseconds.
+constexpr std::uint8_t kDeviceUsCoding = 8;
+constexpr bool hasDeviceUs(BlockCoding coding) noexcept {
+  return (static_cast<std::uint8_t>(coding) & kDeviceUsCoding) != 0;
+}
+constexpr BlockCoding withDeviceUs(BlockCoding coding) noexcept {
+  return static_cast<BlockCoding>(static_cast<std::uint8_t>(coding) | kDeviceUsCoding);
+}
+// How the values are coded, whatever the unit of the device times is.
+constexpr BlockCoding valueCoding(BlockCoding coding) noexcept {
+  return static_cast<BlockCoding>(static_cast<std::uint8_t>(coding) & ~kDeviceUsCoding);
+}
 
 // One row of the table `block`.
 struct Block {

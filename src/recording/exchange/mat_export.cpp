@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 #include "palpate/model/active_taxels.h"
 
 #include "recording/exchange/mat_file.h"
@@ -197,7 +198,7 @@ class MatExport {
     std::vector<std::uint16_t> whole(cells);
     pass_ = m;
     forEachFrame([&](const TactileFrame& frame) {
-      if (m == 0) deviceMs_.push_back(frame.deviceMs.value_or(INT64_MIN));
+      if (m == 0) deviceMs_.push_back(frame.deviceUs ? floorMs(*frame.deviceUs) : INT64_MIN);
       const float* all = frame.allValues().data() + profile_.layout().offset(m);
       if (!counts) return sink({reinterpret_cast<const char*>(all), cells * sizeof(float)});
       for (std::size_t k = 0; k < cells; ++k) whole[k] = static_cast<std::uint16_t>(all[k]);

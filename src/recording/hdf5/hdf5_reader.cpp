@@ -21,6 +21,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_descriptor.h"
 #include "palpate/core/hash.h"
+#include "palpate/core/time.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/hdf5_recording.h"
 #include "palpate/recording/palpate_schema.h"
@@ -369,9 +370,9 @@ class Hdf5Storage final : public ProfileStorage {
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     const std::shared_ptr<const FrameBlock> block = blockWith(frame);
     const std::size_t at = frame - block->first;
-    out.deviceMs.reset();
+    out.deviceUs.reset();
     if (!block->deviceTimes.empty() && block->deviceTimes[at] != hdf5_layout::kNoDeviceTime)
-      out.deviceMs = block->deviceTimes[at];
+      out.deviceUs = checkedUs(block->deviceTimes[at]);
     out.filtered.clear();
     out.values.resize(layout_.numCells());
     for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {

@@ -11,6 +11,7 @@
 
 #include "palpate/core/bounded_queue.h"
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 #include "palpate/model/active_taxels.h"
 #include "palpate/recording/hdf5_recording.h"
 
@@ -513,8 +514,8 @@ class Hdf5Writer {
       profile_.readFrame(i, frame);
       const std::size_t at = i - first;
       put(times, at, frame.hostUs);
-      put(deviceTimes, at, frame.deviceMs.value_or(hdf5_layout::kNoDeviceTime));
-      anyDevice = anyDevice || frame.deviceMs;
+      put(deviceTimes, at, frame.deviceUs ? floorMs(*frame.deviceUs) : hdf5_layout::kNoDeviceTime);
+      anyDevice = anyDevice || frame.deviceUs;
       if (!counts && !frame.filtered.empty()) {
         isFiltered[at] = 1;
         anyFiltered_ = true;

@@ -232,7 +232,7 @@ class ForeignStorage final : public ProfileStorage {
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     const std::lock_guard lock(mutex_);
     for (std::size_t m = 0; m < images_.size(); ++m) show(m, frames_[frame]);
-    out.deviceMs.reset();
+    out.deviceUs.reset();
     out.filtered.clear();
     out.values = values_;
   }

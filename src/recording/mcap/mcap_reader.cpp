@@ -14,6 +14,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/parallel.h"
+#include "palpate/core/time.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/mcap_recording.h"
 #include "palpate/recording/palpate_schema.h"
@@ -496,8 +497,9 @@ class McapStorage final : public ProfileStorage {
     const std::size_t at = frame - frames_.firsts[piece];
     requireThere(block->frameUs.size(), at, piece);
     const std::size_t cells = own_.layout().numCells();
-    out.deviceMs.reset();
-    if (block->deviceMs[at] != mcap_format::kNoDeviceTime) out.deviceMs = block->deviceMs[at];
+    out.deviceUs.reset();
+    if (block->deviceMs[at] != mcap_format::kNoDeviceTime)
+      out.deviceUs = checkedUs(block->deviceMs[at]);
     const auto begin = block->values.begin() + static_cast<std::ptrdiff_t>(at * cells);
     out.values.assign(begin, begin + static_cast<std::ptrdiff_t>(cells));
     out.filtered.clear();

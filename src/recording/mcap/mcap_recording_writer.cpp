@@ -7,6 +7,7 @@
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 #include "palpate/model/active_taxels.h"
 #include "palpate/model/hand_file.h"
 
@@ -232,7 +233,7 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
   std::string& out = file_.beginMessage(frames_, mcapTimeNs(frame.hostUs));
   CdrWriter cdr(out);
   cdr.number(frame.hostUs);
-  cdr.number(frame.deviceMs.value_or(mcap_format::kNoDeviceTime));
+  cdr.number(frame.deviceUs ? floorMs(*frame.deviceUs) : mcap_format::kNoDeviceTime);
   cdr.number(static_cast<std::uint8_t>(frame.filtered.empty() ? 0 : 1));
   std::vector<std::uint8_t> active(frame.filtered.empty() ? 0 : (frame.values.size() + 7) / 8);
   std::vector<std::uint8_t> kept(active.size());

@@ -10,6 +10,7 @@
 
 #include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
+#include "palpate/core/time.h"
 #include "palpate/model/frame_coding.h"
 #include "palpate/recording/palpate_schema.h"
 
@@ -87,7 +88,7 @@ std::uint32_t blockCrc(const Block& block) {
 BlockPacker::BlockPacker(Stream stream, Sink sink) : stream_(stream), sink_(std::move(sink)) {}
 
 void BlockPacker::addFrame(std::int64_t hostUs,
-                           std::optional<std::int64_t> deviceMs,
+                           std::optional<std::int64_t> deviceUs,
                            std::span<const float> values) {
   const FrameCoding coding = codingFor(values);
   item_.clear();
@@ -96,19 +97,19 @@ void BlockPacker::addFrame(std::int64_t hostUs,
   if (coding == FrameCoding::kFloats && item_.size() > 4 * values.size()) {
     item_.clear();
     for (float value : values) appendLittleEndian(item_, std::bit_cast<std::uint32_t>(value), 4);
-    add(hostUs, deviceMs, BlockCoding::kPlainF32);
+    add(hostUs, deviceUs, BlockCoding::kPlainF32);
   } else {
     add(hostUs,
-        deviceMs,
+        deviceUs,
         coding == FrameCoding::kCounts ? BlockCoding::kCountsRuns : BlockCoding::kFloatRuns);
   }
 }
 
 void BlockPacker::addFrame(const TactileFrame& frame) {
-  if (frame.filtered.empty()) return addFrame(frame.hostUs, frame.deviceMs, frame.values);
+  if (frame.filtered.empty()) return addFrame(frame.hostUs, frame.deviceUs, frame.values);
   item_.clear();
   encodeFrame(frame, FrameCoding::kFiltered, item_);
-  add(frame.hostUs, frame.deviceMs, BlockCoding::kFilteredRuns);
+  add(frame.hostUs, frame.deviceUs, BlockCoding::kFilteredRuns);
 }
 
 void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values) {
@@ -125,8 +126,12 @@ void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values)
 }
 
 void BlockPacker::add(std::int64_t hostUs,
-                      std::optional<std::int64_t> deviceMs,
+                      std::optional<std::int64_t> deviceUs,
                       BlockCoding coding) {
+  deviceUs_ = deviceUs_ || (deviceUs && *deviceUs % kUsPerMs != 0);
+  if (deviceUs_) coding = withDeviceUs(coding);
+  const std::int64_t device =
+      deviceUs ? (deviceUs_ ? *deviceUs : *deviceUs / kUsPerMs) : kNoDeviceTime;
   const bool fits = block_.data.size() + kItemHeadBytes + item_.size() <= kMaxBlockBytes;
   if (block_.n > 0 && (!fits || coding != block_.coding || hostUs - block_.t0Us > kLargestOffsetUs))
     flush();
@@ -137,7 +142,7 @@ void BlockPacker::add(std::int64_t hostUs,
     block_.coding = coding;
   }
   appendLittleEndian(block_.data, static_cast<std::uint64_t>(hostUs - block_.t0Us), 4);
-  appendLittleEndian(block_.data, static_cast<std::uint64_t>(deviceMs.value_or(kNoDeviceTime)), 8);
+  appendLittleEndian(block_.data, static_cast<std::uint64_t>(device), 8);
   block_.data.insert(block_.data.end(), item_.begin(), item_.end());
   block_.t1Us = hostUs;
   ++block_.n;
@@ -152,7 +157,7 @@ void BlockPacker::flush() {
 }
 
 bool plausible(const Block& block) noexcept {
-  return static_cast<int>(block.stream) <= 2 && static_cast<int>(block.coding) <= 4 &&
+  return static_cast<int>(block.stream) <= 2 && static_cast<int>(valueCoding(block.coding)) <= 4 &&
          block.first >= 0 && block.first <= std::numeric_limits<std::int64_t>::max() - kMostItems &&
          block.n >= 1 && block.n <= kMostItems && block.t0Us >= -kLatestUs &&
          block.t1Us <= kLatestUs && block.t1Us >= block.t0Us &&
@@ -163,20 +168,22 @@ bool plausible(const Block& block) noexcept {
 std::size_t sampleWidth(const Block& block) noexcept {
   if (!plausible(block)) return 0;
   const std::size_t perItem = block.data.size() / static_cast<std::size_t>(block.n);
-  const std::size_t each = block.coding == BlockCoding::kPlainF64 ? 8 : 4;
+  const std::size_t each = valueCoding(block.coding) == BlockCoding::kPlainF64 ? 8 : 4;
   const std::size_t width = (perItem - kItemHeadBytes) / each;
   return width <= kMaxSampleValues ? width : 0;
 }
 
 bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
   index.hostUs.clear();
-  index.deviceMs.clear();
+  index.deviceUs.clear();
   index.begin.clear();
   if (!plausible(block)) return false;
   const std::span<const std::byte> bytes(block.data);
+  const BlockCoding coding = valueCoding(block.coding);
+  const bool inUs = hasDeviceUs(block.coding);
   const auto count = static_cast<std::size_t>(block.n);
   index.hostUs.reserve(count);
-  index.deviceMs.reserve(count);
+  index.deviceUs.reserve(count);
   index.begin.reserve(count);
   std::size_t at = 0;
   for (std::int64_t i = 0; i < block.n; ++i) {
@@ -187,15 +194,17 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
     if (!index.hostUs.empty() && hostUs <= index.hostUs.back()) return false;
     at += kItemHeadBytes;
     index.hostUs.push_back(hostUs);
-    index.deviceMs.push_back(device == kNoDeviceTime ? std::nullopt : std::optional(device));
+    index.deviceUs.push_back(device == kNoDeviceTime ? std::nullopt
+                             : inUs                  ? std::optional(device)
+                                                     : checkedUs(device));
     index.begin.push_back(static_cast<std::uint32_t>(at));
     std::size_t size = 0;
-    switch (block.coding) {
+    switch (coding) {
       case BlockCoding::kCountsRuns:
       case BlockCoding::kFloatRuns:
       case BlockCoding::kFilteredRuns:
         if (block.stream != Stream::kTactile) return false;
-        size = codedFrameBytes(bytes.subspan(at), frameCoding(block.coding), numValues);
+        size = codedFrameBytes(bytes.subspan(at), frameCoding(coding), numValues);
         if (size == 0) return false;
         break;
       case BlockCoding::kPlainF32:
@@ -206,8 +215,8 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
         break;
     }
     if (size > bytes.size() - at) return false;
-    if (block.coding != BlockCoding::kCountsRuns &&
-        !allFinite(bytes.subspan(at, size), block.coding, numValues))
+    if (coding != BlockCoding::kCountsRuns &&
+        !allFinite(bytes.subspan(at, size), coding, numValues))
       return false;
     at += size;
   }
@@ -217,19 +226,20 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
 
 void readFrameValues(const Block& block, std::uint32_t begin, TactileFrame& out) {
   const auto bytes = std::span(block.data).subspan(begin);
-  if (block.coding != BlockCoding::kPlainF32 && block.coding != BlockCoding::kPlainF64) {
-    decodeFrame(bytes, frameCoding(block.coding), out);
+  const BlockCoding coding = valueCoding(block.coding);
+  if (coding != BlockCoding::kPlainF32 && coding != BlockCoding::kPlainF64) {
+    decodeFrame(bytes, frameCoding(coding), out);
     return;
   }
   out.filtered.clear();
   ByteReader in(bytes);
-  const bool wide = block.coding == BlockCoding::kPlainF64;
+  const bool wide = coding == BlockCoding::kPlainF64;
   for (float& value : out.values) value = wide ? static_cast<float>(in.f64()) : in.f32();
 }
 
 void readSampleValues(const Block& block, std::uint32_t begin, std::span<double> values) {
   ByteReader in(std::span(block.data).subspan(begin));
-  const bool wide = block.coding == BlockCoding::kPlainF64;
+  const bool wide = valueCoding(block.coding) == BlockCoding::kPlainF64;
   for (double& value : values) value = wide ? in.f64() : static_cast<double>(in.f32());
 }
 

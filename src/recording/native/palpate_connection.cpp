@@ -228,11 +228,12 @@ void PalpateConnection::open(const fs::path& path) {
   if (database_->integerOf("PRAGMA application_id") != kPalpateApplicationId)
     throw FormatError(path, "is an SQLite file, but not a palpate recording");
   const std::int64_t version = database_->integerOf("PRAGMA user_version");
-  if (version != kPalpateVersion)
+  if (version != kPalpateVersion && version != kPalpateVersionWithDeviceUs)
     throw FormatError(path,
                       "has version " + std::to_string(version) +
-                          " of the format; this program reads version " +
-                          std::to_string(kPalpateVersion));
+                          " of the format; this program reads versions " +
+                          std::to_string(kPalpateVersion) + " and " +
+                          std::to_string(kPalpateVersionWithDeviceUs));
   checkTables(*database_);
   meta_ = readMeta(*database_);
   const bool finished = meta_["finished"] == "1";

@@ -137,7 +137,7 @@ ValueType valueTypeOf(PalpateConnection& access) {
   std::string text = access.meta()["value_type"];
   if (text.empty())
     text = access.database().integerOf(
-               "SELECT EXISTS(SELECT 1 FROM block WHERE stream=0 AND coding<>0)")
+               "SELECT EXISTS(SELECT 1 FROM block WHERE stream=0 AND coding&7<>0)")
                ? "float"
                : "counts";
   return text == "float" ? ValueType::kFloat : ValueType::kCounts;

@@ -104,7 +104,8 @@ std::optional<Block> blockAt(std::span<const std::byte> page, std::size_t at) {
   }
   const std::size_t size = (blobType - 12) / 2;
   const auto data = body.take(size);
-  if (data.size() != size || value[1] < 0 || value[1] > 2 || value[6] < 0 || value[6] > 3)
+  if (data.size() != size || value[1] < 0 || value[1] > 2 || value[6] < 0 ||
+      value[6] > static_cast<int>(withDeviceUs(BlockCoding::kFilteredRuns)))
     return std::nullopt;
   Block block{static_cast<Stream>(value[1]),
               value[2],
@@ -533,7 +534,7 @@ void buildProfile(const fs::path& path,
   info.firmware = found.meta["firmware"];
   info.sensorRevision = found.meta["sensor_revision"];
   for (const BlockEntry& place : storage->places(Stream::kTactile))
-    if (found.blocks->load(place.id).coding != BlockCoding::kCountsRuns)
+    if (valueCoding(found.blocks->load(place.id).coding) != BlockCoding::kCountsRuns)
       info.valueType = ValueType::kFloat;
   HandDescription hand = recordedHand(found.meta.values,
                                       *layout,

@@ -54,7 +54,7 @@ void BlockStorage::readFrame(std::size_t frame, TactileFrame& out) const {
   std::unique_lock lock(mutex_);
   const auto [block, item] = open(Stream::kTactile, frame);
   lock.unlock();  // decoding needs none: the block is ours as long as we hold it
-  out.deviceMs = block->index.deviceMs[item];
+  out.deviceUs = block->index.deviceUs[item];
   readFrameValues(block->block, block->index.begin[item], out);
 }
 

@@ -353,6 +353,11 @@ struct PalpateWriter::Impl {
       file->version = file->database.version();
       std::int64_t id = numBlocks;
       for (const Block& block : pending.blocks) rows->block(++id, block);
+      if (std::any_of(pending.blocks.begin(), pending.blocks.end(), [](const Block& block) {
+            return hasDeviceUs(block.coding);
+          }))
+        file->database.execute("PRAGMA user_version=" +
+                               std::to_string(kPalpateVersionWithDeviceUs));
       id = numSeconds;
       for (const SecondSummary& row : pending.seconds) rows->second(++id, row);
       id = numEvents;
@@ -404,7 +409,7 @@ struct PalpateWriter::Impl {
   BlockPacker::Sink sink = [this](const Block& block) {
     pending.blocks.push_back(block);
     pending.bytes += sizeof(Block) + block.data.size();
-    if (block.stream == Stream::kTactile && block.coding != BlockCoding::kCountsRuns)
+    if (block.stream == Stream::kTactile && valueCoding(block.coding) != BlockCoding::kCountsRuns)
       allCounts = false;
   };
   BlockPacker tactile{Stream::kTactile, sink};

@@ -206,6 +206,11 @@ TEST_F(BatchWindowTest, BeginsWithTheShownRecordingAndTakesItsFilters) {
   dialog().findChild<QPushButton*>("batchTakeFilters")->click();
   EXPECT_TRUE(dialog().choices().filters.startsWith("median"));
   EXPECT_FALSE(dialog().isModal());
+  // analyst m26: another recording is shown when it is opened again.
+  dialog().close();
+  open({"good2.dsa"});
+  actions().at("batch")->trigger();
+  EXPECT_EQ(dialog().choices().paths, QStringList{text(folder_ / "good2.dsa")});
 }
 
 }  // namespace

@@ -219,6 +219,16 @@ TEST(HandCamera, FitShowsAllPointsWhateverTheShape) {
     }
 }
 
+// arrays A15: four taxels of 5 mm.
+TEST(HandCamera, FitLeavesRoomAroundASmallSensor) {
+  HandCamera camera = looking(0.0, 90.0);
+  const std::vector<Eigen::Vector3d> corners = {
+      {-5.0, -5.0, 0.0}, {5.0, -5.0, 0.0}, {5.0, 5.0, 0.0}, {-5.0, 5.0, 0.0}};
+  camera.fit(corners, kSize.width() / kSize.height());
+  for (const Eigen::Vector3d& corner : corners)
+    EXPECT_NEAR(std::abs(seen(camera, corner).y() / kSize.height() - 0.5), 0.25, 0.01);
+}
+
 TEST(HandCamera, FitCopesWithOnePointALineAndNothing) {
   HandCamera camera = looking(15.0, 40.0);
   const HandCamera before = camera;

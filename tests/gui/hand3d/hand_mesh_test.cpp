@@ -136,6 +136,45 @@ TEST(HandMesh, AnotherHandGetsBodiesToo) {
   for (const HandBody& body : bodies) expectClosed(body);
 }
 
+// Taxels on a dome, given one by one in the frame of the palm.
+GeometryDescription domeOf(double openingDeg) {
+  GeometryDescription hand;
+  hand.layout = SensorLayout({MatrixLayout::full(6, 6, 5.0)});
+  hand.surfaces.resize(1);
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 6; ++x) {
+      const double degree = std::numbers::pi / 180.0;
+      const double a = openingDeg * degree * (y - 2.5) / 2.5,
+                   b = openingDeg * degree * (x - 2.5) / 2.5;
+      const Vector3d normal(std::sin(b), std::cos(b) * std::sin(a), std::cos(b) * std::cos(a));
+      hand.surfaces[0].normals.push_back(normal);
+      hand.surfaces[0].positionsMm.push_back(30.0 * normal);
+    }
+  return hand;
+}
+
+// arrays A6
+TEST(HandMesh, TheSlabUnderACurvedSurfaceIsBelowItsLowestTaxel) {
+  const GeometryDescription dome = domeOf(40.0);
+  double lowestMm = 1e9;
+  for (const Vector3d& at : dome.surfaces[0].positionsMm) lowestMm = std::min(lowestMm, at.z());
+  const auto bodies = handBodies(HandGeometry(dome));
+  ASSERT_EQ(bodies.size(), 1u);
+  expectClosed(bodies[0]);
+  Eigen::AlignedBox3f box;
+  for (const HandBody::Corner& corner : bodies[0].triangles) box.extend(corner.atMm);
+  EXPECT_LT(static_cast<double>(box.max().z()), lowestMm);
+  EXPECT_GT(static_cast<double>(box.max().z()), lowestMm - 2.0) << "close to it";
+  for (const Vector3d& at : dome.surfaces[0].positionsMm) {
+    EXPECT_LT(static_cast<double>(box.min().x()), at.x());
+    EXPECT_GT(static_cast<double>(box.max().y()), at.y());
+  }
+}
+
+TEST(HandMesh, NoBodyHidesTaxelsThatLookToAllSides) {
+  EXPECT_TRUE(handBodies(HandGeometry(domeOf(150.0))).empty());
+}
+
 TEST(HandMesh, ALinkWhoseMeshCantBeReadIsABox) {
   GeometryDescription pad;
   pad.layout = SensorLayout({MatrixLayout::full(1, 1, 5.0)});

@@ -65,6 +65,16 @@ TEST_F(ManualPagesTest, SearchFindsEveryPlaceInEitherCase) {
   EXPECT_EQ(pages_->search("e", 2).size(), 2u);
 }
 
+// analyst m25
+TEST_F(ManualPagesTest, WordsThatDontStandTogetherAreFoundInOneParagraph) {
+  EXPECT_EQ(pages_->search("pressure of").size(), 1u) << "they do";
+  const auto hits = pages_->search("kpa pressure");
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].page, "first.md");
+  EXPECT_EQ(hits[0].line.mid(hits[0].inLine, hits[0].length), "kPa");
+  EXPECT_TRUE(pages_->search("pressure other").empty()) << "of different paragraphs";
+}
+
 TEST_F(ManualPagesTest, TheFirstParagraphOfASection) {
   EXPECT_EQ(pages_->firstParagraph("first.md", "a-b"), "Pressure of a taxel, in kPa. More.");
   EXPECT_EQ(pages_->firstParagraph("first.md", "nowhere"), "");

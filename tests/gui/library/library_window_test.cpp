@@ -122,6 +122,14 @@ TEST_F(LibraryWindowTest, StaysOpenOverARestart) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return table()->model()->rowCount() == 1; }, 10000));
 }
 
+// analyst m19: what is typed then is for the search, not for the button that had the keyboard.
+TEST_F(LibraryWindowTest, AFolderThatIsOpenedCanBeSearchedAtOnce) {
+  file("good1.dsa");
+  window().state().open({folder_.path()});
+  ASSERT_TRUE(library().isVisible());
+  EXPECT_EQ(window().focusWidget(), find<QLineEdit>("librarySearch"));
+}
+
 TEST_F(LibraryWindowTest, ResettingTheLayoutHidesIt) {
   open({"good.dsa"});
   toggle();

@@ -294,6 +294,18 @@ TEST(MatricesPainter, TheColourBarRunsFromLowBelowToHighAbove) {
   EXPECT_NEAR(share(0.5).red(), inferno(128).red(), 4);
 }
 
+// analyst m23: a taxel that isn't touched doesn't have the colour of the smallest value.
+TEST(MatricesPainter, TheColourBarShowsHowAnUntouchedTaxelLooks) {
+  for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    MatricesPictureOptions look = options();
+    look.theme = theme;
+    const QImage image = paint(emptyFrame(), look);
+    const QRectF bar = geometry(look).colorBarRect();
+    EXPECT_EQ(at(image, bar.bottomLeft() + QPointF(5, 6)),
+              at(image, geometry(look).taxelRect(1, 7, 2).center()));
+  }
+}
+
 // In a low view the matrices have all of the room: names would lie over them.
 TEST(MatricesPainter, NamesThatHaveNoRoomAreNotDrawn) {
   HandDescription named = sdh2(), nameless = sdh2();

@@ -116,7 +116,7 @@ TEST_F(RecordFeatureTest, WhatTheConnectionLostIsSaid) {
   report.frames = 316;
   report.counters = {{"lost", 6}, {"bad_checksums", 20}, {"motion_bad_checksums", 4}};
   emit windowState_->live.recordingEnded(report);
-  EXPECT_TRUE(offered().endsWith("6 frames lost on the way from the hand, 24 bad checksums"))
+  EXPECT_TRUE(offered().endsWith("6 frames lost on the way, 24 bad checksums"))
       << offered().toStdString();
   EXPECT_TRUE(feature_.strips().back().widget->property("warning").toBool());
   endRecording();

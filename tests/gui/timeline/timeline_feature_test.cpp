@@ -35,6 +35,24 @@ TEST_F(TimelineFeatureTest, BackAtLiveTheChartPlotsWhatIsTickedNow) {
   EXPECT_EQ(feature_.liveChart().numGraphs(), graphs);
 }
 
+// analyst m22
+TEST_F(TimelineFeatureTest, AFormulaKeepsItsColourWhenAnotherOneIsShown) {
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setPlotted({false, false});
+  windowState_->formulas.keep({"a", "m0_mean", ""});
+  windowState_->formulas.keep({"b", "m0_max", ""});
+  const auto colorOfB = [&] {
+    for (const PlottedCurve& curve : feature_.panel().chart().curves())
+      if (curve.name == "b") return curve.pen.color();
+    return QColor();
+  };
+  ASSERT_TRUE(feature_.signalTree().setTicked("b", true));
+  const QColor alone = colorOfB();
+  EXPECT_TRUE(alone.isValid());
+  ASSERT_TRUE(feature_.signalTree().setTicked("a", true));
+  EXPECT_EQ(colorOfB(), alone);
+}
+
 TEST_F(TimelineFeatureTest, TheSpanIsOneWithTheModel) {
   windowState_->displayed.show(recording("a"));
   feature_.panel().chart().setSelection(TimeSpan{0.1, 0.3});

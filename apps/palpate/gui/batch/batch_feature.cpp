@@ -67,14 +67,14 @@ void BatchFeature::showDialog() {
   dialog_->activateWindow();
 }
 
-// Begins with what is chosen in the Library; with an empty list also with the recording that is
-// shown.
+// Begins with what is chosen in the Library; with a list that nobody made, of one recording or
+// none, also with the recording that is shown.
 void BatchFeature::begin() {
   const QStringList chosen = state().chosenRecordings ? state().chosenRecordings() : QStringList();
-  const bool empty = dialog_->choices().paths.isEmpty();
-  if (chosen.size() > 1 || (empty && !chosen.isEmpty())) {
+  const bool isShort = dialog_->choices().paths.size() <= 1;
+  if (chosen.size() > 1 || (isShort && !chosen.isEmpty())) {
     dialog_->setPaths(chosen);
-  } else if (const OpenedRecordingPtr shown = state().displayed.recorded(); empty && shown) {
+  } else if (const OpenedRecordingPtr shown = state().displayed.recorded(); isShort && shown) {
     dialog_->setPaths({QString::fromStdString(shown->path.string())});
   }
 }

@@ -125,11 +125,67 @@ struct SurfaceLine {
   double heightMm = 0.0;
 };
 
+// Calls `work` with position and normal of each taxel, in the frame to which `toFrame` leads from
+// the base frame of `pose`.
+template <typename Work>
+void forEachTaxel(const HandPose& pose,
+                  std::size_t matrix,
+                  const Eigen::Isometry3d& toFrame,
+                  const Work& work) {
+  const MatrixLayout& layout = pose.description().layout.matrix(matrix);
+  for (int y = layout.rows - 1; y >= 0; --y)
+    for (int x = 0; x < layout.columns; ++x)
+      if (layout.enabled(y, x))
+        work(y,
+             Vector3d(toFrame * pose.positionMm(matrix, y, x)),
+             Vector3d(toFrame.linear() * pose.normal(matrix, y, x)));
+}
+
+// The direction out of a surface, in the base frame; nothing where its taxels look to all sides, as
+// on a ball: no side of it is free for a body.
+std::optional<Vector3d> outwardsOf(const HandPose& pose, std::size_t matrix) {
+  if (pose.description().surfaces[matrix].positionsMm.empty())
+    return Vector3d(-pose.baseFromMatrix(matrix).linear().col(2));
+  const Eigen::Isometry3d same = Eigen::Isometry3d::Identity();
+  Vector3d sum = Vector3d::Zero();
+  forEachTaxel(
+      pose, matrix, same, [&](int, const Vector3d&, const Vector3d& normal) { sum += normal; });
+  if (sum.norm() < 0.1) return std::nullopt;
+  bool oneSide = true;
+  forEachTaxel(pose, matrix, same, [&](int, const Vector3d&, const Vector3d& normal) {
+    oneSide = oneSide && normal.dot(sum) > 0.0;
+  });
+  return oneSide ? std::optional(Vector3d(sum.normalized())) : std::nullopt;
+}
+
+// The course of a surface that is given taxel by taxel: of each row its lowest taxel, so that no
+// taxel lies inside of the body.
+SurfaceLine lineOfTaxels(const HandPose& pose,
+                         std::size_t matrix,
+                         const Eigen::Isometry3d& bodyFromBase) {
+  const MatrixLayout& layout = pose.description().layout.matrix(matrix);
+  Eigen::AlignedBox3d box;
+  std::vector<Eigen::AlignedBox3d> rows(static_cast<std::size_t>(layout.rows));
+  forEachTaxel(pose, matrix, bodyFromBase, [&](int y, const Vector3d& at, const Vector3d&) {
+    box.extend(at);
+    rows[static_cast<std::size_t>(y)].extend(at);
+  });
+  SurfaceLine line;
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+    if (!row->isEmpty()) line.pointsMm.emplace_back(row->center().x(), row->min().y() - kUnderMm);
+  const double besideMm = layout.pitchMm / 2.0 + kBesideMm;
+  line.zMinMm = box.min().z() - besideMm;
+  line.zMaxMm = box.max().z() + besideMm;
+  line.heightMm = box.max().y();
+  return line;
+}
+
 // `bodyFromBase` leads from the base frame of `pose` to the frame of the body.
 SurfaceLine lineOf(const HandPose& pose,
                    std::size_t matrix,
                    const Eigen::Isometry3d& bodyFromBase) {
   const GeometryDescription& hand = pose.description();
+  if (!hand.surfaces[matrix].positionsMm.empty()) return lineOfTaxels(pose, matrix, bodyFromBase);
   const MatrixLayout& layout = hand.layout.matrix(matrix);
   SurfaceLine line;
   const double middleMm = layout.pitchMm * (layout.columns - 1) / 2.0;
@@ -146,9 +202,39 @@ SurfaceLine lineOf(const HandPose& pose,
   return line;
 }
 
+// A slab below the lowest taxel of a surface that is given taxel by taxel; without triangles where
+// there is no such place.
+HandBody slabUnderTaxels(const HandPose& pose, std::size_t matrix) {
+  const SensorSurface& surface = pose.description().surfaces[matrix];
+  HandBody body{.role = HandBodyRole::kLink, .place = surface.place, .triangles = {}, .edges = {}};
+  const std::optional<Vector3d> outwards = outwardsOf(pose, matrix);
+  if (!outwards) return body;
+  Eigen::Isometry3d bodyFrame = Eigen::Isometry3d::Identity();
+  bodyFrame.linear().col(0) = outwards->unitOrthogonal();
+  bodyFrame.linear().col(1) = *outwards;
+  bodyFrame.linear().col(2) = bodyFrame.linear().col(0).cross(*outwards);
+  Eigen::AlignedBox3d box;
+  forEachTaxel(pose,
+               matrix,
+               bodyFrame.inverse(Eigen::Isometry),
+               [&](int, const Vector3d& at, const Vector3d&) { box.extend(at); });
+  const double besideMm = pose.description().layout.matrix(matrix).pitchMm / 2.0 + kBesideMm;
+  const double topMm = box.min().y() - kUnderMm;
+  const double leftMm = box.min().x() - besideMm, rightMm = box.max().x() + besideMm;
+  appendExtrusion(
+      body,
+      {{leftMm, topMm - kSlabMm}, {rightMm, topMm - kSlabMm}, {rightMm, topMm}, {leftMm, topMm}},
+      box.min().z() - besideMm,
+      box.max().z() + besideMm,
+      kSlabMm / 8.0);
+  turn(body, 0, 0, pose.baseFrom(surface.place).inverse(Eigen::Isometry) * bodyFrame);
+  return body;
+}
+
 // A slab under a matrix whose link has no length, such as a pad on the palm.
 HandBody slabUnder(const HandPose& pose, std::size_t matrix) {
   const SensorSurface& surface = pose.description().surfaces[matrix];
+  if (!surface.positionsMm.empty()) return slabUnderTaxels(pose, matrix);
   // x towards row 0, y out of the surface, z across.
   Eigen::Isometry3d bodyFrame = pose.baseFromMatrix(matrix);
   bodyFrame.linear() = (Eigen::Matrix3d() << -bodyFrame.linear().col(1),
@@ -417,7 +503,8 @@ std::vector<HandBody> handBodies(const HandGeometry& geometry) {
         if (hand.surfaces[m].place == place) matrix = m;
       const Eigen::Isometry3d linkFromBase = pose.baseFrom(place).inverse(Eigen::Isometry);
       std::optional<Vector3d> outwards;
-      if (matrix) outwards = -(linkFromBase * pose.baseFromMatrix(*matrix)).linear().col(2);
+      if (matrix) outwards = outwardsOf(pose, *matrix);
+      if (outwards) outwards = Vector3d(linkFromBase.linear() * *outwards);
       const std::optional<Eigen::Isometry3d> frame = bodyFrame(links[l], outwards);
       const double lengthMm = links[l].jointFromEnd.translation().norm();
       std::optional<SurfaceLine> surface;
@@ -457,7 +544,9 @@ std::vector<HandBody> handBodies(const HandGeometry& geometry) {
     }
   }
   for (std::size_t m = 0; m < hand.surfaces.size(); ++m)
-    if (!carried[m]) bodies.push_back(slabUnder(pose, m));
+    if (!carried[m])
+      if (HandBody slab = slabUnder(pose, m); !slab.triangles.empty())
+        bodies.push_back(std::move(slab));
   return bodies;
 }
 

@@ -4,6 +4,7 @@
 #include <QFile>
 #include <QRegularExpression>
 #include <QTextBlock>
+#include <algorithm>
 
 namespace palpate::gui {
 namespace fs = std::filesystem;
@@ -101,9 +102,19 @@ std::optional<int> ManualPages::positionOf(const QString& name, const QString& a
 }
 
 std::vector<ManualHit> ManualPages::search(const QString& words, std::size_t most) const {
-  std::vector<ManualHit> hits;
   const QString wanted = words.simplified();
-  if (wanted.isEmpty()) return hits;
+  if (wanted.isEmpty()) return {};
+  std::vector<ManualHit> hits = searchPhrase(wanted, {}, most);
+  // Words that stand nowhere together are looked for in one paragraph.
+  if (const QStringList each = wanted.split(' '); hits.empty() && each.size() > 1)
+    hits = searchPhrase(each.front(), each.mid(1), most);
+  return hits;
+}
+
+std::vector<ManualHit> ManualPages::searchPhrase(const QString& wanted,
+                                                 const QStringList& others,
+                                                 std::size_t most) const {
+  std::vector<ManualHit> hits;
   for (const QString& name : names_) {
     const QString& text = page(name).text;
     for (qsizetype at = text.indexOf(wanted, 0, Qt::CaseInsensitive); at >= 0;
@@ -111,11 +122,16 @@ std::vector<ManualHit> ManualPages::search(const QString& words, std::size_t mos
       if (hits.size() == most) return hits;
       const qsizetype from = text.lastIndexOf('\n', at) + 1;
       const qsizetype end = text.indexOf('\n', at);
+      const QString line = text.mid(from, end < 0 ? -1 : end - from);
+      if (!std::all_of(others.begin(), others.end(), [&](const QString& other) {
+            return line.contains(other, Qt::CaseInsensitive);
+          }))
+        continue;
       hits.push_back({.page = name,
                       .position = static_cast<int>(at),
                       .length = static_cast<int>(wanted.size()),
                       .title = title(name),
-                      .line = text.mid(from, end < 0 ? -1 : end - from),
+                      .line = line,
                       .inLine = static_cast<int>(at - from)});
     }
   }

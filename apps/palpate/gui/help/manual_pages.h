@@ -58,6 +58,7 @@ class ManualPages {
   // Where the heading with this anchor begins [characters]; nothing: there is none.
   std::optional<int> positionOf(const QString& name, const QString& anchor) const;
   // Every place where `words` stand in this order, in either case, page after page; at most `most`.
+  // Where they stand so nowhere, the paragraphs that have all of them.
   std::vector<ManualHit> search(const QString& words, std::size_t most = 500) const;
   // The first paragraph below a heading, in plain text; empty: there is none.
   QString firstParagraph(const QString& name, const QString& anchor) const;
@@ -66,6 +67,10 @@ class ManualPages {
   static QString anchorOf(const QString& heading);
 
  private:
+  // The places of `wanted` in paragraphs that have all `others`.
+  std::vector<ManualHit> searchPhrase(const QString& wanted,
+                                      const QStringList& others,
+                                      std::size_t most) const;
   struct Page {
     QString text;
     std::vector<ManualHeading> headings;

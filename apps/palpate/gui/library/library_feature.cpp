@@ -36,6 +36,7 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
   windowState.showLibrary = [this](const QString& folder) {
     if (!folder.isEmpty()) panel_->setFolder(folder);
     emit dockRequested(dock_);
+    if (!folder.isEmpty()) panel_->startSearch();
   };
   windowState.chosenRecordings = [this] {
     return panel_->isVisible() ? panel_->chosen() : QStringList();

@@ -180,6 +180,12 @@ void paintColorBar(QPainter& painter,
   painter.setPen(colorsOf(options.theme).border);
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(bar);
+  if (!options.difference) {
+    constexpr double kRestGapPx = 3.0, kRestHeightPx = 5.0;
+    painter.setBrush(colorsOf(options.theme).taxel);
+    painter.drawRect(QRectF(bar.left(), bar.bottom() + kRestGapPx, bar.width(), kRestHeightPx));
+    painter.setBrush(Qt::NoBrush);
+  }
   paintTicks(painter, bar, range, options);
   const QFontMetricsF metrics(pictureFont(options));
   painter.setPen(colorsOf(options.theme).muted);

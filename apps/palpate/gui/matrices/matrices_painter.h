@@ -125,7 +125,9 @@ QString matrixNameWithin(const HandDescription& hand,
                          std::size_t matrix,
                          const std::function<bool(const QString&)>& fits);
 
-// Paints the colour bar with its values and, above it, the unit; and title and caption in one line.
+// Paints the colour bar with its values, above it the unit, and below it a field in the colour of
+// taxels that aren't touched, which isn't that of the smallest value; and title and caption in one
+// line.
 void paintColorBar(QPainter& painter,
                    const QRectF& bar,
                    const ValueRange& range,

@@ -91,15 +91,9 @@ QString missingText(const RecordingReport& report) {
   return missingS < kLeastToldS ? QString() : ": " + figure(missingS, 1) + " s are missing";
 }
 
-std::int64_t counterOf(const RecordingReport& report, const char* name) {
-  const auto at = report.counters.find(name);
-  return at == report.counters.end() ? std::int64_t{0} : at->second;
-}
-
 bool missesSomething(const RecordingReport& report) {
-  return !report.complete || report.lost > 0 || report.gaps > 0 || counterOf(report, "lost") > 0 ||
-         counterOf(report, "suspect") > 0 || counterOf(report, "out_of_range") > 0 ||
-         !report.mcapFailure.empty();
+  return !report.complete || report.lost > 0 || report.gaps > 0 ||
+         !textOf(report.losses()).empty() || !report.mcapFailure.empty();
 }
 
 QString summaryOf(const RecordingReport& report) {
@@ -108,24 +102,17 @@ QString summaryOf(const RecordingReport& report) {
   text += ": " + countedText(static_cast<std::int64_t>(report.frames), "frame");
   if (report.complete) text += " in " + figure(report.durationS, 1) + " s";
   text += ", " + megabytes(report.bytes);
-  const std::int64_t notReceived = counterOf(report, "lost");
+  const std::string losses = textOf(report.losses());
+  if (!losses.empty()) text += ", " + QString::fromStdString(losses);
   const std::int64_t badChecksums =
-      counterOf(report, "bad_checksums") + counterOf(report, "motion_bad_checksums");
-  if (notReceived > 0)
-    text += ", " + countedText(notReceived, "frame") + " lost on the way from the hand";
+      report.counter("bad_checksums") + report.counter("motion_bad_checksums");
   if (badChecksums > 0) text += ", " + countedText(badChecksums, "bad checksum");
-  const std::int64_t suspect = counterOf(report, "suspect");
-  const std::int64_t outOfRange = counterOf(report, "out_of_range");
-  if (suspect > 0) text += ", " + QString::number(suspect) + " refused";
-  if (outOfRange > 0)
-    text += ", " + countedText(outOfRange, "frame") + " with values outside the hand's range";
   if (report.lost > 0) text += ", " + QString::number(report.lost) + " lost by the recorder";
   if (report.gaps > 0)
     text +=
         (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
         " in which no frame arrived" + missingText(report);
-  if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0 && suspect == 0 &&
-      outOfRange == 0)
+  if (report.complete && report.lost == 0 && report.gaps == 0 && losses.empty())
     text += ", nothing lost";
   if (!report.mcapFailure.empty())
     text += "; the MCAP file is not whole: " + QString::fromStdString(report.mcapFailure);

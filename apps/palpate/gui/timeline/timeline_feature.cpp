@@ -496,19 +496,22 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
                    0,
                    theme));
   }
-  std::size_t place = 1;
+  // Places count curves that aren't shown, too: a curve keeps its colour when others come or go.
+  std::size_t place = 0;
   for (const TaxelGroups::Group& group :
        groups_.of(live ? *hand->layout : recording->profile.layout()))
-    if (extras_.groups.contains(group.name))
-      add(taxelCurve(*hand, group.taxels, group.name, place++, theme));
+    if (++place; extras_.groups.contains(group.name))
+      add(taxelCurve(*hand, group.taxels, group.name, place, theme));
   place = 0;
-  for (const FormulaCurve& each : state().formulas.all())
+  for (const FormulaCurve& each : state().formulas.all()) {
     if (recording && !live && extras_.formulas.contains(each.name) &&
         reasonAgainst(each).isEmpty()) {
       PlottedCurve curve = formulaCurve(each.choice(), each.name, each.unit, place, theme);
-      distinguish(curve, place++, curves, theme);
+      distinguish(curve, place, curves, theme);
       add(std::move(curve));
     }
+    ++place;
+  }
   for (const int axis : extras_.angles)
     if (axis < static_cast<int>(hand->axes.size()))
       add(angleCurve(*hand, static_cast<std::size_t>(axis), theme, units));
