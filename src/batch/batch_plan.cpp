@@ -113,8 +113,7 @@ void findSources(const std::vector<fs::path>& paths, BatchPlan& plan, const Prog
     for (const fs::path& file : found.files) add(file, path);
     for (const std::string& problem : found.problems) plan.problems.push_back(problem);
     if (found.files.empty() && found.problems.empty())
-      plan.problems.emplace_back(
-          FileError(path, "no recording (.palpate, .dsa) in this folder or its subfolders").what());
+      plan.problems.push_back(noRecordingText(path));
   }
 }
 

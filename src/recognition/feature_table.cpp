@@ -105,9 +105,7 @@ void addFolder(const fs::path& folder,
                std::vector<Source>& sources,
                std::vector<std::string>& problems) {
   RecordingFolder found = recordingsBelow(folder);
-  if (found.files.empty() && found.problems.empty())
-    problems.push_back(folder.string() +
-                       ": no recording (.palpate, .dsa) in this folder or its subfolders");
+  if (found.files.empty() && found.problems.empty()) problems.push_back(noRecordingText(folder));
   std::move(found.problems.begin(), found.problems.end(), std::back_inserter(problems));
   for (const fs::path& file : found.files) {
     const fs::path rest = file.lexically_relative(folder);

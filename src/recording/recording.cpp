@@ -25,6 +25,7 @@
 
 #include "recording/dsa/dsa_xml_stream.h"
 #include "recording/event_sidecar.h"
+#include "recording/foreign_file.h"
 #include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_rows.h"
 
@@ -37,28 +38,34 @@ constexpr std::string_view kMatStart = "MATLAB 5.0 MAT-file";
 
 // What a file holds, as its first bytes tell, and where they are those of no recording (damaged)
 // the ending of its name.
-enum class Container { kDsa, kNative, kHdf5, kMat, kMcap };
+enum class Container { kDsa, kNative, kHdf5, kMcap, kOther };
 Container containerOf(const std::filesystem::path& path) {
   // Closing a file that this very process writes would drop SQLite's locks on it.
   if (RecordingLock::isHeld(path)) return Container::kNative;
   FileSource source(path);
   std::array<char, 32> first{};
   const std::string_view start(first.data(), source.read(first));
-  if (start.starts_with(kSqliteStart)) return Container::kNative;
+  const std::string ending = lowerEndingOf(path);
+  if (start.starts_with(kSqliteStart) && ending != ".db3") return Container::kNative;
   if (startsLikeHdf5(start)) return Container::kHdf5;
-  if (start.starts_with(kMatStart)) return Container::kMat;
+  if (start.starts_with(kMatStart)) return Container::kOther;
   if (start.starts_with(kMcapStart)) return Container::kMcap;
   if (start.starts_with("BZh") || start.starts_with('<')) return Container::kDsa;
-  const std::string ending = lowerEndingOf(path);
   if (ending == ".palpate") return Container::kNative;
   if (ending == ".h5" || ending == ".hdf5") return Container::kHdf5;
   if (ending == ".mcap") return Container::kMcap;
-  return ending == ".mat" ? Container::kMat : Container::kDsa;
+  if (ending == ".dsa") return Container::kDsa;
+  if (ending == ".mat" || !foreignFormatText(path).empty()) return Container::kOther;
+  return start.starts_with(kSqliteStart) ? Container::kNative : Container::kDsa;
 }
 
-[[noreturn]] void throwOnlyWritten(const std::filesystem::path& path) {
-  throw FormatError(
-      path, "MAT files are written, not read: open the recording that it was exported from");
+[[noreturn]] void throwNoRecording(const std::filesystem::path& path) {
+  const std::string foreign = foreignFormatText(path);
+  throw FormatError(path,
+                    !foreign.empty() ? foreign
+                                     : "MAT files are written, not read: open the recording that "
+                                       "it was exported from, or import its arrays ('palpate "
+                                       "import')");
 }
 
 std::string countsText(std::size_t frames, std::size_t angles, std::size_t temperatures) {
@@ -309,8 +316,8 @@ Profile openRecording(const std::filesystem::path& path,
       return readHdf5(path).profile;
     case Container::kMcap:
       return readMcap(path, progress, threads).profile;
-    case Container::kMat:
-      throwOnlyWritten(path);
+    case Container::kOther:
+      throwNoRecording(path);
     case Container::kDsa:
       break;
   }
@@ -464,7 +471,7 @@ ReadableRecording readableRecording(const std::filesystem::path& path,
   const Container container = containerOf(path);
   if (container == Container::kHdf5) return readableHdf5(path, progress);
   if (container == Container::kMcap) return readableMcap(path, progress, threads);
-  if (container == Container::kMat) throwOnlyWritten(path);
+  if (container == Container::kOther) throwNoRecording(path);
   if (isNativeRecording(path)) requireReadableJournal(path);
   // From 0 to 1 once, also where a second way has to be taken.
   double reached = 0.0;
@@ -525,8 +532,8 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
           report.message += "; " + mcapEventsLeftOutText(mcap.damagedEvents);
         return report;
       }
-      case Container::kMat:
-        throwOnlyWritten(path);
+      case Container::kOther:
+        throwNoRecording(path);
       case Container::kDsa:
         break;
     }

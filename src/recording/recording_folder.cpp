@@ -12,6 +12,8 @@
 #include "palpate/core/file_name.h"
 #include "palpate/core/text_file.h"
 
+#include "recording/foreign_file.h"
+
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
@@ -133,6 +135,14 @@ class FolderWalk {
 
 RecordingFolder recordingsBelow(const fs::path& folder, const Progress& progress) {
   return FolderWalk(folder, progress).taken();
+}
+
+std::string noRecordingText(const fs::path& folder) {
+  const std::string bag = bagFolderText(folder);
+  return FileError(
+             folder,
+             bag.empty() ? "no recording (.palpate, .dsa) in this folder or its subfolders" : bag)
+      .what();
 }
 
 }  // namespace palpate

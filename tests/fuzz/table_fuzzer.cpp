@@ -1,5 +1,5 @@
-// Fuzzes tables of text and of NumPy's arrays (.npy, .npz): what is read has the shape that was
-// announced, and an import writes nothing that a recording can't hold.
+// Fuzzes tables of text, of NumPy's arrays (.npy, .npz) and of MAT files of version 5: what is read
+// has the shape that was announced, and an import writes nothing that a recording can't hold.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

@@ -322,5 +322,187 @@ TEST(ImportForms, AFolderWithAFilePerFrame) {
   EXPECT_EQ(openRecording(folder / "o.palpate").frameTimeUs(2), 10'000);
 }
 
+// imports 26.
+TEST(ImportForms, TheRateAndTheDatesOfAnHdf5FileAreUsed) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+dates = [b'2026-11-22T10:31:05.00Z', b'2026-11-22T10:31:05.25Z', b'2026-11-22T10:31:05.50Z', b'2026-11-22T10:31:06.00Z']
+def write(name, fill):
+  with h5py.File(folder + name, 'w') as f:
+    f['tactile/pad'] = np.arange(8.).reshape(4, 2)
+    fill(f)
+def file_rate(f): f.attrs['sampling_rate'] = 250.0
+def array_rate(f): f['tactile/pad'].attrs['sample_rate'] = np.int32(250)
+def group_rate(f): f['tactile'].attrs['fs'] = np.float32(250)
+def two_rates(f): file_rate(f); f['tactile'].attrs['fs'] = 100.0
+def with_times(f): file_rate(f); f['time_s'] = np.arange(4) * 0.5
+def variable(f): f.create_dataset('stamp', data=[d.decode() for d in dates], dtype=h5py.string_dtype())
+def fixed(f): f['stamp'] = np.array(dates)
+def both(f): fixed(f); file_rate(f)
+def words(f): variable(f); f['label'] = np.array([b'a', b'b', b'c', b'd'])
+for fill in [file_rate, array_rate, group_rate, two_rates, with_times, variable, fixed, both, words]:
+  write(fill.__name__ + '.h5', fill)
+)");
+  const auto import = [&](const std::string& name) {
+    return importRecording(folder / (name + ".h5"),
+                           pad(1, 2),
+                           {},
+                           folder / "o.palpate",
+                           {.overwrite = Overwrite::kReplace});
+  };
+  const std::string note = "time: the file gives a rate of 250 Hz";
+  for (const char* name : {"file_rate", "array_rate", "group_rate"}) {
+    const ImportReport report = import(name);
+    const Profile made = openRecording(folder / "o.palpate");
+    ASSERT_EQ(made.numFrames(), 4u) << name;
+    EXPECT_EQ(made.frameTimeUs(3) - made.frameTimeUs(0), 12'000) << name;
+    EXPECT_EQ(std::count(report.notes.begin(), report.notes.end(), note), 1) << name;
+  }
+  EXPECT_NE(testing::errorOf([&] { import("two_rates"); }).find("--rate"), std::string::npos);
+  EXPECT_EQ(import("with_times").notes, std::vector<std::string>());
+  EXPECT_EQ(openRecording(folder / "o.palpate").frameTimeUs(3), 1'500'000);
+  for (const char* name : {"variable", "fixed", "both", "words"}) {
+    import(name);
+    const Profile made = openRecording(folder / "o.palpate");
+    ASSERT_EQ(made.numFrames(), 4u) << name;
+    // Python: datetime(2026, 11, 22, 10, 31, 5, tzinfo=timezone.utc).timestamp()
+    EXPECT_EQ(made.frameTimeUs(0), 1'795'343'465'000'000) << name;
+    EXPECT_EQ(made.frameTimeUs(3) - made.frameTimeUs(0), 1'000'000) << name;
+  }
+}
+
+// imports 25: a file per matrix.
+TEST(ImportForms, AFolderWithAFilePerMatrixIsReadByTheNamesOfTheFiles) {
+  const TemporaryFolder folder;
+  const fs::path data = folder / "session";
+  fs::create_directory(data);
+  // In the order of the names the right one comes first.
+  HandDescription hand = twoPads();
+  hand.matrices[0].name = "thumb tip";
+  hand.matrices[1].name = "palm";
+  const auto import = [&](const ImportMapping& mapping = {}) {
+    return importRecording(
+        data, hand, mapping, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
+  };
+  testing::writeFile(data / "thumb_tip.csv",
+                     "time_ms,a,b,c,d\n0,1,2,3,4\n10,5,6,7,8\n20,9,10,11,12\n");
+  testing::writeFile(data / "palm.csv",
+                     "time_ms,a,b,c,d\n0,21,22,23,24\n10,25,26,27,28\n20,29,30,31,32\n");
+  const ImportReport report = import();
+  EXPECT_EQ(report.frames, 3u);
+  EXPECT_FALSE(report.isPartial());
+  const Profile made = openRecording(folder / "o.palpate");
+  EXPECT_EQ(made.frame(1).values, (std::vector<float>{5, 6, 7, 8, 25, 26, 27, 28}));
+  EXPECT_EQ(made.frameTimeUs(2), 20'000);
+  // A row that can't be used costs one frame; so does one with another time.
+  testing::writeFile(data / "palm.csv",
+                     "time_ms,a,b,c,d\n0,21,22,23\n11,25,26,27,28\n20,29,30,31,32\n");
+  const ImportReport partly = import();
+  EXPECT_EQ(partly.frames, 1u);
+  EXPECT_EQ(partly.refused.wrongCount, 2u);
+  EXPECT_NE(partly.refused.first.find("palm.csv, line 2"), std::string::npos)
+      << partly.refused.first;
+  // Another number of rows, another name, times in one file only: nothing is imported.
+  testing::writeFile(data / "palm.csv", "time_ms,a,b,c,d\n0,21,22,23,24\n10,25,26,27,28\n");
+  EXPECT_NE(testing::errorOf([&] { import(); }).find("palm.csv has 2 rows, thumb_tip.csv has more"),
+            std::string::npos);
+  testing::writeFile(data / "palm.csv", "a,b,c,d\n21,22,23,24\n25,26,27,28\n29,30,31,32\n");
+  EXPECT_NE(testing::errorOf([&] { import(); }).find("has times in some of its files only"),
+            std::string::npos);
+  testing::writeFile(data / "palm.csv",
+                     "time_ms,a,b,c,d\n0,21,22,23,24\n10,25,26,27,28\n20,29,30,31,32\n");
+  fs::rename(data / "palm.csv", data / "hand.csv");
+  EXPECT_NE(testing::errorOf([&] { import(); }).find("no file is called as the matrix \"palm\""),
+            std::string::npos);
+  ImportMapping chosen;
+  chosen.matrices = {{0, "thumb_tip*", {}, false}, {1, "hand*", {}, false}};
+  import(chosen);
+  EXPECT_EQ(openRecording(folder / "o.palpate").frame(2).values,
+            (std::vector<float>{9, 10, 11, 12, 29, 30, 31, 32}));
+}
+
+// Frames stay whole where lines are missing, as in a stream (docs/stream_protocol.md).
+TEST(ImportForms, ALinePerMatrixIsAFrame) {
+  const TemporaryFolder folder;
+  ImportMapping rate;
+  rate.time.rateHz = 100.0;
+  const auto made =
+      importText(folder,
+                 "left:1,2,3,4\nright:5,6,7,8\n\nleft:11,12,13,14\nright:15,16,17,18\n",
+                 twoPads(),
+                 rate);
+  ASSERT_EQ(made.report.frames, 2u);
+  EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{11, 12, 13, 14, 15, 16, 17, 18}));
+  EXPECT_EQ(
+      std::count(made.report.notes.begin(),
+                 made.report.notes.end(),
+                 "a frame is a line for each of \"left\", \"right\", and begins with the first "
+                 "of them"),
+      1);
+  // By the names, not by the order.
+  EXPECT_EQ(importText(folder, "right: 5 6 7 8\nleft: 1 2 3 4\n", twoPads(), rate)
+                .profile.frame(0)
+                .values,
+            (std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8}));
+  // With a serial monitor's times, and a line of the time.
+  const auto stamped = importText(folder,
+                                  "10:31:00.000 -> left:1,2,3,4\n10:31:00.004 -> right:5,6,7,8\n"
+                                  "10:31:00.020 -> left:1,2,3,4\n10:31:00.024 -> right:5,6,7,9\n",
+                                  twoPads());
+  ASSERT_EQ(stamped.report.frames, 2u);
+  EXPECT_EQ(stamped.profile.frameTimeUs(1) - stamped.profile.frameTimeUs(0), 20'000);
+  const auto timed = importText(
+      folder,
+      "time_ms:0\nleft:1,2,3,4\nright:5,6,7,8\ntime_ms:30\nleft:1,2,3,4\nright:5,6,7,9\n",
+      twoPads());
+  ASSERT_EQ(timed.report.frames, 2u);
+  EXPECT_EQ(timed.profile.frameTimeUs(1), 30'000);
+  // Each line that is missing, comes twice or is short costs its frame only.
+  const auto lossy = importText(folder,
+                                "left 1:1,2,3,4\nright 1:5,6,7,8\n"
+                                "left 2:1,2,3,4\n"
+                                "left 3:2,2,3,4\nright 3:6,6,7,8\n"
+                                "right 4:1,1,1,1\n"
+                                "left 5:3,2,3,4\nright 6:1,1,1,1\n"
+                                "left 7:4,2,3,4\nright 7:1,1,1\n"
+                                "left 8:5,2,3,4\nright 8:7,6,7,8\n",
+                                twoPads(),
+                                rate);
+  EXPECT_EQ(lossy.report.frames, 3u);
+  EXPECT_EQ(lossy.report.refused.wrongCount, 4u);
+  EXPECT_EQ(lossy.report.refused.first, "line 3 begins a frame without \"right\"");
+  EXPECT_EQ(lossy.profile.frame(1).values, (std::vector<float>{2, 2, 3, 4, 6, 6, 7, 8}));
+  EXPECT_EQ(lossy.profile.frame(2).values, (std::vector<float>{5, 2, 3, 4, 7, 6, 7, 8}));
+}
+
+// As pandas writes arrays that NumPy printed (15 numbers of 4 digits need two lines).
+TEST(ImportForms, AListThatIsWrappedInItsCellIsOne) {
+  const TemporaryFolder folder;
+  const auto made =
+      importText(folder,
+                 "time,data\n0.0,\"[1 2 3\n 4 5 6]\"\n0.01,\"[[7 8 9]\n [10 11 12]]\"\n"
+                 "0.02,[13 14 15 16 17 18]\n",
+                 pad(2, 3));
+  EXPECT_EQ(made.report.frames, 2u);
+  EXPECT_EQ(made.profile.frame(0).values, (std::vector<float>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(made.profile.frame(1).values, (std::vector<float>{13, 14, 15, 16, 17, 18}));
+  // The list of another shape is refused, with the line in which its row begins.
+  EXPECT_EQ(made.report.refused.wrongCount, 1u);
+  EXPECT_EQ(made.report.refused.first.find("line 4 "), 0u) << made.report.refused.first;
+  // A list that doesn't end takes no other row with it.
+  const auto open =
+      importText(folder,
+                 "time,data\n0.0,\"[1 2 3\n0.01,[7 8 9]\n0.02,\"[1 2\n 3]\"\n0.03,[1 2 3]\n",
+                 pad(1, 3));
+  EXPECT_EQ(open.report.frames, 3u);
+  EXPECT_EQ(open.report.refused.total(), 1u);
+  const std::string left = testing::errorOf([&] {
+    importText(folder, "time,data\n0.0,[0 1 2 ... 5 6 7]\n0.01,[0 1 2 ... 5 6 7]\n", pad(2, 3));
+  });
+  EXPECT_NE(left.find("NumPy left numbers out"), std::string::npos) << left;
+}
+
 }  // namespace
 }  // namespace palpate::import_forms_test

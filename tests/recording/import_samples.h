@@ -62,6 +62,43 @@ inline void runPython(const TemporaryFolder& folder, const std::string& script) 
   ASSERT_EQ(result.exitCode, 0) << result.err;
 }
 
+// Writes MAT files of version 5 by the published form, without SciPy: array(), structure(),
+// cells(), packed(), write(). Arrays are NumPy's, with MATLAB's axes.
+constexpr const char* kMat5Writer = R"(
+import struct, sys, zlib, numpy as np
+big = False
+def pack(form, *values): return struct.pack(('>' if big else '<') + form, *values)
+def element(kind, data):
+  if 0 < len(data) <= 4:
+    head = pack('HH', len(data), kind) if big else pack('HH', kind, len(data))
+    return head + data.ljust(4, b'\0')
+  return pack('II', kind, len(data)) + data + b'\0' * (-len(data) % 8)
+def matrix(number, sizes, name, rest, flags=0):
+  body = (element(6, pack('II', number | flags, 0)) + element(5, pack('%di' % len(sizes), *sizes)) +
+          element(1, name.encode()) + rest)
+  return pack('II', 14, len(body)) + body
+classes = {'f8': 6, 'f4': 7, 'i1': 8, 'u1': 9, 'i2': 10, 'u2': 11, 'i4': 12, 'u4': 13, 'i8': 14, 'u8': 15}
+kinds = {'i1': 1, 'u1': 2, 'i2': 3, 'u2': 4, 'i4': 5, 'u4': 6, 'f4': 7, 'f8': 9, 'i8': 12, 'u8': 13}
+# `stored`: the type in the file, which may be a smaller one than the array has.
+def array(name, values, stored=None, flags=0):
+  values = np.asarray(values)
+  sizes = values.shape if values.ndim > 1 else (1, values.size)
+  stored = stored or values.dtype.str[1:]
+  data = values.astype(('>' if big else '<') + stored).tobytes(order='F')
+  return matrix(classes[values.dtype.str[1:]], sizes, name, element(kinds[stored], data), flags)
+def structure(name, rows):
+  fields = list(rows[0])
+  rest = element(5, pack('i', 32)) + element(1, b''.join(f.encode().ljust(32, b'\0') for f in fields))
+  return matrix(2, (1, len(rows)), name, rest + b''.join(row[f] for row in rows for f in fields))
+def cells(name, parts): return matrix(1, (1, len(parts)), name, b''.join(parts))
+def packed(part):
+  data = zlib.compress(part)
+  return pack('II', 15, len(data)) + data
+def write(path, *parts):
+  head = b'MATLAB 5.0 MAT-file, made by a test'.ljust(116) + bytes(8)
+  with open(path, 'wb') as f: f.write(head + pack('H', 0x100) + (b'MI' if big else b'IM') + b''.join(parts))
+)";
+
 // What an error says; empty when there was none.
 template <typename Do>
 std::string errorOf(Do what) {

@@ -387,9 +387,9 @@ void expectCounting(const Profile& profile, const std::string& name) {
   }
 }
 
-// Arrays whose axes are not frames, rows, columns, by NumPy and as MATLAB 7.3 writes them.
+// Arrays whose axes are not frames, rows, columns, by NumPy and as MATLAB 7.3 and 5 write them.
 constexpr const char* kArraysOfOtherAxes = R"(
-import sys, numpy as np, h5py
+import h5py
 folder = sys.argv[1] + '/'
 pad = np.arange(48).reshape(8, 2, 3)
 time = np.arange(8) * 0.01
@@ -415,11 +415,15 @@ matlab('rcf_column.mat', pad=np.moveaxis(pad, 0, 2), time_s=column)
 matlab('frc.mat', pad=pad, time_s=column)
 matlab('ft.mat', pad=pad.reshape(8, 6), time_s=column)
 matlab('tf.mat', pad=pad.reshape(8, 6).T, time_s=row)
+pad = pad.astype('f8')
+for name, first, second in [('rcf', np.moveaxis(pad, 0, 2), row), ('rcf_column', np.moveaxis(pad, 0, 2), column),
+                            ('frc', pad, column), ('ft', pad.reshape(8, 6), column), ('tf', pad.reshape(8, 6).T, row)]:
+  write(folder + name + '.5.mat', packed(array('pad', first, 'u1')), array('time_s', second))
 )";
 
 TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
   const TemporaryFolder folder;
-  testing::runPython(folder, kArraysOfOtherAxes);
+  testing::runPython(folder, std::string(testing::kMat5Writer) + kArraysOfOtherAxes);
   for (const auto& [name, words] : std::vector<std::pair<std::string, std::string>>{
            {"columns.npz", "transposed"},
            {"fortran.npz", "transposed"},
@@ -431,6 +435,11 @@ TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
            {"frc.mat", "taken for the frames"},
            {"ft.mat", "taken for the frames"},
            {"tf.mat", "row by row"},
+           {"rcf.5.mat", "transposed"},
+           {"rcf_column.5.mat", "transposed"},
+           {"frc.5.mat", "taken for the frames"},
+           {"ft.5.mat", "taken for the frames"},
+           {"tf.5.mat", "row by row"},
            {"within.npz", "table[0] ascends and is taken for the time"},
            {"extra.npz", "not used: extra[3]"}}) {
     const ImportReport report = importRecording(
@@ -459,6 +468,7 @@ TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
   choose("columns.npz", "pad", "time_s");
   choose("rcf.mat", "pad", "time_s");
   choose("frc.mat", "pad", "time_s");
+  choose("frc.5.mat", "pad", "time_s");
   choose("within.npz", "table[1]..table[6]", "table[0]");
   ImportMapping noSuchMatrix;
   noSuchMatrix.matrices = {{7, "pad", {}, false}};

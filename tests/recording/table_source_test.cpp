@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 
 #include "palpate/recording/hdf5_recording.h"
+#include "palpate/recording/recording.h"
+#include "palpate/recording/recording_folder.h"
 
 #include "recording/import_samples.h"
 
@@ -200,9 +202,6 @@ TEST(OpenTable, NamesFilesOfOtherProgramsAndSaysWhatToDo) {
   const std::string sqlite = "SQLite format 3" + zeros;
   const testing::TemporaryFolder folder;
   for (const auto& [name, bytes, words] : std::vector<std::array<std::string, 3>>{
-           {"a.mat",
-            "MATLAB 5.0 MAT-file, Platform: GLNXA64" + zeros,
-            "save it in MATLAB with -v7.3"},
            {"a.db3", sqlite, "a bag of ROS 2 in SQLite: convert it to MCAP (ros2 bag convert)"},
            {"a.palpate", sqlite, "is a recording already"},
            {"a.xlsx",
@@ -226,8 +225,18 @@ TEST(OpenTable, NamesFilesOfOtherProgramsAndSaysWhatToDo) {
   std::filesystem::create_directory(folder / "bag");
   testing::writeFile(folder / "bag/metadata.yaml", "rosbag2_bagfile_information:\n");
   testing::writeFile(folder / "bag/bag_0.mcap", "");
+  // Every command says the same, of files that are opened as recordings, too.
   EXPECT_NE(testing::errorOf([&] { openTable(folder / "bag"); }).find("name its file bag_0.mcap"),
             std::string::npos);
+  EXPECT_EQ(noRecordingText(folder / "bag"),
+            (folder / "bag").string() +
+                ": is the folder of a bag of ROS 2: name its file "
+                "bag_0.mcap");
+  for (const char* name : {"a.db3", "a.xlsx", "a.parquet", "a.xdf", "a.bag", "a.pkl"}) {
+    const std::string what = testing::errorOf([&] { openTable(folder / name); });
+    EXPECT_EQ(testing::errorOf([&] { openRecording(folder / name); }), what);
+    EXPECT_EQ(testing::errorOf([&] { readableRecording(folder / name); }), what);
+  }
 }
 
 // Every dtype of whole and real numbers, both byte orders, both orders of the array, compressed or

@@ -178,8 +178,8 @@ int importCommand(const Arguments& words) {
       {.synopsis =
            "palpate import DATA --hand NAME|FOLDER [-o OUT.palpate] [--map M.json] [--preview]",
        .purpose = "Imports a table of another program as a recording: text (CSV, JSON lines, or "
-                  "lines that microcontrollers print), NumPy's .npy and .npz, HDF5. A row is a "
-                  "frame. Columns "
+                  "lines that microcontrollers print), NumPy's .npy and .npz, HDF5, MAT files; or "
+                  "a folder with a file per frame or per matrix. A row is a frame. Columns "
                   "are found by names and shapes, or chosen: NAME, A..B, #3..#86 (by position, "
                   "from 1), left*, m{m}[{y}][{x}] (matrix, row, column), table[0]..table[5]. Rows "
                   "that can't be used are left out and counted, and so are values outside of the "

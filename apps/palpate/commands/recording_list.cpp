@@ -290,10 +290,8 @@ RecordingList recordingsIn(const Arguments& words) {
     }
     list.several = true;
     RecordingFolder folder = recordingsBelow(word);
-    if (folder.files.empty() && folder.problems.empty()) {
-      const FileError error(word, "no recording (.palpate, .dsa) in this folder or its subfolders");
-      folder.problems.emplace_back(error.what());
-    }
+    if (folder.files.empty() && folder.problems.empty())
+      folder.problems.push_back(noRecordingText(word));
     std::move(folder.files.begin(), folder.files.end(), std::back_inserter(list.files));
     std::move(folder.problems.begin(), folder.problems.end(), std::back_inserter(list.problems));
   }

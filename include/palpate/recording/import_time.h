@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -38,6 +39,8 @@ std::optional<std::int64_t> parseDate(std::string_view text,
                                       TimeUnit form = TimeUnit::kDate);
 // Whether a text is a date or a time of day in one of these forms.
 bool isDateText(std::string_view text);
+// The form in which all of these dates can be read.
+DateForm dateFormOf(std::span<const std::string_view> dates);
 
 // What the values of a column that has no unit are, from one of them: seconds, milliseconds,
 // microseconds or nanoseconds since 1970 by their size; smaller ones are seconds when they have

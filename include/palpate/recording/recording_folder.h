@@ -23,5 +23,7 @@ struct RecordingFolder {
 // the list: whoever reads it says so. Throws nothing for what it meets on the disk; Cancelled when
 // the progress (asked for every name, always with 0) returns false.
 RecordingFolder recordingsBelow(const std::filesystem::path& folder, const Progress& progress = {});
+// Why a folder is refused in which there is none, with its name.
+std::string noRecordingText(const std::filesystem::path& folder);
 
 }  // namespace palpate

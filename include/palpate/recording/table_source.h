@@ -1,6 +1,7 @@
 // Tables of numbers in files of other programs, read row by row for an import: text (CSV and what
-// microcontrollers print), NumPy's .npy and .npz, HDF5. A row belongs to one instant. A column is a
-// number per row (text) or an array per row: of a data set of T x 14 x 6 numbers, a row has 14 x 6.
+// microcontrollers print), NumPy's .npy and .npz, HDF5, MAT. A row belongs to one instant. A column
+// is a number per row (text) or an array per row: of a data set of T x 14 x 6 numbers, a row has 14
+// x 6.
 //
 // A table of any length takes bounded memory: openTable() reads the beginning of a text, or the
 // headers of arrays; rows are read one after the other.
@@ -128,7 +129,11 @@ class TableSource {
   // number that stands alone before each frame is the first column. Returns in words what a frame
   // is; empty, and nothing is changed, when the lines don't come in such frames. Before start().
   virtual std::string joinLines(std::size_t /*count*/) { return {}; }
-  // The rate that the head of a file gives.
+  // How rows that are not a line each are put together, for a note; empty: there is nothing to say.
+  virtual std::string rowNote() const { return {}; }
+  // Whether each column is part of a matrix by its name, as "left[3]": no order says which one.
+  virtual bool hasNamedParts() const noexcept { return false; }
+  // The rate that a file gives.
   virtual std::optional<double> rateHz() const { return std::nullopt; }
   // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.
   virtual bool isColumnMajor() const noexcept { return false; }

@@ -445,10 +445,14 @@ std::string Hdf5Answers::texts(const std::string& name, ByteReader& in) {
   const hsize_t count = in.u64();
   const std::uint64_t longest = in.u64();
   const Hdf5Id type(H5Dget_type(from.id.get()), H5Tclose);
-  if (from.facts.shape.size() != 1 || H5Tis_variable_str(type.get()) <= 0)
+  if (from.facts.shape.size() != 1 || from.facts.kind != Hdf5Kind::kText)
     fault("has texts of another type");
+  const bool isVariable = H5Tis_variable_str(type.get()) > 0;
+  const std::size_t fixedBytes = isVariable ? 0 : H5Tget_size(type.get());
+  if (fixedBytes > longest) fault("has a text that is too long");
+  std::string fixed(fixedBytes + 1, '\0');
   const Hdf5Id memoryType(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(memoryType.get(), H5T_VARIABLE);
+  H5Tset_size(memoryType.get(), isVariable ? H5T_VARIABLE : fixed.size());
   H5Tset_cset(memoryType.get(), H5Tget_cset(type.get()));
   const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
   Hdf5Id memory;
@@ -463,9 +467,9 @@ std::string Hdf5Answers::texts(const std::string& name, ByteReader& in) {
                 memory.get(),
                 space.get(),
                 H5P_DEFAULT,
-                static_cast<void*>(&pointer)) < 0)
+                isVariable ? static_cast<void*>(&pointer) : fixed.data()) < 0)
       fault("can't be read: damaged or cut off");
-    const std::string one = pointer ? pointer : "";
+    const std::string one = !isVariable ? fixed.c_str() : pointer ? pointer : "";
     H5free_memory(pointer);
     if (one.size() > longest) fault("has a text that is too long");
     appendText(all, hdf5RestoredText(one));

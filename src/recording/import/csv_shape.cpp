@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <optional>
 
@@ -201,23 +202,13 @@ void describeDates(TableColumn& column,
                    std::size_t c,
                    const Candidate& table,
                    const std::vector<SampleRow>& rows) {
-  const auto fit = [&](TimeUnit form) {
-    return std::all_of(rows.begin(), rows.end(), [&](const SampleRow& row) {
-      return c >= row.kinds.size() || row.kinds[c] != CellKind::kDate ||
-             parseDate(trimmedCell(table.rows[row.index][c]), nullptr, form);
-    });
-  };
-  const bool dayFirst = fit(TimeUnit::kDayFirst);
-  const bool monthFirst = fit(TimeUnit::kMonthFirst);
-  column.dateForm = fit(TimeUnit::kDate)     ? DateForm::kIso
-                    : dayFirst && monthFirst ? DateForm::kEither
-                    : dayFirst               ? DateForm::kDayFirst
-                    : monthFirst             ? DateForm::kMonthFirst
-                    : fit(TimeUnit::kClock)  ? DateForm::kClock
-                                             : DateForm::kIso;
-  column.isDayOnly = std::all_of(rows.begin(), rows.end(), [&](const SampleRow& row) {
-    return c >= row.kinds.size() || row.kinds[c] != CellKind::kDate ||
-           table.rows[row.index][c].find(':') == std::string_view::npos;
+  std::vector<std::string_view> dates;
+  for (const SampleRow& row : rows)
+    if (c < row.kinds.size() && row.kinds[c] == CellKind::kDate)
+      dates.push_back(trimmedCell(table.rows[row.index][c]));
+  column.dateForm = dateFormOf(dates);
+  column.isDayOnly = std::all_of(dates.begin(), dates.end(), [](std::string_view date) {
+    return date.find(':') == std::string_view::npos;
   });
 }
 
@@ -341,6 +332,52 @@ std::optional<CsvShape> labelledShape(const SampleLines& sample, char decimal) {
     TableColumn column{.name = std::string(name), .unit = unitInName(name)};
     column.type = "number";
     shape.columns.push_back(std::move(column));
+  }
+  return shape;
+}
+
+// The shape of a line per matrix; nothing when most lines are of another form.
+std::optional<CsvShape> padShape(const SampleLines& sample, const TableOptions& options) {
+  constexpr std::size_t kMostPads = 256;
+  CsvShape shape;
+  shape.decimal = options.decimal;
+  std::map<std::string_view, std::map<std::size_t, std::size_t>> counts;  // of numbers, by name
+  std::size_t such = 0;
+  Cells cells;
+  for (const std::string_view line : sample.texts) {
+    const auto pad = splitPadLine(line);
+    if (!pad) continue;
+    if (such == 0) {
+      const auto between = pad->values.find_first_of(",;\t ");
+      shape.delimiter = options.delimiter != 0              ? options.delimiter
+                        : between == std::string_view::npos ? ','
+                                                            : pad->values[between];
+    }
+    splitCells(pad->values, shape.delimiter, cells);
+    if (std::any_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+          const CellKind kind = kindOf(cell, options.decimal);
+          return kind != CellKind::kNumber && kind != CellKind::kEmpty;
+        }))
+      continue;
+    ++such;
+    if (counts.count(pad->name) == 0) shape.pads.push_back({std::string(pad->name), 0, 0});
+    ++counts[pad->name][cells.size()];
+  }
+  if (such == 0 || 2 * such <= sample.texts.size() || shape.pads.size() > kMostPads)
+    return std::nullopt;
+  if (!sample.stamps.empty()) shape.columns.push_back(stampColumn(sample));
+  for (PadColumns& pad : shape.pads) {
+    const auto& byCount = counts[pad.name];
+    const auto most =
+        std::max_element(byCount.begin(), byCount.end(), [](const auto& one, const auto& other) {
+          return one.second < other.second;
+        });
+    pad.first = shape.columns.size();
+    pad.count = most->first;
+    for (std::size_t i = 0; i < pad.count; ++i)
+      shape.columns.push_back(
+          {.name = pad.count == 1 ? pad.name : pad.name + "[" + std::to_string(i) + "]",
+           .type = "number"});
   }
   return shape;
 }
@@ -505,6 +542,22 @@ bool splitLabelled(std::string_view line,
   return !names.empty();
 }
 
+std::optional<PadLine> splitPadLine(std::string_view line) {
+  const auto colon = line.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  PadLine pad;
+  pad.name = trimmed(line.substr(0, colon));
+  pad.values = trimmed(line.substr(colon + 1));
+  const auto blank = pad.name.rfind(' ');
+  if (blank != std::string_view::npos) {
+    pad.frame = parseInteger(pad.name.substr(blank + 1));
+    if (pad.frame) pad.name = trimmed(pad.name.substr(0, blank));
+  }
+  const bool isName = !pad.name.empty() && pad.name.find_first_of(",;\t\"") == std::string::npos &&
+                      std::isalpha(static_cast<unsigned char>(pad.name[0])) != 0;
+  return isName ? std::optional(pad) : std::nullopt;
+}
+
 bool isCommentLine(std::string_view line) {
   line = trimmed(line);
   return line.empty() || line[0] == '#' || line[0] == '%' || line.starts_with("//");
@@ -533,8 +586,19 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
       return std::move(*labelled);
     }
 
+  if (auto pads = padShape(sample, options)) {
+    pads->stamped = isStamped;
+    return std::move(*pads);
+  }
+
   if (auto nested = nestedShape(sample, options)) {
     nested->stamped = isStamped;
+    for (const TableColumn& column : nested->columns)
+      if (column.example == "...")
+        throw FormatError(path,
+                          inQuotes(column.name) +
+                              " is \"...\": NumPy left numbers out where it printed the array; "
+                              "save it as .npz");
     if (nested->nameLine != 0) nested->nameLine = numbers.front();
     return std::move(*nested);
   }

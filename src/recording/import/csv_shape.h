@@ -4,10 +4,14 @@
 //   ms;counts;counts            without a line of names and a line of units
 //   left:12 right:17            Arduino's serial plotter: names and values in each line
 //   10:31:00.123 -> 12,17       a serial monitor's time before each line, also in [brackets]
+//   left:1,2,3,4                a line per matrix, also with the number of the frame ("left
+//   7:1,2"); right:5,6,7,8               a frame begins with the matrix that came first, as in a
+//   stream
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,12 +22,20 @@
 
 namespace palpate {
 
+// The columns of a line per matrix.
+struct PadColumns {
+  std::string name;
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
 struct CsvShape {
   char delimiter = ',';
   char decimal = '.';
   bool labelled = false;               // name:value in each cell
   bool nested = false;                 // lists or objects in each line (see nested_text.h)
   std::vector<std::string> cellNames;  // of nested lines: of their cells; none: a line is one list
+  std::vector<PadColumns> pads;        // of lines per matrix, in the order of a frame
   bool stamped = false;                // the first column is a serial monitor's time
   std::vector<TableColumn> columns;
   std::uint64_t nameLine = 0;  // 0: none
@@ -53,6 +65,14 @@ std::string_view takeStamp(std::string_view& line);
 bool splitLabelled(std::string_view line,
                    std::vector<std::string_view>& names,
                    std::vector<std::string_view>& values);
+
+// A line of one matrix: "left:1,2,3,4", "left 7:1,2,3,4".
+struct PadLine {
+  std::string_view name;
+  std::optional<std::int64_t> frame;  // its number
+  std::string_view values;
+};
+std::optional<PadLine> splitPadLine(std::string_view line);
 
 // Whether a line holds no row: it is empty or a comment (#, %, //).
 bool isCommentLine(std::string_view line);

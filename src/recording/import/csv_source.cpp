@@ -52,6 +52,7 @@ std::string CsvSource::form() const {
     return shape_.cellNames.empty() ? "text, a list or an object in each line"
                                     : "text, lists in its cells, separated by " +
                                           std::string(delimiterName(shape_.delimiter)) + "s";
+  if (!shape_.pads.empty()) return "text, " + rowNote();
   if (shape_.labelled)
     return std::string("text, name:value in each line") +
            (shape_.stamped ? ", times before the lines" : "");
@@ -65,12 +66,21 @@ std::string CsvSource::form() const {
   return text;
 }
 
+std::string CsvSource::rowNote() const {
+  if (shape_.pads.empty()) return {};
+  std::string names;
+  for (const PadColumns& pad : shape_.pads)
+    names += (names.empty() ? "" : ", ") + inQuotes(pad.name);
+  return "a frame is a line for each of " + names + ", and begins with the first of them";
+}
+
 void CsvSource::start(std::span<const std::size_t> columns, std::optional<std::size_t> time) {
   selected_.assign(columns.begin(), columns.end());
   time_ = time;
   frames_.before.clear();
   frames_.isBegun = false;
   frames_.brokenAt = 0;
+  heldNumber_ = 0;
   reader_.restart();
 }
 
@@ -171,7 +181,9 @@ bool CsvSource::isFrameLine(std::string_view line, std::size_t numbers) {
 }
 
 std::string CsvSource::joinLines(std::size_t count) {
-  if (shape_.nameLine != 0 || shape_.labelled || shape_.nested || shape_.stamped) return {};
+  if (shape_.nameLine != 0 || shape_.labelled || shape_.nested || shape_.stamped ||
+      !shape_.pads.empty())
+    return {};
   FrameLines found{.lines = count, .numbers = shape_.columns.size()};
   constexpr std::size_t kFrames = 20;
   std::map<std::size_t, std::size_t> lengths;  // how many blocks have so many lines
@@ -252,6 +264,87 @@ bool CsvSource::readFrame(TableRow& row) {
   return true;
 }
 
+// Reads a line of each matrix into cells_; false at the end. A line that is missing costs one
+// frame: the next one begins with the next line of the first matrix.
+bool CsvSource::readPads(TableRow& row) {
+  std::vector<bool> seen(shape_.pads.size(), false);
+  std::size_t numSeen = 0;
+  std::optional<std::int64_t> frame;
+  std::string_view line;
+  row.complete = true;
+  row.fault.clear();
+  row.numCells = 0;
+  row.line = 0;
+  padTexts_.assign(shape_.pads.size() + 1, {});
+  const auto fail = [&](const std::string& why) {
+    if (row.complete) row.fault = why;
+    row.complete = false;
+  };
+  while (numSeen < seen.size()) {
+    std::string held;
+    std::uint64_t number = std::exchange(heldNumber_, 0);
+    if (number != 0) {
+      held = std::exchange(heldLine_, {});
+      line = held;
+    } else {
+      if (!reader_.next(line)) break;
+      number = reader_.number();
+      if (reader_.isCutOff()) fail(" is cut off by bytes 0");
+    }
+    if (isCommentLine(line)) continue;
+    std::string_view rest = line;
+    const std::string_view stamp = shape_.stamped ? takeStamp(rest) : std::string_view();
+    const auto pad = splitPadLine(rest);
+    const auto at = std::find_if(shape_.pads.begin(), shape_.pads.end(), [&](const auto& each) {
+      return pad && each.name == pad->name;
+    });
+    const auto index = static_cast<std::size_t>(at - shape_.pads.begin());
+    if (index == 0 && row.line != 0) {  // the frame lacks a line
+      heldLine_ = line;
+      heldNumber_ = number;
+      break;
+    }
+    lastRowLine_ = number;
+    const bool begins = row.line == 0;
+    if (begins) row.line = number;
+    if (at == shape_.pads.end()) {
+      fail(" begins a frame with a line that is of no matrix, line " + std::to_string(number));
+      continue;
+    }
+    if (begins && index != 0) fail(" begins a frame without " + inQuotes(shape_.pads[0].name));
+    if (seen[index]) fail(" begins a frame with two lines of " + inQuotes(at->name));
+    if (begins)
+      frame = pad->frame;
+    else if (frame != pad->frame)
+      fail(" begins a frame whose lines have different numbers");
+    splitCells(pad->values, shape_.delimiter, cells_);
+    if (cells_.size() == at->count + 1 && trimmedCell(cells_.back()).empty()) cells_.pop_back();
+    if (cells_.size() != at->count)
+      fail(" begins a frame in which " + inQuotes(at->name) + " has " +
+           counted(cells_.size(), "number") + " instead of " + std::to_string(at->count));
+    numSeen += seen[index] ? 0 : 1;
+    seen[index] = true;
+    padTexts_[index] = pad->values;
+    if (begins) padTexts_.back() = stamp;
+  }
+  if (row.line == 0) return false;
+  const auto missing = std::find(seen.begin(), seen.end(), false);
+  if (missing != seen.end())
+    fail(" begins a frame without " +
+         inQuotes(shape_.pads[static_cast<std::size_t>(missing - seen.begin())].name));
+  if (!row.complete) return true;
+  std::vector<std::string_view> all(shape_.columns.size() - joined_.size());
+  if (shape_.stamped) all.front() = padTexts_.back();
+  for (std::size_t p = 0; p < shape_.pads.size(); ++p) {
+    splitCells(padTexts_[p], shape_.delimiter, cells_);
+    std::copy_n(cells_.begin(),
+                shape_.pads[p].count,
+                all.begin() + static_cast<std::ptrdiff_t>(shape_.pads[p].first));
+  }
+  cells_ = std::move(all);
+  return true;
+}
+
 // Reads the next row that is one line into cells_; false at the end.
 bool CsvSource::readLine(TableRow& row) {
   std::string_view line;
@@ -266,7 +359,10 @@ bool CsvSource::readLine(TableRow& row) {
 }
 
 bool CsvSource::next(TableRow& row) {
-  if (!(frames_.lines > 0 ? readFrame(row) : readLine(row))) return false;
+  const bool isThere = frames_.lines > 0     ? readFrame(row)
+                       : shape_.pads.empty() ? readLine(row)
+                                             : readPads(row);
+  if (!isThere) return false;
   if (!row.complete) return true;
   readJoinedTimes();
   row.values.resize(selected_.size());

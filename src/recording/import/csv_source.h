@@ -27,6 +27,7 @@ class CsvSource final : public TableSource {
   std::string endNote() const override;
   std::string joinLines(std::size_t count) override;
   std::optional<double> rateHz() const override { return rateHz_; }
+  std::string rowNote() const override;
   std::optional<std::size_t> joinTimes(std::size_t first,
                                        std::size_t second,
                                        std::int64_t factor) override;
@@ -54,6 +55,7 @@ class CsvSource final : public TableSource {
   };
   bool readLine(TableRow& row);
   bool readFrame(TableRow& row);
+  bool readPads(TableRow& row);
   bool isFrameLine(std::string_view line, std::size_t numbers);
   bool readCells(std::string_view line, TableRow& row);
   bool splitNamed(std::string_view line, TableRow& row);
@@ -73,6 +75,9 @@ class CsvSource final : public TableSource {
   std::vector<std::string_view> names_;  // of a line of names and values
   std::vector<std::string_view> values_;
   NestedLine nested_;
+  std::string heldLine_;          // of lines per matrix: the first one of the next frame
+  std::uint64_t heldNumber_ = 0;  // 0: none
+  std::vector<std::string> padTexts_;
 };
 
 }  // namespace palpate

@@ -12,17 +12,27 @@
 
 namespace palpate {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kEndings[] = {".csv", ".txt", ".npy"};
+
+// At the end of the name of a file.
+std::optional<std::int64_t> numberInName(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const auto digits = stem.find_last_not_of("0123456789") + 1;  // of npos: 0
+  return parseInteger(std::string_view(stem).substr(digits));
+}
+
+}  // namespace
 
 FolderSource::FolderSource(const fs::path& path, const TableOptions& options)
     : path_(path), options_(options) {
   options_.header = HeaderChoice::kAbsent;
   std::error_code failure;
-  for (const char* ending : {".csv", ".txt", ".npy"}) {
+  for (const char* ending : kEndings) {
     files_.clear();
     for (const fs::directory_entry& entry : fs::directory_iterator(path, failure)) {
-      const std::string stem = entry.path().stem().string();
-      const auto digits = stem.find_last_not_of("0123456789") + 1;  // of npos: 0
-      const auto number = parseInteger(std::string_view(stem).substr(digits));
+      const auto number = numberInName(entry.path());
       if (number && entry.path().extension() == ending) files_.push_back({entry.path(), *number});
     }
     if (files_.size() > 1) break;
@@ -30,8 +40,8 @@ FolderSource::FolderSource(const fs::path& path, const TableOptions& options)
   if (files_.size() < 2)
     throw FormatError(
         path,
-        "is a folder; name a file in it (a folder with a .csv, .txt or .npy per frame "
-        "has a number at the end of their names)");
+        "is a folder; name a file in it (the names of a .csv, .txt or .npy per frame end in a "
+        "number, those of one per matrix are those of the matrices)");
   std::sort(files_.begin(), files_.end());
   columns_.push_back({.name = "file", .type = "number"});
   const std::size_t count = numbersOf(files_.front().path).size();
@@ -112,6 +122,25 @@ std::string FolderSource::textOf(std::size_t index) const {
 
 std::string FolderSource::placeOf(std::size_t index) const {
   return columns_.at(selected_.at(index)).name + ": " + textOf(index);
+}
+
+std::vector<fs::path> filesPerMatrix(const fs::path& folder) {
+  std::error_code failure;
+  for (const char* ending : kEndings) {
+    std::vector<fs::path> files;
+    std::size_t numNumbered = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+      if (entry.path().extension() != ending) continue;
+      files.push_back(entry.path());
+      numNumbered += numberInName(entry.path()) ? 1 : 0;
+    }
+    if (files.size() < 2) continue;
+    std::sort(files.begin(), files.end());
+    // A single other file lies beside frames.
+    const std::size_t numOthers = files.size() - numNumbered;
+    return numOthers < 2 || numOthers < numNumbered ? std::vector<fs::path>() : files;
+  }
+  return {};
 }
 
 }  // namespace palpate

@@ -45,4 +45,8 @@ class FolderSource final : public TableSource {
   std::string timeText_;
 };
 
+// The files of a folder with a file per matrix, whose names don't end in a number as those of
+// frames; empty: it holds frames, or nothing.
+std::vector<std::filesystem::path> filesPerMatrix(const std::filesystem::path& folder);
+
 }  // namespace palpate

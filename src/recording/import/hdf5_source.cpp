@@ -13,6 +13,7 @@
 #include "palpate/core/file_descriptor.h"
 #include "palpate/core/text_file.h"
 #include "palpate/recording/hdf5_recording.h"
+#include "palpate/recording/import_time.h"
 
 #include "recording/import/column_unit.h"
 
@@ -20,7 +21,9 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kMostHdf5Dimensions = 8;
-constexpr std::size_t kMostUnitBytes = 64;  // and those of MATLAB's class
+constexpr std::size_t kMostTimeTextBytes = 256;
+constexpr std::size_t kMostDescribedTexts = 16;  // columns
+constexpr std::size_t kMostUnitBytes = 64;       // and those of MATLAB's class
 
 }  // namespace
 
@@ -56,6 +59,62 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
     columns_.push_back(std::move(column));
   }
   if (columns_.empty()) throw FormatError(path, "holds no HDF5 data set");
+  std::size_t described = 0;
+  for (std::size_t c = 0; c < columns_.size() && described < kMostDescribedTexts; ++c)
+    if (facts_[c].kind == Hdf5Kind::kText && facts_[c].shape.size() == 1 && facts_[c].fault.empty())
+      ++described, describeTexts(c);
+  rateHz_ = findRate();
+}
+
+std::vector<std::string> Hdf5Source::texts(std::size_t column,
+                                           std::uint64_t first,
+                                           std::size_t count) {
+  std::vector<std::string> all;
+  while (all.size() < count)
+    for (std::string& text : file_->texts(
+             columns_[column].name, first + all.size(), count - all.size(), kMostTimeTextBytes))
+      all.push_back(std::move(text));
+  return all;
+}
+
+void Hdf5Source::describeTexts(std::size_t column) {
+  constexpr std::uint64_t kDescribedRows = 50;
+  TableColumn& described = columns_[column];
+  std::vector<std::string> read;
+  try {
+    read = texts(
+        column, 0, static_cast<std::size_t>(std::min(kDescribedRows, facts_[column].shape[0])));
+  } catch (const FormatError&) {  // other texts
+    return;
+  }
+  std::vector<std::string_view> dates(read.begin(), read.end());
+  if (dates.empty()) return;
+  described.example = read[0];
+  described.hasDates = std::all_of(dates.begin(), dates.end(), isDateText);
+  if (!described.hasDates) return;
+  described.setArrayShape(facts_[column].shape);
+  described.type = "date";
+  described.dateForm = dateFormOf(dates);
+}
+
+std::optional<double> Hdf5Source::findRate() {
+  constexpr std::size_t kMostObjects = 100;
+  std::set<std::string> objects = {""};
+  for (const TableColumn& column : columns_)
+    for (std::size_t end = 0; end != std::string::npos && objects.size() < kMostObjects;) {
+      end = column.name.find('/', end + 1);
+      objects.insert(column.name.substr(0, end));
+    }
+  std::set<double> rates;
+  for (const std::string& object : objects)
+    for (const char* name :
+         {"sampling_rate", "sample_rate", "sampling_frequency", "rate_hz", "fs"}) {
+      std::optional<double> rate = file_->numberAttribute(object, name);
+      if (const auto whole = rate ? std::nullopt : file_->integerAttribute(object, name))
+        rate = static_cast<double>(*whole);
+      if (rate && std::isfinite(*rate) && *rate > 0.0) rates.insert(*rate);
+    }
+  return rates.size() == 1 ? std::optional(*rates.begin()) : std::nullopt;
 }
 
 std::string Hdf5Source::form() const {
@@ -120,6 +179,13 @@ void Hdf5Source::loadTimes(std::size_t column,
                            std::size_t count,
                            std::vector<TimeCell>& times) {
   times.assign(count, {});
+  if (facts_[column].kind == Hdf5Kind::kText) {
+    timeTexts_ = texts(column, first, count);
+    for (std::size_t i = 0; i < count; ++i)
+      times[i] = {.state = timeTexts_[i].empty() ? CellState::kEmpty : CellState::kText,
+                  .text = timeTexts_[i]};
+    return;
+  }
   if (facts_[column].kind == Hdf5Kind::kInteger) {
     std::vector<std::int64_t> values(count);  // larger unsigned numbers are cut to INT64_MAX
     readRows(column, first, Hdf5Number::kI64, std::span(values));

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "recording/hdf5_process.h"
@@ -17,6 +19,7 @@ class Hdf5Source final : public ArraySource {
   std::string form() const override;
   bool isColumnMajor() const noexcept override { return isMatlab_; }
   void reverseAxes(std::size_t column) override;
+  std::optional<double> rateHz() const override { return rateHz_; }
 
  protected:
   void open(std::size_t column) override;
@@ -33,8 +36,17 @@ class Hdf5Source final : public ArraySource {
   template <typename Value>
   void readRows(std::size_t column, std::uint64_t first, Hdf5Number type, std::span<Value> values);
 
+  // Texts first .. first + count - 1 of a column of them.
+  std::vector<std::string> texts(std::size_t column, std::uint64_t first, std::size_t count);
+  // Of a column of texts: whether they are dates.
+  void describeTexts(std::size_t column);
+  // The attribute of the file, its groups and data sets, where all that have one agree.
+  std::optional<double> findRate();
+
   bool isMatlab_ = false;
-  std::set<std::size_t> reversed_;  // columns
+  std::optional<double> rateHz_;
+  std::vector<std::string> timeTexts_;  // of the loaded rows
+  std::set<std::size_t> reversed_;      // columns
   std::unique_ptr<Hdf5Process> file_;
   std::vector<Hdf5Facts> facts_;  // of the columns, whose axes may be reversed
 };

@@ -91,6 +91,7 @@ class Planner {
                  bool isOpposite);
   bool takeWhole(PlannedSeries& series, const std::vector<ColumnGroup>& groups, bool isOpposite);
   bool takeParts(PlannedSeries& series, const std::vector<ColumnGroup>& groups, bool isOpposite);
+  void takeNamedParts(PlannedSeries& series);
   bool takeColumnsInOrder(PlannedSeries& series, const std::vector<ColumnGroup>& groups);
   bool takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group);
   void joinFrameLines(PlannedSeries& series);
@@ -481,6 +482,50 @@ bool Planner::takeParts(PlannedSeries& series,
   return true;
 }
 
+// The parts of a table that are matrices by their names only.
+void Planner::takeNamedParts(PlannedSeries& series) {
+  const SensorLayout& layout = *hand_.layout;
+  const auto wordOf = [](std::string_view name) {
+    std::string word;
+    for (const char letter : smallLetters(name.substr(0, name.find('['))))
+      if (std::isalnum(static_cast<unsigned char>(letter)) != 0) word += letter;
+    return word;
+  };
+  std::string names;
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m)
+    names += (m > 0 ? ", " : "") + shortened(hand_.matrixName(m));
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    const std::string name = hand_.matrixName(m);
+    std::vector<std::size_t> part;
+    for (const std::size_t c : candidates())
+      if (wordOf(columns_[c].name) == wordOf(name)) part.push_back(c);
+    if (part.empty())
+      refuse("no file is called as the matrix " + inQuotes(name) +
+             "; call the files as the matrices of the hand (" + names +
+             "), or choose the columns of each matrix (--matrix " + shortened(name) + "='NAME*')");
+    std::vector<TableElement> elements;
+    for (const ColumnGroup& group : groupColumns(columns_, part))
+      elements.insert(elements.end(), group.elements.begin(), group.elements.end());
+    const auto inOrder = placesInOrder(elements.size(), layout, m, false);
+    const std::string what = hand_.matrixName(m);
+    if (part.size() == 1 && !isScalar(columns_[part[0]])) {
+      MatrixMapping wanted;
+      wanted.matrix = m;
+      ChosenElements chosen;
+      chosen.elements = elements;
+      const auto shaped = placesByShape(wanted, chosen, what);
+      if (shaped) {
+        take(series, what, elements, *shaped);
+        continue;
+      }
+    }
+    if (!inOrder)
+      refuse(inQuotes(name) + " has " + counted(elements.size(), "number") +
+             " per row, but its matrix has " + matrixShape(layout.matrix(m)));
+    take(series, what, elements, *inOrder);
+  }
+}
+
 // All numbers in their order: of all columns of a text, whose names say nothing else.
 bool Planner::takeColumnsInOrder(PlannedSeries& series, const std::vector<ColumnGroup>& groups) {
   std::vector<std::size_t> all;
@@ -548,6 +593,10 @@ void Planner::joinFrameLines(PlannedSeries& series) {
 PlannedSeries Planner::foundFrames() {
   PlannedSeries series;
   series.file = source_.path();
+  if (source_.hasNamedParts()) {
+    takeNamedParts(series);
+    return series;
+  }
   joinFrameLines(series);
   const std::vector<ColumnGroup> groups = groupColumns(columns_, candidates());
   for (const bool isOpposite : {false, true})
@@ -687,12 +736,18 @@ void Planner::noteUnused() {
 }
 
 ImportPlan Planner::plan() {
-  if (const auto rate = source_.rateHz(); rate && mapping_.time == TimeMapping{}) {
+  const bool hasTimes = std::any_of(columns_.begin(), columns_.end(), [](TableColumn column) {
+    column.shape.clear();  // a vector of MATLAB has two axes
+    return timeScore(column, Kind::kFrames) > 0;
+  });
+  const auto rate = source_.rateHz();
+  if (rate && !hasTimes && mapping_.time == TimeMapping{}) {
     mapping_.time.rateHz = rate;
     plan_.notes.push_back("time: the file gives a rate of " + numberText(*rate) + " Hz");
   }
   plan_.rateHz = mapping_.time.rateHz;
-  findFrameAxis();
+  if (const std::string note = source_.rowNote(); !note.empty()) plan_.notes.push_back(note);
+  if (!source_.hasNamedParts()) findFrameAxis();
   times_.prepare();
   // First the columns of the samples are told apart, which have words for it.
   std::vector<PlannedSeries> others;

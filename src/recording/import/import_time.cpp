@@ -203,6 +203,22 @@ bool isDateText(std::string_view text) {
   return false;
 }
 
+DateForm dateFormOf(std::span<const std::string_view> dates) {
+  const auto fit = [&](TimeUnit form) {
+    return std::all_of(dates.begin(), dates.end(), [&](std::string_view date) {
+      return parseDate(date, nullptr, form).has_value();
+    });
+  };
+  const bool dayFirst = fit(TimeUnit::kDayFirst);
+  const bool monthFirst = fit(TimeUnit::kMonthFirst);
+  return fit(TimeUnit::kDate)     ? DateForm::kIso
+         : dayFirst && monthFirst ? DateForm::kEither
+         : dayFirst               ? DateForm::kDayFirst
+         : monthFirst             ? DateForm::kMonthFirst
+         : fit(TimeUnit::kClock)  ? DateForm::kClock
+                                  : DateForm::kIso;
+}
+
 TimeUnit guessTimeUnit(double value, bool isWhole) {
   constexpr double kYear2000S = 946'684'800.0;
   if (std::abs(value) >= kYear2000S * 1e9) return TimeUnit::kNanoseconds;

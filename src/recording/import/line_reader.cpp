@@ -15,6 +15,18 @@ namespace {
 
 constexpr std::size_t kLineReaderPieceBytes = 1u << 18;
 
+// Whether a line ends within a quoted list. `isOpen`: it begins within one.
+bool endsInList(std::string_view line, bool isOpen) {
+  bool isList = isOpen;
+  bool isQuoted = isOpen;
+  for (std::size_t at = line.find('"'); at < line.size(); at = line.find('"', at + 1)) {
+    isQuoted = !isQuoted;
+    const std::size_t next = line.find_first_not_of(" \t", at + 1);
+    isList = isQuoted && next < line.size() && (line[next] == '[' || line[next] == '(');
+  }
+  return isQuoted && isList;
+}
+
 }  // namespace
 
 LineReader::LineReader(const std::filesystem::path& path) : path_(path) { restart(); }
@@ -31,7 +43,8 @@ void LineReader::restart() {
   ended_ = false;
   endsWithinLine_ = beginsAtNul_ = endsAtNul_ = false;
   nul_ = {};
-  number_ = 0;
+  joinsNul_ = false;
+  number_ = first_ = 0;
 }
 
 double LineReader::fraction() const noexcept {
@@ -79,7 +92,7 @@ std::size_t LineReader::endFrom(std::size_t from) const {
   return std::min(end, std::string_view(buffer_).substr(0, end).find('\0', from));
 }
 
-bool LineReader::next(std::string_view& line) {
+bool LineReader::nextPiece(std::string_view& line) {
   skipNulBytes();
   std::size_t searched = begin_;
   std::size_t end = std::string::npos;
@@ -103,6 +116,28 @@ bool LineReader::next(std::string_view& line) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (number_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+  return true;
+}
+
+// Whether the next line begins with a blank.
+bool LineReader::goesOn() {
+  return !endsAtNul_ && (begin_ < buffer_.size() || fill()) && buffer_[begin_] == ' ';
+}
+
+bool LineReader::next(std::string_view& line) {
+  joinsNul_ = false;
+  if (!nextPiece(line)) return false;
+  first_ = number_;
+  bool isOpen = endsInList(line, false);
+  if (!isOpen) return true;
+  joined_ = line;
+  while (isOpen && joined_.size() <= kMaxLineBytes && goesOn()) {
+    joinsNul_ = isCutOff();
+    if (!nextPiece(line)) break;
+    joined_.append(" ").append(line);
+    isOpen = endsInList(line, true);
+  }
+  line = joined_;
   return true;
 }
 

@@ -2,101 +2,21 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cerrno>
-#include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <limits>
-#include <system_error>
+#include <utility>
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
-#include "recording/import/column_unit.h"
-
 namespace palpate {
 namespace {
-
-// IEEE 754 binary16.
-double halfValue(std::uint16_t bits) {
-  const int exponent = bits >> 10 & 0x1F;
-  const int mantissa = bits & 0x3FF;
-  const double sign = (bits & 0x8000) != 0 ? -1.0 : 1.0;
-  if (exponent == 0x1F)
-    return mantissa == 0 ? sign * std::numeric_limits<double>::infinity()
-                         : std::numeric_limits<double>::quiet_NaN();
-  if (exponent == 0) return sign * std::ldexp(mantissa, -24);
-  return sign * std::ldexp(1024 + mantissa, exponent - 25);
-}
-
-std::int64_t signExtended(std::uint64_t value, std::size_t bytes) {
-  const int shift = static_cast<int>(64 - 8 * bytes);
-  return static_cast<std::int64_t>(value << shift) >> shift;
-}
-
-std::uint64_t bitsOf(const NpyHeader& header, std::span<const std::byte> number) {
-  return header.bigEndian ? bigEndian(number) : littleEndian(number);
-}
-
-double numberOf(const NpyHeader& header, std::span<const std::byte> number) {
-  const std::uint64_t bits = bitsOf(header, number);
-  switch (header.kind) {
-    case NumberKind::kBool:
-    case NumberKind::kUnsigned:
-      return static_cast<double>(bits);
-    case NumberKind::kSigned:
-    case NumberKind::kDate:
-      return static_cast<double>(signExtended(bits, header.itemBytes));
-    case NumberKind::kFloat:
-      if (header.itemBytes == 2) return halfValue(static_cast<std::uint16_t>(bits));
-      if (header.itemBytes == 4)
-        return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
-      return std::bit_cast<double>(bits);
-    case NumberKind::kOther:
-      break;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-TimeCell timeOf(const NpyHeader& header, std::span<const std::byte> number) {
-  TimeCell cell;
-  const std::uint64_t bits = bitsOf(header, number);
-  cell.state = CellState::kNumber;
-  cell.number = numberOf(header, number);
-  if (header.kind == NumberKind::kDate) {
-    const std::int64_t value = signExtended(bits, header.itemBytes);
-    const double us = cell.number * static_cast<double>(header.dateUnitNs) / 1000.0;
-    constexpr double kLatestUs = 1e18;
-    if (value == INT64_MIN || std::abs(us) > kLatestUs)
-      cell.state = CellState::kNotFinite;  // "not a time"
-    else if (header.dateUnitNs >= 1000)
-      cell.whole = value * (header.dateUnitNs / 1000);
-    else
-      cell.whole = value / 1000 + (value % 1000 >= 500 ? 1 : 0) - (value % 1000 <= -500 ? 1 : 0);
-  } else if (header.kind == NumberKind::kSigned) {
-    cell.whole = signExtended(bits, header.itemBytes);
-  } else if (header.kind == NumberKind::kUnsigned && bits <= INT64_MAX) {
-    cell.whole = static_cast<std::int64_t>(bits);
-  } else if (!std::isfinite(cell.number)) {
-    cell.state = CellState::kNotFinite;
-  }
-  return cell;
-}
 
 // Of all arrays of a file, as NumPy writes them 128 bytes each.
 constexpr std::size_t kNpyHeadersBytes = 16u << 20;
 
-bool isFortran(const NpyHeader& header) { return header.fortranOrder && header.shape.size() > 1; }
-
 }  // namespace
 
-NpzSource::NpzSource(const std::filesystem::path& path) : ArraySource(path), file_(path) {
+NpzSource::NpzSource(const std::filesystem::path& path) : StoredArraySource(path) {
   std::array<std::byte, 4> magic{};
   file_.read(
       0,
@@ -127,37 +47,28 @@ NpzSource::NpzSource(const std::filesystem::path& path) : ArraySource(path), fil
   };
   if (!isArchive_) {
     std::uint64_t at = 0;
-    Array array;
-    array.header = headerFrom("", file_.size(), [&](std::span<std::byte> bytes) {
+    NpyHeader header = headerFrom("", file_.size(), [&](std::span<std::byte> bytes) {
       file_.read(at, bytes);
       at += bytes.size();
     });
-    addColumn("array", std::move(array), file_.size());
+    addColumn("array", std::move(header), file_.size());
     return;
   }
   constexpr std::string_view kEnding = ".npy";
   for (ZipEntry& entry : readZipDirectory(file_)) {
     if (!entry.name.ends_with(kEnding)) continue;
-    Array array;
-    array.entry = std::make_unique<ZipEntry>(std::move(entry));
-    ZipEntryReader reader(file_, *array.entry);
-    const std::string name = array.entry->name.substr(0, array.entry->name.size() - kEnding.size());
-    const std::uint64_t size = array.entry->size;
-    array.header = headerFrom(name, size, [&](std::span<std::byte> bytes) { reader.read(bytes); });
-    addColumn(name, std::move(array), size);
+    ZipEntryReader reader(file_, entry);
+    const std::string name = entry.name.substr(0, entry.name.size() - kEnding.size());
+    const std::uint64_t size = entry.size;
+    addColumn(name,
+              headerFrom(name, size, [&](std::span<std::byte> bytes) { reader.read(bytes); }),
+              size);
+    entries_.push_back(std::move(entry));
   }
   if (columns_.empty()) throw FormatError(path_, "is a zip file without arrays (.npy)");
 }
 
-void NpzSource::addColumn(const std::string& name, Array array, std::uint64_t available) {
-  const NpyHeader& header = array.header;
-  TableColumn column;
-  column.name = name;
-  column.unit = unitInName(name);
-  column.type = header.typeName();
-  column.isNumeric = header.kind != NumberKind::kOther && header.kind != NumberKind::kDate &&
-                     !header.shape.empty();
-  column.hasDates = header.kind == NumberKind::kDate;
+void NpzSource::addColumn(const std::string& name, NpyHeader header, std::uint64_t available) {
   if (header.kind != NumberKind::kOther) {
     const auto bytes = header.numBytes();
     if (!bytes || *bytes > available - header.dataOffset)
@@ -165,127 +76,20 @@ void NpzSource::addColumn(const std::string& name, Array array, std::uint64_t av
                         inQuotes(name) +
                             " declares more numbers than it holds: it is cut off, or "
                             "its shape is wrong");
-    // A dimension of 0 leaves the others unchecked by the number of bytes.
-    if (!column.setArrayShape(header.shape))
-      throw FormatError(path_, inQuotes(name) + " has too many numbers per row");
-    if (column.width() == 0) column.isNumeric = false;
   }
-  columns_.push_back(std::move(column));
-  arrays_.push_back(std::move(array));
-}
-
-// The bytes stay where they are: reversed axes are the other order of the array.
-void NpzSource::reverseAxes(std::size_t column) {
-  NpyHeader& header = arrays_[column].header;
-  if (header.shape.size() < 2) return;
-  std::reverse(header.shape.begin(), header.shape.end());
-  header.fortranOrder = !header.fortranOrder;
-  columns_[column].setArrayShape(header.shape);
+  std::string type = header.typeName();
+  addArray(name, std::move(header), std::move(type));
 }
 
 std::string NpzSource::form() const {
   return isArchive_ ? "NumPy .npz, " + counted(columns_.size(), "array") : "NumPy .npy, one array";
 }
 
-void NpzSource::open(std::size_t column) {
-  Array& array = arrays_[column];
-  if (!array.entry) return;
-  array.reader = std::make_unique<ZipEntryReader>(file_, *array.entry);
-  std::vector<std::byte> header(static_cast<std::size_t>(array.header.dataOffset));
-  array.reader->read(header);
-  if (isFortran(array.header)) spool(array);
-}
-
-// Fortran order needs any place of the array: it is unpacked into a file that has no name.
-void NpzSource::spool(Array& array) {
-  const auto fail = [&](const char* what) {
-    return FileError(path_, std::string(what) + ": " + std::generic_category().message(errno));
-  };
-  const char* folder = std::getenv("TMPDIR");
-  std::string pattern = std::string(folder && *folder ? folder : "/tmp") + "/palpate.XXXXXX";
-  array.spooled = FileDescriptor(::mkostemp(pattern.data(), O_CLOEXEC));
-  if (array.spooled.get() < 0) throw fail("can't be unpacked");
-  ::unlink(pattern.c_str());
-  std::uint64_t left = array.header.numBytes().value_or(0);
-  std::vector<std::byte> piece(1u << 18);
-  while (left > 0) {
-    const auto now = std::span(piece).first(
-        static_cast<std::size_t>(std::min<std::uint64_t>(left, piece.size())));
-    array.reader->read(now);
-    for (std::size_t written = 0; written < now.size();) {
-      const ssize_t count =
-          ::write(array.spooled.get(), now.data() + written, now.size() - written);
-      if (count < 0 && errno != EINTR) throw fail("can't be unpacked");
-      written += count > 0 ? static_cast<std::size_t>(count) : 0;
-    }
-    left -= now.size();
-  }
-}
-
-void NpzSource::readNumbers(Array& array, std::uint64_t first, std::span<std::byte> bytes) {
-  const std::uint64_t offset = first * array.header.itemBytes;
-  if (!array.entry) return file_.read(array.header.dataOffset + offset, bytes);
-  if (array.spooled.get() < 0) return array.reader->read(bytes);  // in order
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t count = ::pread(array.spooled.get(),
-                                  bytes.data() + done,
-                                  bytes.size() - done,
-                                  static_cast<off_t>(offset + done));
-    if (count == 0 || (count < 0 && errno != EINTR))
-      throw FileError(path_, "can't be read after it was unpacked");
-    done += count > 0 ? static_cast<std::size_t>(count) : 0;
-  }
-}
-
-void NpzSource::readRows(std::size_t column, std::uint64_t first, std::size_t count) {
-  Array& array = arrays_[column];
-  const NpyHeader& header = array.header;
-  std::size_t width = 1;
-  for (std::size_t d = 1; d < header.shape.size(); ++d)
-    width *= static_cast<std::size_t>(header.shape[d]);
-  const std::size_t item = header.itemBytes;
-  bytes_.resize(count * width * item);
-  if (!isFortran(header)) return readNumbers(array, first * width, bytes_);
-  // In Fortran order the first index, the row, changes fastest, then the second, ..
-  strip_.resize(count * item);
-  for (std::size_t k = 0; k < width; ++k) {
-    // k counts the places of a row in the order of the file; `at` is its place in C order.
-    std::size_t rest = k;
-    std::size_t at = 0;
-    std::size_t stride = width;
-    for (std::size_t d = 1; d < header.shape.size(); ++d) {
-      const auto size = static_cast<std::size_t>(header.shape[d]);
-      stride /= size;
-      at += rest % size * stride;
-      rest /= size;
-    }
-    readNumbers(array, k * header.shape[0] + first, strip_);
-    for (std::size_t r = 0; r < count; ++r)
-      std::memcpy(bytes_.data() + (r * width + at) * item, strip_.data() + r * item, item);
-  }
-}
-
-void NpzSource::load(std::size_t column,
-                     std::uint64_t first,
-                     std::size_t count,
-                     std::vector<double>& values) {
-  readRows(column, first, count);
-  const NpyHeader& header = arrays_[column].header;
-  values.resize(bytes_.size() / header.itemBytes);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = numberOf(header, std::span(bytes_).subspan(i * header.itemBytes, header.itemBytes));
-}
-
-void NpzSource::loadTimes(std::size_t column,
-                          std::uint64_t first,
-                          std::size_t count,
-                          std::vector<TimeCell>& times) {
-  readRows(column, first, count);
-  const NpyHeader& header = arrays_[column].header;
-  times.resize(bytes_.size() / header.itemBytes);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    times[i] = timeOf(header, std::span(bytes_).subspan(i * header.itemBytes, header.itemBytes));
+std::unique_ptr<SequentialReader> NpzSource::unpacked(std::size_t column) {
+  if (!isArchive_) return nullptr;
+  auto reader = std::make_unique<ZipEntryReader>(file_, entries_[column]);
+  reader->skip(arrays_[column].header.dataOffset);
+  return reader;
 }
 
 }  // namespace palpate

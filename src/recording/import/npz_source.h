@@ -2,53 +2,27 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "palpate/core/file_descriptor.h"
-
-#include "recording/import/array_source.h"
-#include "recording/import/npy_header.h"
-#include "recording/import/random_reader.h"
+#include "recording/import/stored_array_source.h"
 #include "recording/import/zip_archive.h"
 
 namespace palpate {
 
-class NpzSource final : public ArraySource {
+class NpzSource final : public StoredArraySource {
  public:
   explicit NpzSource(const std::filesystem::path& path);
   std::string form() const override;
-  void reverseAxes(std::size_t column) override;
 
  protected:
-  void open(std::size_t column) override;
-  void load(std::size_t column,
-            std::uint64_t first,
-            std::size_t count,
-            std::vector<double>& values) override;
-  void loadTimes(std::size_t column,
-                 std::uint64_t first,
-                 std::size_t count,
-                 std::vector<TimeCell>& times) override;
+  std::unique_ptr<SequentialReader> unpacked(std::size_t column) override;
 
  private:
-  struct Array {
-    NpyHeader header;
-    std::unique_ptr<ZipEntry> entry;         // null: the file is the array
-    std::unique_ptr<ZipEntryReader> reader;  // of an entry, read in order
-    FileDescriptor spooled;  // an entry in Fortran order, unpacked: a file without a name
-  };
-  void addColumn(const std::string& name, Array array, std::uint64_t available);
-  void spool(Array& array);
-  // The bytes of numbers first .. first + count - 1 of the array in the order of the file.
-  void readNumbers(Array& array, std::uint64_t first, std::span<std::byte> bytes);
-  // The bytes of some rows in C order.
-  void readRows(std::size_t column, std::uint64_t first, std::size_t count);
+  void addColumn(const std::string& name, NpyHeader header, std::uint64_t available);
 
-  RandomReader file_;
   bool isArchive_ = false;
-  std::vector<Array> arrays_;
-  std::vector<std::byte> bytes_;
-  std::vector<std::byte> strip_;
+  std::vector<ZipEntry> entries_;  // of the columns of an archive
 };
 
 }  // namespace palpate

@@ -50,7 +50,8 @@ void readPreviewRows(TableSource& source, ImportPreview& preview) {
     }
     for (std::size_t r = 0; r < kShownPreviewRows && source.next(row); ++r) {
       if (row.complete && isDateArray)
-        preview.rows[r][c] = utcText(row.time.whole.value_or(0));
+        preview.rows[r][c] = row.time.text.empty() ? utcText(row.time.whole.value_or(0))
+                                                   : std::string(row.time.text);
       else if (row.complete)
         preview.rows[r][c] = source.textOf(0) + (column.width() > 1 ? " .." : "");
       numRows = std::max(numRows, r + 1);

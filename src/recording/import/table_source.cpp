@@ -9,11 +9,13 @@
 #include "palpate/core/text_file.h"
 #include "palpate/recording/hdf5_recording.h"
 
+#include "recording/foreign_file.h"
 #include "recording/import/csv_source.h"
 #include "recording/import/folder_source.h"
-#include "recording/import/foreign_file.h"
 #include "recording/import/hdf5_source.h"
+#include "recording/import/mat5_source.h"
 #include "recording/import/npz_source.h"
+#include "recording/import/pad_folder_source.h"
 
 namespace palpate {
 namespace {
@@ -72,13 +74,19 @@ std::unique_ptr<TableSource> openTable(const std::filesystem::path& path,
   if (isHdf5Table(path) && !std::string_view(beginningOfFile(path, kHdf5RecordingStart.size()))
                                 .starts_with(kHdf5RecordingStart))
     return std::make_unique<Hdf5Source>(path);
+  std::error_code failure;
+  const bool isFolder = std::filesystem::is_directory(path, failure);
+  if (!isFolder && beginningOfFile(path, kMat5Start.size()) == kMat5Start)
+    return std::make_unique<Mat5Source>(path);
   if (const std::string foreign = foreignFileText(path); !foreign.empty()) {
-    std::error_code failure;
-    if (std::filesystem::is_directory(path, failure)) throw FileError(path, foreign);
+    if (isFolder) throw FileError(path, foreign);
     throw FormatError(path, foreign);
   }
-  if (std::error_code failure; std::filesystem::is_directory(path, failure))
+  if (isFolder) {
+    const std::vector<std::filesystem::path> files = filesPerMatrix(path);
+    if (!files.empty()) return std::make_unique<PadFolderSource>(path, files, options);
     return std::make_unique<FolderSource>(path, options);
+  }
   constexpr std::string_view kNumpy = "\x93NUMPY";
   const std::string first = beginningOfFile(path, kNumpy.size());
   if (first.starts_with("PK\x03\x04") || first.starts_with("PK\x05\x06") ||

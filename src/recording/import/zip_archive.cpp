@@ -120,17 +120,6 @@ std::vector<ZipEntry> readZipDirectory(const RandomReader& file) {
   return entries;
 }
 
-struct ZipEntryReader::Inflater {
-  Inflater() {
-    if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
-  }
-  ~Inflater() { inflateEnd(&stream); }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
-  z_stream stream{};
-  std::array<std::byte, 1u << 16> packed{};
-};
-
 ZipEntryReader::ZipEntryReader(const RandomReader& file, ZipEntry entry)
     : file_(file), entry_(std::move(entry)) {
   constexpr std::size_t kLocalHeaderBytes = 30;
@@ -147,42 +136,20 @@ ZipEntryReader::ZipEntryReader(const RandomReader& file, ZipEntry entry)
     throw FormatError(file.path(), "is cut off: " + inQuotes(entry_.name) + " is incomplete");
   if (!entry_.deflated && entry_.packedSize != entry_.size)
     throw FormatError(file.path(), "is damaged: two sizes of " + inQuotes(entry_.name));
-  if (entry_.deflated) inflater_ = std::make_unique<Inflater>();
+  if (entry_.deflated)
+    inflated_ =
+        std::make_unique<InflatedBytes>(file, data_, entry_.packedSize, Deflate::kRaw, entry_.name);
 }
-
-ZipEntryReader::~ZipEntryReader() = default;
 
 void ZipEntryReader::read(std::span<std::byte> bytes) {
   const auto damaged = [this](const char* what) {
     return FormatError(file_.path(), "is damaged: " + inQuotes(entry_.name) + " " + what);
   };
   if (bytes.size() > entry_.size - position_) throw damaged("ends too early");
-  if (!inflater_) {
+  if (inflated_)
+    inflated_->read(bytes);
+  else
     file_.read(data_ + position_, bytes);
-  } else {
-    z_stream& stream = inflater_->stream;
-    stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-    std::size_t open = bytes.size();
-    while (open > 0) {
-      if (stream.avail_in == 0) {
-        const std::size_t count = static_cast<std::size_t>(
-            std::min<std::uint64_t>(inflater_->packed.size(), entry_.packedSize - taken_));
-        if (count == 0) throw damaged("ends too early");
-        file_.read(data_ + taken_, std::span(inflater_->packed).first(count));
-        taken_ += count;
-        stream.next_in = reinterpret_cast<Bytef*>(inflater_->packed.data());
-        stream.avail_in = static_cast<uInt>(count);
-      }
-      constexpr std::size_t kMostAtOnce = 1u << 30;
-      const auto room = static_cast<uInt>(std::min(open, kMostAtOnce));
-      stream.avail_out = room;
-      const int outcome = inflate(&stream, Z_NO_FLUSH);
-      open -= room - stream.avail_out;
-      if (outcome == Z_STREAM_END && open > 0) throw damaged("ends too early");
-      if (outcome != Z_OK && outcome != Z_STREAM_END && outcome != Z_BUF_ERROR)
-        throw damaged("can't be decompressed");
-    }
-  }
   position_ += bytes.size();
   if (!bytes.empty())
     crc_ = static_cast<std::uint32_t>(

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "recording/import/inflated_bytes.h"
 #include "recording/import/random_reader.h"
 
 namespace palpate {
@@ -28,27 +29,21 @@ std::vector<ZipEntry> readZipDirectory(const RandomReader& file);
 
 // Reads the content of one entry from its beginning to its end. At the end it compares the
 // checksum.
-class ZipEntryReader {
+class ZipEntryReader final : public SequentialReader {
  public:
   // `file` must outlive this object. Throws FormatError.
   ZipEntryReader(const RandomReader& file, ZipEntry entry);
-  ~ZipEntryReader();
-  ZipEntryReader(const ZipEntryReader&) = delete;
-  ZipEntryReader& operator=(const ZipEntryReader&) = delete;
-  // Fills `bytes` with the next ones. Throws FormatError: the content ends before, is damaged, or
-  // its checksum differs.
-  void read(std::span<std::byte> bytes);
+  // Throws FormatError: the content ends before, is damaged, or its checksum differs.
+  void read(std::span<std::byte> bytes) override;
   std::uint64_t position() const noexcept { return position_; }
 
  private:
-  struct Inflater;
   const RandomReader& file_;
   ZipEntry entry_;
-  std::uint64_t data_ = 0;   // where the content begins in the file
-  std::uint64_t taken_ = 0;  // packed bytes that have been read
+  std::uint64_t data_ = 0;  // where the content begins in the file
   std::uint64_t position_ = 0;
   std::uint32_t crc_ = 0;
-  std::unique_ptr<Inflater> inflater_;
+  std::unique_ptr<InflatedBytes> inflated_;  // null: stored
 };
 
 }  // namespace palpate

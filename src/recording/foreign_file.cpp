@@ -1,4 +1,4 @@
-#include "recording/import/foreign_file.h"
+#include "recording/foreign_file.h"
 
 #include <algorithm>
 #include <string_view>
@@ -13,6 +13,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
+constexpr const char* kSqliteBag =
+    "is a bag of ROS 2 in SQLite: convert it to MCAP (ros2 bag convert), then use palpate convert";
 constexpr const char* kIsRecording = "is a recording already: open or convert it";
 
 // What the first bytes of a file say.
@@ -20,12 +22,12 @@ struct KnownStart {
   std::string_view start;
   const char* text;
 };
-constexpr KnownStart kKnownStarts[] = {
+constexpr KnownStart kReadStarts[] = {
     {"BZh"sv, kIsRecording},
     {kHdf5RecordingStart, kIsRecording},
     {"\x89MCAP0\r\n"sv, "is an MCAP file: palpate convert makes a recording of it"},
-    {"MATLAB 5.0 MAT-file"sv,
-     "is a MAT file of version 5; save it in MATLAB with -v7.3, or as .npz"},
+};
+constexpr KnownStart kKnownStarts[] = {
     {"\xD0\xCF\x11\xE0"sv, "is an Excel workbook: save it as CSV"},
     {"PAR1"sv, "is a Parquet file: save it as CSV (pandas: read_parquet, to_csv)"},
     {"ARROW1"sv, "is a Feather file: save it as CSV (pandas: read_feather, to_csv)"},
@@ -62,39 +64,48 @@ bool isUtf16(std::string_view bytes) {
           bytes[0] + bytes[1] >= kFirstLetter && bytes[2] + bytes[3] >= kFirstLetter);
 }
 
-std::string folderText(const fs::path& folder) {
-  std::error_code failure;
-  for (const char* ending : {".mcap", ".db3"})
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure))
-      if (entry.path().extension() == ending)
-        return "is the folder of a bag of ROS 2: name its file " + entry.path().filename().string();
-  return {};
-}
-
 }  // namespace
 
-std::string foreignFileText(const fs::path& path) {
-  constexpr std::size_t kLookedAt = 512;
-  constexpr std::size_t kMaxNulRuns = 4;
-  constexpr std::size_t kSqliteIdAt = 68;  // of a native recording, see docs/palpate_format.md
+std::string bagFolderText(const fs::path& folder) {
   std::error_code failure;
-  if (fs::is_directory(path, failure)) return folderText(path);
+  bool isSqlite = false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+    if (entry.path().extension() == ".mcap")
+      return "is the folder of a bag of ROS 2: name its file " + entry.path().filename().string();
+    isSqlite = isSqlite || entry.path().extension() == ".db3";
+  }
+  return isSqlite ? kSqliteBag : "";
+}
+
+std::string foreignFormatText(const fs::path& path) {
+  constexpr std::size_t kLookedAt = 512;
+  constexpr std::size_t kSqliteIdAt = 68;  // of a native recording, see docs/palpate_format.md
   const std::string bytes = beginningOfFile(path, kLookedAt);
   const std::string_view first = bytes;
   for (const auto& [start, text] : kKnownStarts)
     if (first.starts_with(start)) return text;
-  if (first.starts_with("SQLite f")) {
-    const bool isBag = path.extension() == ".db3";
-    if (isBag && first.substr(std::min(kSqliteIdAt, first.size()), 4) != "PALP")
-      return "is a bag of ROS 2 in SQLite: convert it to MCAP (ros2 bag convert), then use palpate "
-             "convert";
-    return kIsRecording;
-  }
+  if (first.starts_with("SQLite f") && path.extension() == ".db3" &&
+      first.substr(std::min(kSqliteIdAt, first.size()), 4) != "PALP")
+    return kSqliteBag;
   if (first.starts_with("PK") && (first.find("[Content_Types].xml") != std::string_view::npos ||
                                   first.find("xl/") != std::string_view::npos))
     return "is an Excel workbook: save it as CSV";
   if (first.starts_with("PK") && first.find("opendocument") != std::string_view::npos)
     return "is a spreadsheet of OpenDocument: save it as CSV";
+  return {};
+}
+
+std::string foreignFileText(const fs::path& path) {
+  constexpr std::size_t kLookedAt = 512;
+  constexpr std::size_t kMaxNulRuns = 4;
+  std::error_code failure;
+  if (fs::is_directory(path, failure)) return bagFolderText(path);
+  if (const std::string known = foreignFormatText(path); !known.empty()) return known;
+  const std::string bytes = beginningOfFile(path, kLookedAt);
+  const std::string_view first = bytes;
+  for (const auto& [start, text] : kReadStarts)
+    if (first.starts_with(start)) return text;
+  if (first.starts_with("SQLite f")) return kIsRecording;
   if (first.starts_with("PK") || first.starts_with("\x93NUMPY")) return {};
   if (isUtf16(first)) return "is a text in UTF-16; save it as UTF-8";
   if (numNulRuns(first) > kMaxNulRuns)
