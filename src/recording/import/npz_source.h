@@ -17,6 +17,7 @@ class NpzSource final : public ArraySource {
  public:
   explicit NpzSource(const std::filesystem::path& path);
   std::string form() const override;
+  std::string rowNote() const override;
   void reverseAxes(std::size_t column) override;
 
  protected:
