@@ -1,5 +1,7 @@
 // The forms of texts that programs write: dates, times in several columns or in another file,
 // frames of several lines, lists.
+#include <map>
+
 #include "palpate/recording/recording_import.h"
 
 #include "recording/import_samples.h"
@@ -306,7 +308,7 @@ TEST(ImportForms, AFolderWithAFilePerFrame) {
   const ImportReport report =
       importRecording(folder / "session", pad(2, 2), mapping, folder / "o.palpate");
   EXPECT_EQ(report.frames, 3u) << report.refused.first;
-  EXPECT_EQ(report.refused.first, "file 4 (frame_11.csv) has 2 numbers instead of 4");
+  EXPECT_EQ(report.refused.first, "file 4 (frame_11.csv) has 2 numbers instead of 2 x 2");
   const Profile profile = openRecording(folder / "o.palpate");
   EXPECT_EQ(profile.frame(1).values, (std::vector<float>{5, 6, 7, 8}));
   EXPECT_EQ(profile.frame(2).values, (std::vector<float>{9, 1, 2, 3}));
@@ -502,6 +504,120 @@ TEST(ImportForms, AListThatIsWrappedInItsCellIsOne) {
     importText(folder, "time,data\n0.0,[0 1 2 ... 5 6 7]\n0.01,[0 1 2 ... 5 6 7]\n", pad(2, 3));
   });
   EXPECT_NE(left.find("NumPy left numbers out"), std::string::npos) << left;
+}
+
+// Imports a folder of files; a file without a word in it is not written.
+ImportReport importFolder(const TemporaryFolder& folder,
+                          const std::map<std::string, std::string>& files,
+                          const HandDescription& hand,
+                          const ImportMapping& mapping) {
+  fs::remove_all(folder / "frames");
+  fs::create_directory(folder / "frames");
+  for (const auto& [name, text] : files) testing::writeFile(folder / "frames" / name, text);
+  return importRecording(
+      folder / "frames", hand, mapping, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
+}
+
+TEST(ImportForms, FilesAreInTheOrderOfAllNumbersInTheirNames) {
+  const TemporaryFolder folder;
+  ImportMapping mapping;
+  mapping.time.rateHz = 100.0;
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{
+            "frame_0001_pad2.csv", "frame_0002_pad2.csv", "frame_0010_pad2.csv"},
+        {"pad_10-00-58.csv", "pad_10-00-59.csv", "pad_10-01-00.csv"},
+        {"t_0.95.csv", "t_1.00.csv", "t_1.5.csv"},
+        {"frame (9).csv", "frame (10).csv", "frame (11).csv"},
+        {"frame-7.csv", "frame-8.csv", "frame-10.csv"},
+        {"t_-3.csv", "t_-2.csv", "t_1.csv"},
+        {"9_pad.csv", "10_pad.csv", "11_pad.csv"}}) {
+    importFolder(folder,
+                 {{names[0], "1,2\n"}, {names[1], "3,4\n"}, {names[2], "5,6\n"}},
+                 pad(1, 2),
+                 mapping);
+    const Profile profile = openRecording(folder / "o.palpate");
+    ASSERT_EQ(profile.numFrames(), 3u) << names[0];
+    EXPECT_EQ(profile.frame(0).values, (std::vector<float>{1, 2})) << names[0];
+    EXPECT_EQ(profile.frame(1).values, (std::vector<float>{3, 4})) << names[0];
+    EXPECT_EQ(profile.frame(2).values, (std::vector<float>{5, 6})) << names[0];
+  }
+  // The number may be the time, with its decimals.
+  mapping.time = {};
+  mapping.time.column = "file";
+  mapping.time.unit = "s";
+  importFolder(folder, {{"t_0.95.csv", "1,2\n"}, {"t_1.50.csv", "3,4\n"}}, pad(1, 2), mapping);
+  const Profile timed = openRecording(folder / "o.palpate");
+  EXPECT_EQ(timed.frameTimeUs(1) - timed.frameTimeUs(0), 550'000);
+}
+
+TEST(ImportForms, FilesWhoseOrderCanNotBeToldAreRefused) {
+  const TemporaryFolder folder;
+  ImportMapping mapping;
+  mapping.time.rateHz = 100.0;
+  const auto refusal = [&](const std::vector<std::string>& names) {
+    std::map<std::string, std::string> files;
+    for (const std::string& name : names) files[name] = "1,2\n";
+    return testing::errorOf([&] { importFolder(folder, files, pad(1, 2), mapping); });
+  };
+  // Two names for each number, in the same or in different patterns; hexadecimal numbers.
+  EXPECT_NE(refusal({"f_1.csv", "f_01.csv", "f_2.csv"}).find("two files of the same number"),
+            std::string::npos);
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"a_1.csv", "a_2.csv", "b_1.csv", "b_2.csv"},
+        {"0008.csv", "0009.csv", "000a.csv", "000b.csv"}})
+    EXPECT_NE(refusal(names).find("can't be told"), std::string::npos) << refusal(names);
+  const ImportReport report =
+      importFolder(folder,
+                   {{"f1.csv", "1,2\n"}, {"f2.csv", "1,2\n"}, {"offset.csv", "9,9\n"}},
+                   pad(1, 2),
+                   mapping);
+  EXPECT_EQ(report.frames, 2u);
+  EXPECT_EQ(report.notes,
+            (std::vector<std::string>{"files that are not used: offset.csv", "not used: file"}));
+}
+
+TEST(ImportForms, FilesHaveRowsAndColumns) {
+  const TemporaryFolder folder;
+  ImportMapping mapping;
+  mapping.time.rateHz = 100.0;
+  const std::string tall = "1,4\n2,5\n3,6\n";
+  const ImportReport report =
+      importFolder(folder, {{"f1.csv", tall}, {"f2.csv", tall}}, pad(2, 3), mapping);
+  EXPECT_EQ(openRecording(folder / "o.palpate").frame(1).values,
+            (std::vector<float>{1, 2, 3, 4, 5, 6}));
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes[0].find("transposed"), std::string::npos) << report.notes[0];
+  // One of another shape is refused, as is a hand of another shape.
+  const ImportReport mixed =
+      importFolder(folder,
+                   {{"f1.csv", "1,2,3\n4,5,6\n"}, {"f2.csv", tall}, {"f3.csv", "1,2,3\n4,5,6\n"}},
+                   pad(2, 3),
+                   mapping);
+  EXPECT_EQ(mixed.frames, 2u);
+  EXPECT_EQ(mixed.refused.first, "file 2 (f2.csv) has 3 x 2 numbers instead of 2 x 3");
+  EXPECT_NE(testing::errorOf([&] {
+              importFolder(folder, {{"f1.csv", tall}, {"f2.csv", tall}}, pad(1, 6), mapping);
+            }).find("no columns fit"),
+            std::string::npos);
+}
+
+TEST(ImportForms, AFileThatIsMissingShiftsNoTime) {
+  const TemporaryFolder folder;
+  ImportMapping mapping;
+  mapping.time.rateHz = 20.0;
+  const ImportReport report =
+      importFolder(folder,
+                   {{"frame_4.csv", "1,2\n"}, {"frame_6.csv", "3,4\n"}, {"frame_7.csv", "5,6\n"}},
+                   pad(1, 2),
+                   mapping);
+  const Profile profile = openRecording(folder / "o.palpate");
+  ASSERT_EQ(profile.numFrames(), 3u);
+  EXPECT_EQ(profile.frameTimeUs(1), 100'000);
+  EXPECT_EQ(profile.frameTimeUs(2), 150'000);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes[0].find("1 number of files is missing, the first after frame_4.csv"),
+            std::string::npos)
+      << report.notes[0];
 }
 
 }  // namespace

@@ -178,7 +178,10 @@ TEST(ImportPlan, AColumnNamedAsAnAxisIsItsAngle) {
   ASSERT_EQ(plan.series.size(), 3u);
   EXPECT_EQ(plan.series[1].columns, (std::vector<std::size_t>{7, 1}));
   EXPECT_EQ(plan.series[2].columns, (std::vector<std::size_t>{2}));
-  EXPECT_EQ(plan.notes, std::vector<std::string>());
+  EXPECT_EQ(plan.notes,
+            (std::vector<std::string>{
+                "joint angles: the file gives no unit; the numbers are taken as deg",
+                "temperatures: the file gives no unit; the numbers are taken as degC"}));
   EXPECT_TRUE(hasNote(planOf("time_ms,p0,p1,p2,p3,opening", hand),
                       "\"opening\" is there, but 1 of the hand's 2 are not; not imported"));
 }
@@ -215,6 +218,162 @@ TEST(ImportPlan, FindsSeveralMatrices) {
   const Places swapped = {{4, 1}, {5, 2}, {6, 3}, {7, 4}, {0, 5}, {1, 6}, {2, 7}, {3, 8}};
   EXPECT_EQ(columnsByPlace("t,right0,right1,right2,right3,left0,left1,left2,left3", twoPads()),
             swapped);
+}
+
+// Which columns the series after the frames has, in its order.
+std::vector<std::size_t> columnsOfAngles(const std::string& header, const HandDescription& hand) {
+  const ImportPlan plan = planOf(header, hand);
+  for (const PlannedSeries& series : plan.series)
+    if (series.kind == PlannedSeries::Kind::kAngles) return series.columns;
+  return {};
+}
+
+HandDescription twins() {
+  HandDescription hand = twoPads();
+  hand.matrices[0].shortName = "L";
+  hand.matrices[1].shortName = "R";
+  return hand;
+}
+
+// S3. Words of a name, or the short name, decide whatever their case and what is around them.
+TEST(ImportPlan, AMatrixIsFoundByItsNameInThatOfTheColumns) {
+  const Places swapped = {{4, 1}, {5, 2}, {6, 3}, {7, 4}, {0, 5}, {1, 6}, {2, 7}, {3, 8}};
+  for (const char* header :
+       {"t,R0,R1,R2,R3,L0,L1,L2,L3",
+        "t,R_0_0,R_0_1,R_1_0,R_1_1,L_0_0,L_0_1,L_1_0,L_1_1",
+        "t,R_r0c0,R_r0c1,R_r1c0,R_r1c1,L_r0c0,L_r0c1,L_r1c0,L_r1c1",
+        "t,RIGHT_PAD_0,RIGHT_PAD_1,RIGHT_PAD_2,RIGHT_PAD_3,LEFT_PAD_0,LEFT_PAD_1,LEFT_PAD_2,"
+        "LEFT_PAD_3",
+        "t,/gripper/right/data[0],/gripper/right/data[1],/gripper/right/data[2],"
+        "/gripper/right/data[3],/gripper/left/data[0],/gripper/left/data[1],/gripper/left/data[2],"
+        "/gripper/left/data[3]",
+        "t,rightPad0,rightPad1,rightPad2,rightPad3,leftPad0,leftPad1,leftPad2,leftPad3",
+        "t,right_a,right_b,right_c,right_d,left_a,left_b,left_c,left_d",
+        "t,right_a,right_b,right_c,right_d,left0,left1,left2,left3"}) {
+    EXPECT_EQ(columnsByPlace(header, twins()), swapped) << header;
+    EXPECT_FALSE(hasNote(planOf(header, twins()), "order of the file")) << header;
+  }
+  const std::string guessed = "t,b0,b1,b2,b3,a0,a1,a2,a3";
+  EXPECT_TRUE(
+      hasNote(planOf(guessed, twins()), "taken in the order of the file: left = b0, right = a0"));
+  // One name is enough for two.
+  EXPECT_EQ(columnsByPlace("t,right0,right1,right2,right3,a0,a1,a2,a3", twins()), swapped);
+  const std::string two = testing::errorOf([] {
+    planOf(
+        "t,left_raw0,left_raw1,left_raw2,left_raw3,left_lp0,left_lp1,left_lp2,left_lp3,"
+        "right_raw0,right_raw1,right_raw2,right_raw3",
+        twins());
+  });
+  EXPECT_NE(two.find("both \"left_raw0\" and \"left_lp0\" could be left"), std::string::npos)
+      << two;
+  // Names with numbers in them.
+  HandDescription fingers = twoPads();
+  fingers.matrices[0].name = "finger 2 distal";
+  fingers.matrices[1].name = "finger 1 distal";
+  EXPECT_EQ(columnsByPlace("t,Finger1_distal_0,Finger1_distal_1,Finger1_distal_2,Finger1_distal_3,"
+                           "Finger2_distal_0,Finger2_distal_1,Finger2_distal_2,Finger2_distal_3",
+                           fingers),
+            swapped);
+}
+
+// Names count before numbers: one pad of two groups that fit.
+TEST(ImportPlan, TheNameOfThePadDecidesBetweenTwoGroups) {
+  EXPECT_EQ(columnsByPlace("t,ft0,ft1,ft2,ft3,left0,left1,left2,left3", pad(2, 2)),
+            (Places{{0, 5}, {1, 6}, {2, 7}, {3, 8}}));
+}
+
+// S7, B5.
+TEST(ImportPlan, OnlyPositionsAreAngles) {
+  HandDescription hand = handOf({MatrixLayout::full(2, 2, 1.0)}, 2);
+  hand.axes[0].name = "thumb base";
+  hand.axes[1].name = "thumb tip";
+  const std::string pads = "time_ms,p0,p1,p2,p3,";
+  using Columns = std::vector<std::size_t>;
+  EXPECT_EQ(columnsOfAngles(pads + "Thumb_Tip_deg,THUMB_BASE_deg", hand), (Columns{6, 5}));
+  EXPECT_EQ(columnsOfAngles(pads + "effort/thumb base,position/thumb base,velocity/thumb base,"
+                                   "effort/thumb tip,position/thumb tip,velocity/thumb tip",
+                            hand),
+            (Columns{6, 9}));
+  EXPECT_EQ(columnsOfAngles(pads + "joint1_target,joint1_actual,joint2_target,joint2_actual", hand),
+            (Columns{6, 8}));
+  EXPECT_EQ(
+      columnsOfAngles(pads + "joint0_effort,joint1_effort,joint0_position,joint1_position", hand),
+      (Columns{7, 8}));
+  EXPECT_EQ(columnsOfAngles(pads + "joint0_raw,joint1_raw,joint0_position,joint1_position", hand),
+            (Columns{7, 8}));
+  const std::string speeds = pads + "joint0_velocity,joint1_velocity";
+  EXPECT_EQ(columnsOfAngles(speeds, hand), Columns{});
+  EXPECT_TRUE(hasNote(planOf(speeds, hand), "joint0_velocity, joint1_velocity seem to be"));
+  EXPECT_EQ(columnsOfAngles(pads + "joint0 [rad/s],joint1 [rad/s]", hand), Columns{});
+  EXPECT_TRUE(hasNote(planOf(pads + "a,b", hand), "not used: a, b; --angles chooses"));
+  // Seven joints of an arm are not those of the hand.
+  hand.axes[0].name = "joint 0";
+  hand.axes[1].name = "joint 1";
+  EXPECT_EQ(columnsOfAngles(pads + "joint0,joint1,joint2,joint3,joint4,joint5,joint6", hand),
+            Columns{});
+}
+
+// B4.
+TEST(ImportPlan, ATemperatureIsFoundByTheNameOfItsSensor) {
+  HandDescription hand = handOf({MatrixLayout::full(2, 2, 1.0)}, 0, 2);
+  hand.temperatureSensors[0].name = "motor";
+  hand.temperatureSensors[1].name = "board";
+  for (const char* names : {"board temperature,motor temperature",
+                            "temp_board,temp_motor",
+                            "Board [degC],Motor [degF]"}) {
+    const ImportPlan plan = planOf("time_ms,p0,p1,p2,p3," + std::string(names), hand);
+    ASSERT_EQ(plan.series.size(), 2u) << names;
+    EXPECT_EQ(plan.series[1].columns, (std::vector<std::size_t>{6, 5})) << names;
+  }
+}
+
+// S6, S8.
+TEST(ImportPlan, EachColumnHasItsOwnUnit) {
+  HandDescription hand = pad(1, 3);
+  hand.unit = "N";
+  const ImportPlan plan = planOf("time_ms,p0 [N],p1 [mN],p2 [N]", hand);
+  const PlannedSeries& frames = plan.series.front();
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(frames.values[i].scale, frames.columns[i] == 2 ? 0.001 : 1.0) << i;
+  EXPECT_TRUE(hasNote(plan, "different units"));
+  EXPECT_TRUE(hasNote(planOf("time_ms,p0,p1,p2", hand),
+                      "left: the file gives no unit; the numbers are taken as N"));
+}
+
+// S11. pad(2, 3) has the places 0 1 2 / 3 4 5.
+TEST(ImportPlan, ALetterAndANumberArePlaces) {
+  const Places byColumn = {{0, 1}, {3, 2}, {1, 3}, {4, 4}, {2, 5}, {5, 6}};
+  EXPECT_EQ(columnsByPlace("t,A1,B1,A2,B2,A3,B3", pad(2, 3)), byColumn);
+  EXPECT_TRUE(hasNote(planOf("t,A1,B1,A2,B2,A3,B3", pad(2, 3)), "letters in the names"));
+  EXPECT_EQ(columnsByPlace("t,pad_C1,pad_B1,pad_A1,pad_A2,pad_B2,pad_C2", pad(2, 3)),
+            (Places{{2, 1}, {1, 2}, {0, 3}, {3, 4}, {4, 5}, {5, 6}}));
+  EXPECT_EQ(columnsByPlace("t,A1,B1,A2,B2", pad(2, 2)), kInOrder);
+}
+
+// S5. Names with letters can't mean a matrix and a number.
+TEST(ImportPlan, MatricesMayBeOneTableByTheirNames) {
+  const Places side = {{0, 1}, {1, 2}, {4, 3}, {5, 4}, {2, 5}, {3, 6}, {6, 7}, {7, 8}};
+  EXPECT_EQ(columnsByPlace("t,r0c0,r0c1,r0c2,r0c3,r1c0,r1c1,r1c2,r1c3", twoPads()), side);
+  const Places last = {{0, 1}, {4, 2}, {1, 3}, {5, 4}, {2, 5}, {6, 6}, {3, 7}, {7, 8}};
+  EXPECT_EQ(columnsByPlace("t,r0c0p0,r0c0p1,r0c1p0,r0c1p1,r1c0p0,r1c0p1,r1c1p0,r1c1p1", twoPads()),
+            last);
+}
+
+// B1.
+TEST(ImportPlan, AMappingMayNameTheMatrix) {
+  ImportMapping mapping;
+  mapping.matrices = {{std::nullopt, "Right=a*", {}, false}, {std::nullopt, "L=b*", {}, false}};
+  EXPECT_EQ(columnsByPlace("t,a0,a1,a2,a3,b0,b1,b2,b3", twins(), mapping),
+            (Places{{4, 1}, {5, 2}, {6, 3}, {7, 4}, {0, 5}, {1, 6}, {2, 7}, {3, 8}}));
+}
+
+// B11.
+TEST(ImportPlan, SaysWhichFormsAreReadWhereNoColumnsCanBeChosen) {
+  const std::string refusal = testing::errorOf([] { planOf("time,col,row,value", pad(2, 3)); });
+  EXPECT_NE(refusal.find("a line per taxel is read only as palpate convert writes it"),
+            std::string::npos)
+      << refusal;
+  EXPECT_EQ(refusal.find("--matrix"), std::string::npos) << refusal;
 }
 
 TEST(ImportPlan, MaskedPlacesMayBeLeftOut) {

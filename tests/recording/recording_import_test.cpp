@@ -548,6 +548,91 @@ with h5py.File(folder + 'a.mat', 'w', userblock_size=512) as f:
   EXPECT_FALSE(noted("a.npz", "pad", "first"));
 }
 
+// S5, B1, S8, S13. Of a hand with matrices of 2 x 3: left 1 to 6, right 7 to 12 in frame 0.
+TEST(RecordingImport, SeveralMatricesInArrays) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+pads = (1 + np.arange(96)).reshape(8, 2, 2, 3)
+time = np.arange(8) * 0.01
+def save(name, **arrays): np.savez(folder + name, time_s=time, **arrays)
+save('first.npz', pads=pads)
+save('last.npz', pads=np.moveaxis(pads, 1, 3))
+save('below.npz', pads=pads.reshape(8, 4, 3))
+save('flat.npz', pads=pads.reshape(8, 12))
+save('named.npz', tactile_right=pads[:, 1], tactile_left=pads[:, 0])
+save('turned.npz', Right=pads[:, 1].transpose(0, 2, 1), left=pads[:, 0])
+save('unknown.npz', b=pads[:, 0], a=pads[:, 1])
+save('side.npz', pads=np.concatenate([pads[:, 0], pads[:, 1]], axis=2))
+three = (1 + np.arange(8 * 18)).reshape(8, 3, 2, 3)
+save('side3.npz', pads=np.concatenate([three[:, 0], three[:, 1], three[:, 2]], axis=2))
+save('middle.npz', pads=np.zeros((2, 8, 3)))
+save('fingers.npz', palm=np.full((8, 2, 2), 3), index=np.full((8, 3, 2), 2), thumb=np.full((8, 2, 3), 1))
+with h5py.File(folder + 'groups.h5', 'w') as f:
+  f['a_right/taxels'] = pads[:, 1]; f['b_left/taxels'] = pads[:, 0]; f['time_s'] = time
+with h5py.File(folder + 'scaled.h5', 'w') as f:
+  f['pads'] = (pads * 2 - 10).astype('<i2'); f['time_s'] = time
+  f['pads'].attrs['scale_factor'] = 0.5; f['pads'].attrs['add_offset'] = 5.0
+with open(folder + 'twice.npy', 'wb') as f:
+  np.save(f, pads); np.save(f, pads)
+)");
+  const HandDescription twins =
+      handOf({MatrixLayout::full(2, 3, 1.0), MatrixLayout::full(2, 3, 1.0)});
+  const auto import = [&](const std::string& name, const HandDescription& hand) {
+    ImportMapping mapping;
+    if (name == "twice.npy") mapping.time.rateHz = 100.0;
+    return importRecording(
+        folder / name, hand, mapping, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
+  };
+  for (const auto& [name, words] : std::vector<std::pair<std::string, std::string>>{
+           {"first.npz", ""},
+           {"last.npz", "the last index of pads is taken for the matrix"},
+           {"below.npz", "one below the other in pads"},
+           {"flat.npz", ""},
+           {"named.npz", ""},
+           {"turned.npz", "transposed"},
+           {"unknown.npz", "taken in the order of the file: left = b, right = a"},
+           {"groups.h5", ""},
+           {"scaled.h5", "scale_factor"},
+           {"twice.npy", "bytes behind the array are not read"}}) {
+    const ImportReport report = import(name, twins);
+    const Profile profile = openRecording(folder / "o.palpate");
+    ASSERT_EQ(profile.numFrames(), 8u) << name;
+    for (std::size_t k = 0; k < 12; ++k) {
+      EXPECT_EQ(profile.frame(0).values[k], static_cast<float>(1 + k)) << name;
+      EXPECT_EQ(profile.frame(7).values[k], static_cast<float>(85 + k)) << name;
+    }
+    const std::string notes = Json(jsonList(report.notes)).text();
+    if (words.empty())
+      EXPECT_TRUE(report.notes.empty()) << name << ": " << notes;
+    else
+      EXPECT_NE(notes.find(words), std::string::npos) << name << ": " << notes;
+  }
+  // Matrix and number, or side by side.
+  const std::string either = testing::errorOf([&] { import("side.npz", twins); });
+  EXPECT_NE(either.find("one after the other, or side by side"), std::string::npos) << either;
+  const auto three = MatrixLayout::full(2, 3, 1.0);
+  const ImportReport side = import("side3.npz", handOf({three, three, three}));
+  const Profile sideBySide = openRecording(folder / "o.palpate");
+  for (std::size_t k = 0; k < 18; ++k)
+    EXPECT_EQ(sideBySide.frame(0).values[k], static_cast<float>(1 + k));
+  ASSERT_FALSE(side.notes.empty());
+  EXPECT_NE(side.notes[0].find("side by side"), std::string::npos) << side.notes[0];
+  const std::string middle = testing::errorOf([&] { import("middle.npz", twins); });
+  EXPECT_NE(middle.find("arrays are read as frames x rows x columns"), std::string::npos) << middle;
+  // Called as the matrices, one of them by a word that is often a counter.
+  HandDescription fingers = handOf({MatrixLayout::full(2, 3, 1.0),
+                                    MatrixLayout::full(3, 2, 1.0),
+                                    MatrixLayout::full(2, 2, 1.0)});
+  fingers.matrices[0].name = "thumb";
+  fingers.matrices[1].name = "index";
+  fingers.matrices[2].name = "palm";
+  import("fingers.npz", fingers);
+  const std::vector<float> values = openRecording(folder / "o.palpate").frame(0).values;
+  EXPECT_EQ(values, (std::vector<float>{1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 3, 3, 3, 3}));
+}
+
 TEST(RecordingImport, OtherArraysSayWhyTheyAreNotUsed) {
   const TemporaryFolder folder;
   testing::runPython(folder, R"(

@@ -34,11 +34,14 @@ struct TableColumn {
   std::vector<std::size_t> shape = {};        // of the numbers of one row; empty: one number
   std::optional<std::uint64_t> numRows = {};  // known of arrays, not of texts
   std::string type = {};                      // "int16", "float64", "text", "bool", ..
-  std::string example = {};                   // the first text of a column that has texts or dates
-  bool isNumeric = true;                      // false: texts and other things that can't be values
-  bool hasDates = false;                      // dates or times of day: can only be the time
-  DateForm dateForm = DateForm::kIso;         // of such a column
-  bool isDayOnly = false;                     // dates without a time of day
+  // value = number * scale + offset, as the file says (scale_factor, add_offset of netCDF).
+  double scale = 1.0;
+  double offset = 0.0;
+  std::string example = {};            // the first text of a column that has texts or dates
+  bool isNumeric = true;               // false: texts and other things that can't be values
+  bool hasDates = false;               // dates or times of day: can only be the time
+  DateForm dateForm = DateForm::kIso;  // of such a column
+  bool isDayOnly = false;              // dates without a time of day
 
   // Numbers of one row: the product of the shape.
   std::size_t width() const noexcept;
@@ -68,6 +71,7 @@ struct TableRow {
   // Whether the row has as many cells as the table has columns. If not, the rest is not valid.
   bool complete = true;
   std::size_t numCells = 0;       // in the row, when it is not complete
+  std::uint64_t skipped = 0;      // frames that are missing in the file before this row
   std::string fault;              // why it is not complete: " has 4 cells instead of 5"
   std::vector<double> values;     // of the selected columns, one after the other
   std::vector<CellState> states;  // one per value

@@ -340,7 +340,12 @@ std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
     for (std::size_t d = 0; d < columns[c].shape.size(); ++d) stem += "[#]";
     countElements(columns[c], numbers.size(), allNumbers);
     const auto [at, isNew] = byStem.try_emplace({stem, numbers.size()}, groups.size());
-    if (isNew) groups.push_back({stem, {}, {}});
+    if (isNew) {
+      ColumnGroup& group = groups.emplace_back();
+      group.stem = stem;
+      for (std::size_t n = 0; n < numbers.size() + columns[c].shape.size(); ++n)
+        group.letters += n < numbers.size() ? letterBefore(stem, n) : '\0';
+    }
     groups[at->second].columns.push_back(c);
     appendElements(columns, c, numbers, groups[at->second].elements);
   }
@@ -388,8 +393,9 @@ std::optional<std::vector<std::size_t>> placesOf(const ColumnGroup& group,
 std::optional<IndexOrder> orderByLetters(const ColumnGroup& group) {
   const std::vector<std::size_t> positions = varyingPositions(group);
   if (positions.size() < 2) return std::nullopt;
-  const char first = letterBefore(group.stem, positions[positions.size() - 2]);
-  const char second = letterBefore(group.stem, positions.back());
+  if (group.letters.size() <= positions.back()) return std::nullopt;
+  const char first = group.letters[positions[positions.size() - 2]];
+  const char second = group.letters[positions.back()];
   if (first == 'y' && second == 'x') return IndexOrder::kRowColumn;
   if (first == 'x' && second == 'y') return IndexOrder::kColumnRow;
   return std::nullopt;
@@ -397,16 +403,64 @@ std::optional<IndexOrder> orderByLetters(const ColumnGroup& group) {
 
 std::size_t numVaryingIndices(const ColumnGroup& group) { return varyingPositions(group).size(); }
 
-bool isStack(const ColumnGroup& group, const SensorLayout& layout) {
+std::optional<std::vector<std::size_t>> placesTiled(const ColumnGroup& group,
+                                                    const SensorLayout& layout,
+                                                    IndexOrder order,
+                                                    bool isSideBySide) {
   const std::vector<std::size_t> positions = varyingPositions(group);
-  if (positions.size() != 2 || group.elements.size() != layout.numCells()) return false;
-  std::int64_t width = 0;
-  for (const TableElement& each : group.elements)
-    width = std::max(width, each.indices[positions[1]] - baseAt(group, positions[1]) + 1);
-  return layout.numMatrices() > 1 &&
-         std::all_of(layout.matrices().begin(),
-                     layout.matrices().end(),
-                     [&](const MatrixLayout& matrix) { return matrix.columns == width; });
+  if (positions.size() != 2 || group.elements.size() != layout.numCells()) return std::nullopt;
+  const std::size_t row = positions[order == IndexOrder::kRowColumn ? 0 : 1];
+  const std::size_t column = positions[order == IndexOrder::kRowColumn ? 1 : 0];
+  const std::int64_t firstRow = baseAt(group, row);
+  const std::int64_t firstColumn = baseAt(group, column);
+  std::vector<std::size_t> places;
+  for (const TableElement& each : group.elements) {
+    const std::int64_t y = each.indices[row] - firstRow;
+    const std::int64_t x = each.indices[column] - firstColumn;
+    std::int64_t along = isSideBySide ? x : y;
+    std::size_t m = 0;
+    const auto sizeOf = [&](std::size_t matrix) {
+      return isSideBySide ? layout.matrix(matrix).columns : layout.matrix(matrix).rows;
+    };
+    while (m < layout.numMatrices() && along >= sizeOf(m)) along -= sizeOf(m++);
+    if (m == layout.numMatrices() || x < 0 || y < 0) return std::nullopt;
+    const MatrixLayout& target = layout.matrix(m);
+    const std::int64_t across = isSideBySide ? y : x;
+    if (across >= (isSideBySide ? target.rows : target.columns)) return std::nullopt;
+    places.push_back(layout.offset(m) +
+                     static_cast<std::size_t>(isSideBySide ? across * target.columns + along
+                                                           : along * target.columns + across));
+  }
+  if (!isComplete(places, layout, std::nullopt)) return std::nullopt;
+  return places;
+}
+
+ColumnGroup lastIndexFirst(ColumnGroup group) {
+  for (TableElement& each : group.elements)
+    std::rotate(each.indices.begin(), each.indices.end() - 1, each.indices.end());
+  std::rotate(group.letters.begin(), group.letters.end() - 1, group.letters.end());
+  return group;
+}
+
+std::optional<ColumnGroup> letterGroup(const std::vector<TableColumn>& columns,
+                                       const std::vector<std::size_t>& chosen) {
+  ColumnGroup group;
+  for (const std::size_t c : chosen) {
+    if (!columns[c].shape.empty()) return std::nullopt;
+    const std::string name = smallLetters(nameWithoutUnit(columns[c].name));
+    const auto digits = name.find_last_not_of("0123456789") + 1;  // of npos: 0
+    const auto number = parseInteger(std::string_view(name).substr(digits));
+    if (!number || digits == 0 || name[digits - 1] < 'a' || name[digits - 1] > 'z' ||
+        (digits > 1 && std::isalnum(static_cast<unsigned char>(name[digits - 2])) != 0))
+      return std::nullopt;
+    std::string stem = name.substr(0, digits - 1) + "?#";
+    if (!group.columns.empty() && stem != group.stem) return std::nullopt;
+    group.stem = std::move(stem);
+    group.columns.push_back(c);
+    group.elements.push_back({c, 0, {name[digits - 1] - 'a', *number}});
+  }
+  if (group.elements.empty() || varyingPositions(group).size() != 2) return std::nullopt;
+  return group;
 }
 
 std::optional<ChosenNumber> numberNamed(const std::vector<TableColumn>& columns,

@@ -24,6 +24,9 @@ struct ColumnGroup {
   std::string stem;  // "m#[#][#]"
   std::vector<std::size_t> columns;
   std::vector<TableElement> elements;
+  // For each index 'x' or 'y' where a word before it in the names says so (x, c, col, column; y, r,
+  // row), else 0.
+  std::string letters = {};
 };
 
 // What the two indices of a taxel within its matrix are.
@@ -43,14 +46,23 @@ std::optional<std::vector<std::size_t>> placesOf(const ColumnGroup& group,
                                                  std::optional<std::size_t> matrix,
                                                  IndexOrder order);
 
-// What letters say that stand before the last two indices in the names: x, c, col, column; y, r,
-// row. Nothing without them.
+// What the letters of the last two indices that differ say. Nothing without them.
 std::optional<IndexOrder> orderByLetters(const ColumnGroup& group);
 
 // How many of the indices differ within the group: 0 or 1 of numbers in a row.
 std::size_t numVaryingIndices(const ColumnGroup& group);
-// Whether the group is the rows of all matrices, one below the other.
-bool isStack(const ColumnGroup& group, const SensorLayout& layout);
+// For each element the place where all matrices form one table of rows and columns: one below the
+// other, or side by side; nothing when the group is none of all places.
+std::optional<std::vector<std::size_t>> placesTiled(const ColumnGroup& group,
+                                                    const SensorLayout& layout,
+                                                    IndexOrder order,
+                                                    bool isSideBySide);
+// The group with its last index before the others: where that one is the matrix.
+ColumnGroup lastIndexFirst(ColumnGroup group);
+// Columns of one name but for a letter and a number at its end, "A1" to "B3", as a group with the
+// indices letter (from 0) and number; nothing when that is not what they are called.
+std::optional<ColumnGroup> letterGroup(const std::vector<TableColumn>& columns,
+                                       const std::vector<std::size_t>& chosen);
 
 // The places of a matrix (or of all) in the order of `count` numbers without indices: all places or
 // those that have a taxel; nothing when the number fits neither.

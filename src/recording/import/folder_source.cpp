@@ -1,7 +1,10 @@
 #include "recording/import/folder_source.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <system_error>
 
 #include "palpate/core/error.h"
@@ -15,62 +18,188 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kEndings[] = {".csv", ".txt", ".npy"};
+constexpr std::size_t kShownFiles = 3;
 
-// At the end of the name of a file.
-std::optional<std::int64_t> numberInName(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const auto digits = stem.find_last_not_of("0123456789") + 1;  // of npos: 0
-  return parseInteger(std::string_view(stem).substr(digits));
+// "3 x 2", "6".
+std::string fileShapeText(const std::vector<std::size_t>& shape) {
+  std::string text;
+  for (const std::size_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
+  return text.empty() ? "1" : text;
+}
+
+bool isDigitAt(const std::string& text, std::size_t at) {
+  return at < text.size() && text[at] >= '0' && text[at] <= '9';
 }
 
 }  // namespace
 
+// The name of a file without its ending, with # in the places of its numbers: "t_0.95" and "t_-3"
+// are "t_#", "10-00-55" is "#-#-#".
+std::string FolderSource::patternOf(const std::string& stem, std::vector<NameNumber>& numbers) {
+  std::string pattern;
+  for (std::size_t at = 0; at < stem.size();) {
+    const bool isSign = stem[at] == '-' && isDigitAt(stem, at + 1) &&
+                        (at == 0 || stem[at - 1] == '_' || stem[at - 1] == ' ');
+    const std::size_t begin = at + (isSign ? 1 : 0);
+    std::size_t end = begin;
+    while (isDigitAt(stem, end)) ++end;
+    const auto whole = parseInteger(std::string_view(stem).substr(begin, end - begin));
+    if (!whole) {
+      pattern += stem[at++];
+      while (end > at && isDigitAt(stem, at)) pattern += stem[at++];  // too many digits
+      continue;
+    }
+    NameNumber number{*whole, 0.0};
+    std::size_t fractionEnd = end;
+    if (end < stem.size() && stem[end] == '.') {
+      ++fractionEnd;
+      while (isDigitAt(stem, fractionEnd)) ++fractionEnd;
+      const bool isDate = (begin > 0 && stem[begin - 1] == '.') ||
+                          (fractionEnd < stem.size() && stem[fractionEnd] == '.');
+      if (fractionEnd == end + 1 || isDate)
+        fractionEnd = end;
+      else
+        number.second = parseDouble("0" + stem.substr(end, fractionEnd - end)).value_or(0.0);
+    }
+    if (isSign)
+      number = number.second > 0.0 ? NameNumber{-number.first - 1, 1.0 - number.second}
+                                   : NameNumber{-number.first, 0.0};
+    numbers.push_back(number);
+    pattern += '#';
+    at = fractionEnd;
+  }
+  return pattern;
+}
+
+// The frames are the most files whose names differ by numbers only.
+void FolderSource::findFiles() {
+  std::map<std::string, std::vector<FrameFile>> byPattern;
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_, failure)) {
+    const std::string ending = entry.path().extension().string();
+    if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings)) continue;
+    FrameFile file{entry.path(), {}};
+    const std::string pattern = patternOf(entry.path().stem().string(), file.numbers);
+    byPattern[pattern + ending].push_back(std::move(file));
+  }
+  const auto best = std::max_element(
+      byPattern.begin(), byPattern.end(), [](const auto& first, const auto& second) {
+        return first.second.size() < second.second.size();
+      });
+  if (best == byPattern.end() || best->second.size() < 2 || best->second.front().numbers.empty())
+    throw FormatError(path_,
+                      "is a folder; name a file in it (the names of a .csv, .txt or .npy per frame "
+                      "have a number, those of one per matrix are those of the matrices)");
+  files_ = std::move(best->second);
+  std::sort(files_.begin(), files_.end());
+  std::vector<std::string> others;
+  for (const auto& [pattern, files] : byPattern)
+    for (const FrameFile& file : files)
+      if (pattern != best->first) others.push_back(file.path.filename().string());
+  std::sort(others.begin(), others.end());
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kShownFiles, others.size()); ++i)
+    names += (i > 0 ? ", " : "") + shortened(others[i]);
+  if (others.size() > kShownFiles)
+    names += " and " + std::to_string(others.size() - kShownFiles) + " more";
+  if (others.size() >= files_.size())
+    throw FormatError(path_,
+                      "is a folder with " + counted(files_.size(), "file") + " " +
+                          shortened(best->first) + " and " + counted(others.size(), "other") +
+                          " (" + names +
+                          "): which ones are the frames can't be told; leave only these in it");
+  if (!others.empty()) note_ = "files that are not used: " + names;
+  const auto same = std::adjacent_find(
+      files_.begin(), files_.end(), [](const FrameFile& first, const FrameFile& second) {
+        return first.numbers == second.numbers;
+      });
+  if (same != files_.end())
+    throw FormatError(
+        path_,
+        "has two files of the same number, " + shortened(same->path.filename().string()) + " and " +
+            shortened((same + 1)->path.filename().string()) + ": their order can't be told");
+}
+
+// Where one whole number counts the files, numbers that are missing are frames that are missing.
+void FolderSource::findHoles() {
+  const std::vector<NameNumber>& first = files_.front().numbers;
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    const bool differs = std::any_of(files_.begin(), files_.end(), [&](const FrameFile& file) {
+      return file.numbers[n] != first[n];
+    });
+    if (differs && varying_) {
+      varying_.reset();
+      return;
+    }
+    if (differs) varying_ = n;
+  }
+  if (!varying_) return;
+  const auto numberOf = [&](std::size_t i) { return files_[i].numbers[*varying_]; };
+  std::uint64_t step = UINT64_MAX;
+  for (std::size_t i = 1; i < files_.size(); ++i)
+    step = std::min(step,
+                    static_cast<std::uint64_t>(numberOf(i).first) -
+                        static_cast<std::uint64_t>(numberOf(i - 1).first));
+  std::vector<std::uint64_t> skipped(files_.size(), 0);
+  std::uint64_t all = 0;
+  std::string where;
+  for (std::size_t i = 1; i < files_.size(); ++i) {
+    const std::uint64_t distance = static_cast<std::uint64_t>(numberOf(i).first) -
+                                   static_cast<std::uint64_t>(numberOf(i - 1).first);
+    if (step == 0 || distance % step != 0 || numberOf(i).second != numberOf(0).second) return;
+    skipped[i] = distance / step - 1;
+    all += skipped[i];
+    if (all >= files_.size()) return;  // times, not a count
+    if (skipped[i] > 0 && where.empty()) where = files_[i - 1].path.filename().string();
+  }
+  for (std::size_t i = 0; i < files_.size(); ++i) files_[i].skipped = skipped[i];
+  if (all == 0) return;
+  note_ += (note_.empty() ? "" : "; ") + counted(all, "number") + " of files " +
+           (all == 1 ? "is" : "are") + " missing, the first after " + shortened(where) +
+           ": with a rate, the times go on as if " + (all == 1 ? "it was" : "they were") + " there";
+}
+
 FolderSource::FolderSource(const fs::path& path, const TableOptions& options)
     : path_(path), options_(options) {
   options_.header = HeaderChoice::kAbsent;
-  std::error_code failure;
-  for (const char* ending : kEndings) {
-    files_.clear();
-    for (const fs::directory_entry& entry : fs::directory_iterator(path, failure)) {
-      const auto number = numberInName(entry.path());
-      if (number && entry.path().extension() == ending) files_.push_back({entry.path(), *number});
-    }
-    if (files_.size() > 1) break;
-  }
-  if (files_.size() < 2)
-    throw FormatError(
-        path,
-        "is a folder; name a file in it (the names of a .csv, .txt or .npy per frame end in a "
-        "number, those of one per matrix are those of the matrices)");
-  std::sort(files_.begin(), files_.end());
+  findFiles();
+  findHoles();
   columns_.push_back({.name = "file", .type = "number"});
-  const std::size_t count = numbersOf(files_.front().path).size();
-  for (std::size_t i = 0; i < count; ++i)
-    columns_.push_back({.name = "number " + std::to_string(i + 1), .type = "number"});
+  columns_.push_back(
+      {.name = "numbers", .shape = numbersOf(files_.front().path).shape, .type = "number"});
 }
 
 std::string FolderSource::form() const {
   return "folder of " + counted(files_.size(), "file") + ", one per frame";
 }
 
-// All numbers of a file; NaN where there is none.
-std::vector<double> FolderSource::numbersOf(const fs::path& file) const {
+FolderSource::FileNumbers FolderSource::numbersOf(const fs::path& file) const {
   const auto source = openTable(file, options_);
   std::vector<std::size_t> all;
   for (std::size_t c = 0; c < source->columns().size(); ++c) all.push_back(c);
   source->start(all, std::nullopt);
-  std::vector<double> numbers;
+  FileNumbers numbers;
+  std::size_t numRows = 0;
   TableRow row;
   while (source->next(row)) {
+    ++numRows;
     if (!row.complete)
       throw FormatError(file, source->rowWord() + (" " + std::to_string(row.line)) + row.fault);
     for (std::size_t i = 0; i < row.values.size(); ++i)
-      numbers.push_back(row.states[i] == CellState::kNumber
-                            ? row.values[i]
-                            : std::numeric_limits<double>::quiet_NaN());
-    if (numbers.size() > kMaxNumbersPerRow)
+      numbers.values.push_back(row.states[i] == CellState::kNumber
+                                   ? row.values[i]
+                                   : std::numeric_limits<double>::quiet_NaN());
+    if (numbers.values.size() > kMaxNumbersPerRow)
       throw FormatError(file, "has more than " + std::to_string(kMaxNumbersPerRow) + " numbers");
   }
+  numbers.shape = {numRows};
+  if (all.size() == 1) {
+    const auto& shape = source->columns().front().shape;
+    numbers.shape.insert(numbers.shape.end(), shape.begin(), shape.end());
+  } else {
+    numbers.shape.push_back(numRows == 0 ? 0 : numbers.values.size() / numRows);
+  }
+  std::erase(numbers.shape, 1u);
   return numbers;
 }
 
@@ -78,36 +207,47 @@ void FolderSource::start(std::span<const std::size_t> columns, std::optional<std
   selected_.assign(columns.begin(), columns.end());
   time_ = time;
   next_ = 0;
+  if (time_ == 0u && !varying_)
+    throw FormatError(
+        path_,
+        "has names with several numbers that differ, which are no time; give the rate "
+        "of the files (--rate)");
 }
 
 bool FolderSource::next(TableRow& row) {
   if (next_ == files_.size()) return false;
   const FrameFile& file = files_[next_++];
   row.line = next_;
+  row.skipped = file.skipped;
   row.complete = false;
+  FileNumbers numbers;
   try {
-    numbers_ = numbersOf(file.path);
-    row.numCells = numbers_.size();
-    row.complete = numbers_.size() + 1 == columns_.size();
+    numbers = numbersOf(file.path);
+    row.numCells = numbers.values.size();
+    row.complete = numbers.shape == columns_[1].shape;
     row.fault = " (" + shortened(file.path.filename().string()) + ") has " +
-                counted(numbers_.size(), "number") + " instead of " +
-                std::to_string(columns_.size() - 1);
+                fileShapeText(numbers.shape) + (row.numCells == 1 ? " number" : " numbers") +
+                " instead of " + fileShapeText(columns_[1].shape);
   } catch (const FormatError& error) {
     row.fault = std::string(": ") + error.what();
   }
   if (!row.complete) return true;
-  numbers_.insert(numbers_.begin(), static_cast<double>(file.number));
-  row.values.clear();
+  const NameNumber number = file.numbers[varying_.value_or(0)];
+  lastValues_.clear();
+  for (const std::size_t column : selected_)
+    if (column == 0)
+      lastValues_.push_back(static_cast<double>(number.first) + number.second);
+    else
+      lastValues_.insert(lastValues_.end(), numbers.values.begin(), numbers.values.end());
+  row.values = lastValues_;
   row.states.clear();
-  for (const std::size_t column : selected_) {
-    row.values.push_back(numbers_[column]);
-    row.states.push_back(fitsFloat(numbers_[column]) || column == 0 ? CellState::kNumber
-                                                                    : CellState::kNotFinite);
-  }
+  for (const double value : lastValues_)
+    row.states.push_back(fitsFloat(value) ? CellState::kNumber : CellState::kNotFinite);
   row.time = {};
-  if (time_ == 0) {
-    timeText_ = std::to_string(file.number);
-    row.time = {.state = CellState::kText, .text = timeText_, .whole = file.number};
+  if (time_ == 0u) {
+    row.time = {.state = CellState::kNumber,
+                .number = static_cast<double>(number.first) + number.second};
+    if (number.second == 0.0) row.time.whole = number.first;
   }
   return true;
 }
@@ -117,11 +257,18 @@ double FolderSource::fraction() const noexcept {
 }
 
 std::string FolderSource::textOf(std::size_t index) const {
-  return numberText(numbers_.at(selected_.at(index)));
+  return numberText(lastValues_.at(index));
 }
 
+// The values of the array are numbered as in the file, from 1.
 std::string FolderSource::placeOf(std::size_t index) const {
-  return columns_.at(selected_.at(index)).name + ": " + textOf(index);
+  std::size_t within = index;
+  for (const std::size_t column : selected_) {
+    if (within < columns_[column].width())
+      return (column == 0 ? "file" : "number " + std::to_string(within + 1)) + ": " + textOf(index);
+    within -= columns_[column].width();
+  }
+  return "a value";
 }
 
 std::vector<fs::path> filesPerMatrix(const fs::path& folder) {
@@ -132,7 +279,8 @@ std::vector<fs::path> filesPerMatrix(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
       if (entry.path().extension() != ending) continue;
       files.push_back(entry.path());
-      numNumbered += numberInName(entry.path()) ? 1 : 0;
+      const std::string stem = entry.path().stem().string();
+      numNumbered += isDigitAt(stem, stem.size() - 1) ? 1 : 0;
     }
     if (files.size() < 2) continue;
     std::sort(files.begin(), files.end());

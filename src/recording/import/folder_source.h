@@ -1,10 +1,11 @@
 // A folder with a file per frame: texts or NumPy arrays, in the order of the numbers in their
-// names. A row is all numbers of a file, row by row.
+// names. A row is all numbers of a file, an array with the rows and columns of the file.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "palpate/recording/table_source.h"
@@ -13,12 +14,14 @@ namespace palpate {
 
 class FolderSource final : public TableSource {
  public:
-  // Throws FileError, FormatError: fewer than two files of one ending (.csv, .txt, .npy).
+  // Throws FileError, FormatError: fewer than two files of one name but for numbers (.csv, .txt,
+  // .npy), as many of two names, or two with the same numbers.
   FolderSource(const std::filesystem::path& path, const TableOptions& options);
 
   const std::filesystem::path& path() const noexcept override { return path_; }
   const std::vector<TableColumn>& columns() const noexcept override { return columns_; }
   std::string form() const override;
+  std::string rowNote() const override { return note_; }
   const char* rowWord() const noexcept override { return "file"; }
   void start(std::span<const std::size_t> columns, std::optional<std::size_t> time) override;
   bool next(TableRow& row) override;
@@ -27,22 +30,33 @@ class FolderSource final : public TableSource {
   std::string placeOf(std::size_t index) const override;
 
  private:
+  // A number in a name: its whole part, and what is above that (below 1).
+  using NameNumber = std::pair<std::int64_t, double>;
   struct FrameFile {
     std::filesystem::path path;
-    std::int64_t number = 0;  // in its name
-    bool operator<(const FrameFile& other) const { return number < other.number; }
+    std::vector<NameNumber> numbers;
+    std::uint64_t skipped = 0;  // numbers that are missing before it
+    bool operator<(const FrameFile& other) const { return numbers < other.numbers; }
   };
-  std::vector<double> numbersOf(const std::filesystem::path& file) const;
+  struct FileNumbers {
+    std::vector<std::size_t> shape;
+    std::vector<double> values;  // NaN where there is none
+  };
+  static std::string patternOf(const std::string& stem, std::vector<NameNumber>& numbers);
+  void findFiles();
+  void findHoles();
+  FileNumbers numbersOf(const std::filesystem::path& file) const;
 
   std::filesystem::path path_;
   TableOptions options_;
   std::vector<FrameFile> files_;
+  std::optional<std::size_t> varying_;  // which number differs, if only one does
+  std::string note_;
   std::vector<TableColumn> columns_;  // the number in the name, then those of the file
   std::vector<std::size_t> selected_;
   std::optional<std::size_t> time_;
   std::size_t next_ = 0;
-  std::vector<double> numbers_;  // of the last file
-  std::string timeText_;
+  std::vector<double> lastValues_;
 };
 
 // The files of a folder with a file per matrix, whose names don't end in a number as those of

@@ -55,6 +55,12 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
       if (column.unit.empty())
         column.unit = file_->textAttribute(name, key, kMostUnitBytes).value_or("");
     if (column.unit.empty()) column.unit = unitInName(name);
+    if (column.isNumeric) {
+      column.scale = file_->numberAttribute(name, "scale_factor").value_or(1.0);
+      column.offset = file_->numberAttribute(name, "add_offset").value_or(0.0);
+      if (!std::isfinite(column.scale) || column.scale == 0.0 || !std::isfinite(column.offset))
+        throw FormatError(path, inQuotes(name) + " has a scale_factor or add_offset that is none");
+    }
     facts_.push_back(std::move(facts));
     columns_.push_back(std::move(column));
   }

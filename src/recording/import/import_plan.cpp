@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -14,6 +15,8 @@
 #include "recording/import/column_choice.h"
 #include "recording/import/column_unit.h"
 #include "recording/import/column_words.h"
+#include "recording/import/matrix_reading.h"
+#include "recording/import/sample_choice.h"
 #include "recording/import/time_choice.h"
 
 namespace palpate {
@@ -21,10 +24,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Kind = PlannedSeries::Kind;
-
-// Columns that count rows or say which taxels are active.
-const std::set<std::string> kOtherWords = {
-    "active", "mask", "index", "frame", "sample", "seq", "sequence", "counter"};
 
 std::vector<std::string> namesOf(const HandDescription& hand, Kind kind) {
   std::vector<std::string> names;
@@ -57,7 +56,9 @@ std::string whyNoNumbers(const TableColumn& column) {
 class Planner {
  public:
   Planner(TableSource& source, const HandDescription& hand, const ImportMapping& mapping)
-      : source_(source), columns_(source.columns()), hand_(hand), mapping_(mapping) {}
+      : source_(source), columns_(source.columns()), hand_(hand), mapping_(mapping) {
+    nameMatrices();
+  }
 
   ImportPlan plan();
   // The series of a table that holds nothing else: of the files beside a list of taxels.
@@ -73,7 +74,8 @@ class Planner {
   }
   // Without its time.
   std::optional<PlannedSeries> samples(Kind kind);
-  std::vector<TableElement> foundSamples(Kind kind, std::size_t count);
+  void nameMatrices();
+  std::optional<MatrixReading> wholeHand(const ColumnGroup& group, bool isOpposite) const;
   IndexOrder naturalOrder(const ColumnGroup& group) const;
   IndexOrder orderOf(const ColumnGroup& group, bool isOpposite) const;
   void noteOrder(const std::string& what,
@@ -83,15 +85,18 @@ class Planner {
   void take(PlannedSeries& series,
             const std::string& what,
             const std::vector<TableElement>& elements,
-            const std::vector<std::size_t>& places);
+            const std::vector<std::size_t>& places,
+            const ValueMapping& values = {});
   void takeGroup(PlannedSeries& series,
                  const std::string& what,
                  const ColumnGroup& group,
                  std::optional<std::size_t> matrix,
                  bool isOpposite);
   bool takeWhole(PlannedSeries& series, const std::vector<ColumnGroup>& groups, bool isOpposite);
+  bool takeNamedParts(PlannedSeries& series);
+  bool takeLetters(PlannedSeries& series, const std::vector<ColumnGroup>& groups);
   bool takeParts(PlannedSeries& series, const std::vector<ColumnGroup>& groups, bool isOpposite);
-  void takeNamedParts(PlannedSeries& series);
+  void takeEachByName(PlannedSeries& series);
   bool takeColumnsInOrder(PlannedSeries& series, const std::vector<ColumnGroup>& groups);
   bool takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group);
   void joinFrameLines(PlannedSeries& series);
@@ -102,10 +107,13 @@ class Planner {
   std::optional<std::vector<std::size_t>> placesByShape(const MatrixMapping& wanted,
                                                         const ChosenElements& chosen,
                                                         const std::string& what);
-  std::vector<TableElement> samplesNamedAsIn(const std::vector<std::string>& names,
-                                             const char* what);
   std::string allName() const;
   std::string unusableText() const;
+  std::string formsText() const;
+  void note(const std::string& text) {
+    if (std::find(plan_.notes.begin(), plan_.notes.end(), text) == plan_.notes.end())
+      plan_.notes.push_back(text);
+  }
   PlannedValue conversion(const ValueMapping& values,
                           const TableColumn& column,
                           const std::string& handUnit,
@@ -141,6 +149,17 @@ PlannedValue Planner::conversion(const ValueMapping& values,
   const bool given = !values.unit.empty();
   unitUsed_ = given ? values.unit : scaled ? handUnit : column.unit;
   PlannedValue value{std::nullopt, values.scale, values.offset};
+  if (!scaled && (column.scale != 1.0 || column.offset != 0.0)) {
+    value.scale = column.scale;
+    value.offset = column.offset;
+    note(what + ": " + shortened(column.name) +
+         " is scaled as its scale_factor and add_offset say");
+  }
+  const bool isOurs = std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& each) {
+    return each.name == "meta" && !each.isNumeric;  // palpate convert's values are the hand's
+  });
+  if (unitUsed_.empty() && !handUnit.empty() && handUnit != "counts" && !isOurs)
+    note(what + ": the file gives no unit; the numbers are taken as " + handUnit);
   if (unitUsed_.empty() || handUnit.empty()) return value;
   if (const auto known = conversionBetween(unitUsed_, handUnit)) {
     value.scale *= known->scale;
@@ -150,8 +169,8 @@ PlannedValue Planner::conversion(const ValueMapping& values,
   if (given)
     refuse(what + ": the unit " + inQuotes(values.unit) + " can't be converted to the hand's " +
            handUnit + "; give the scale and leave out the unit");
-  plan_.notes.push_back(what + ": the file says " + inQuotes(unitUsed_) + ", the hand says " +
-                        handUnit + "; the numbers are taken as they are");
+  note(what + ": the file says " + inQuotes(unitUsed_) + ", the hand says " + handUnit +
+       "; the numbers are taken as they are");
   return value;
 }
 
@@ -205,59 +224,15 @@ std::vector<std::size_t> Planner::candidates() const {
         times_.isPart(c) || sampleColumns_.contains(c))
       continue;
     if (column.width() > kMaxNumbersPerRow) continue;  // images of a camera
+    // A matrix may be called "index", of the finger.
+    const bool isCounter = hasWord(column, kCounterWords) &&
+                           (isScalar(column) || !namedIn(column.name, matrixKeys(hand_)));
     if (timeScore(column, Kind::kFrames) > 0 || timeScore(column, Kind::kAngles) > 0 ||
-        timeScore(column, Kind::kTemperatures) > 0 || hasWord(column, kOtherWords))
+        timeScore(column, Kind::kTemperatures) > 0 || isCounter)
       continue;
     chosen.push_back(c);
   }
   return chosen;
-}
-
-// The elements of the angles or temperatures, by the names of the columns.
-std::vector<TableElement> Planner::foundSamples(Kind kind, std::size_t count) {
-  const auto& words = kind == Kind::kAngles ? kAngleWords : kTemperatureWords;
-  std::vector<std::size_t> named;
-  for (std::size_t c = 0; c < columns_.size(); ++c)
-    if (columns_[c].isNumeric && columns_[c].type != "bool" && hasWord(columns_[c], words) &&
-        timeScore(columns_[c], kind) == 0 && !hasWord(columns_[c], kOtherWords))
-      named.push_back(c);
-  const char* what = kind == Kind::kAngles ? "joint angles" : "temperatures";
-  auto elements = samplesNamedAsIn(namesOf(hand_, kind), what);
-  if (!elements.empty()) return elements;
-  for (ColumnGroup& group : groupColumns(columns_, named)) {
-    if (group.elements.size() == count) {
-      // By their last number, in ascending order: PlotJuggler sorts joint10 before joint2.
-      std::stable_sort(
-          group.elements.begin(),
-          group.elements.end(),
-          [](const TableElement& a, const TableElement& b) { return a.indices < b.indices; });
-      return group.elements;
-    }
-    plan_.notes.push_back(std::string(what) + ": " + group.stem + " is " +
-                          counted(group.elements.size(), "number") + ", but the hand has " +
-                          std::to_string(count) + "; not imported");
-  }
-  return {};
-}
-
-// Columns with exactly the names of the hand's axes, or of its temperature sensors.
-std::vector<TableElement> Planner::samplesNamedAsIn(const std::vector<std::string>& names,
-                                                    const char* what) {
-  std::vector<TableElement> elements;
-  std::string found;
-  for (const std::string& name : names)
-    for (std::size_t c = 0; c < columns_.size(); ++c)
-      if (columns_[c].isNumeric && isScalar(columns_[c]) &&
-          (columns_[c].name == name || nameWithoutUnit(columns_[c].name) == name)) {
-        elements.push_back({c, 0, {}});
-        found = inQuotes(name);
-        break;
-      }
-  if (elements.size() == names.size() || elements.empty()) return elements;
-  plan_.notes.push_back(std::string(what) + ": " + found + " is there, but " +
-                        std::to_string(names.size() - elements.size()) + " of the hand's " +
-                        std::to_string(names.size()) + " are not; not imported");
-  return {};
 }
 
 std::optional<PlannedSeries> Planner::samples(Kind kind) {
@@ -272,7 +247,7 @@ std::optional<PlannedSeries> Planner::samples(Kind kind) {
   }
   std::vector<TableElement> elements;
   if (wanted.columns.empty()) {
-    elements = foundSamples(kind, count);
+    elements = findSamples(columns_, kind, namesOf(hand_, kind), plan_.notes, sampleColumns_);
     if (elements.empty()) return std::nullopt;
   } else {
     elements = chooseElements(columns_, wanted.columns).elements;
@@ -306,9 +281,17 @@ std::optional<std::vector<std::size_t>> Planner::placesByShape(const MatrixMappi
       chosen.elements.size() != columns_[column].width() || chosen.elements.back().column != column)
     return std::nullopt;
   const ColumnGroup group = groupColumns(columns_, {column}).front();
-  if (numVaryingIndices(group) < 2 || (!wanted.matrix && isStack(group, layout)))
-    return std::nullopt;
-  for (const IndexOrder order : {naturalOrder(group), opposite(naturalOrder(group))}) {
+  if (numVaryingIndices(group) < 2) return std::nullopt;
+  for (const bool isOpposite : {false, true}) {
+    if (!wanted.matrix) {
+      const auto whole = wholeHand(group, isOpposite);
+      if (!whole) continue;
+      if (!whole->note.empty())
+        note(whole->note + (isOpposite ? ", with rows and columns exchanged" : ""));
+      if (whole->note.empty()) noteOrder(what, group, {}, orderOf(group, isOpposite));
+      return whole->places;
+    }
+    const IndexOrder order = orderOf(group, isOpposite);
     const auto places = placesOf(group, layout, wanted.matrix, order);
     if (!places) continue;
     noteOrder(what, group, wanted.matrix, order);
@@ -317,6 +300,20 @@ std::optional<std::vector<std::size_t>> Planner::placesByShape(const MatrixMappi
   if (!placesInOrder(chosen.elements.size(), layout, wanted.matrix, false)) return std::nullopt;
   refuse(namesText({columns_[column]}) + " has as many numbers as " + what +
          ", but other rows and columns; save it as frames x rows x columns, or as frames x taxels");
+}
+
+// "thumb=COLUMNS" of a mapping is of the matrix of that name.
+void Planner::nameMatrices() {
+  for (MatrixMapping& wanted : mapping_.matrices) {
+    const auto equals = wanted.columns.find('=');
+    if (wanted.matrix || equals == std::string::npos || numberNamed(columns_, wanted.columns))
+      continue;
+    const NameKeys keys = matrixKeys(hand_);
+    const auto named = keys.find(nameKey(wanted.columns.substr(0, equals)));
+    if (named == keys.end()) continue;
+    wanted.matrix = named->second;
+    wanted.columns.erase(0, equals + 1);
+  }
 }
 
 PlannedSeries Planner::mappedFrames() {
@@ -346,10 +343,7 @@ PlannedSeries Planner::mappedFrames() {
                               : shapeText(*hand_.layout)));
       places = *order;
     }
-    const PlannedValue value =
-        conversion(wanted.values, columns_[chosen.elements.front().column], hand_.unit, what);
-    append(series, chosen.elements, places, value);
-    series.description.push_back(describe(what, chosen.elements, value, unitUsed_));
+    take(series, what, chosen.elements, places, wanted.values);
     for (std::size_t m = 0; m < hand_.layout->numMatrices(); ++m)
       for (const std::size_t place : places)
         if (place >= hand_.layout->offset(m) &&
@@ -385,34 +379,54 @@ void Planner::noteOrder(const std::string& what,
   const auto places = placesOf(group, layout, matrix, order);
   const auto others = placesOf(group, layout, matrix, opposite(order));
   const auto letters = orderByLetters(group);
-  const auto note = [&](const char* text) {
-    const std::string name = inQuotes(columns_[group.columns.front()].name);
-    plan_.notes.push_back(what + ": " + name + text);
+  const auto say = [&](const char* text) {
+    note(what + ": " + inQuotes(columns_[group.columns.front()].name) + text);
   };
   if (isArray && others == places && group.elements.size() > 1 && source_.isColumnMajor())
-    note(
-        " is taken row by row; where MATLAB's (:) made it, use a mapping with \"order\": "
+    say(" is taken row by row; where MATLAB's (:) made it, use a mapping with \"order\": "
         "\"columns\"");
   if (others == places || letters == order) return;
   if (letters)
-    note(": rows and columns are exchanged: the names fit the hand only so");
+    say(": rows and columns are exchanged: the names fit the hand only so");
   else if (isArray && order == (isReversed_ ? IndexOrder::kRowColumn : IndexOrder::kColumnRow))
-    note(" has columns x rows in the file and is transposed");
+    say(" has columns x rows in the file and is transposed");
   else if (!isArray && order == IndexOrder::kColumnRow)
-    note(": the names count columns, then rows: transposed");
+    say(": the names count columns, then rows: transposed");
   else if (!isArray && others)
-    note(
-        ": the numbers in the names are taken for row and column, in this order; choose another "
+    say(": the numbers in the names are taken for row and column, in this order; choose another "
         "one by --matrix 'NAME{x}_{y}'");
 }
 
+// Each column by its own unit.
 void Planner::take(PlannedSeries& series,
                    const std::string& what,
                    const std::vector<TableElement>& elements,
-                   const std::vector<std::size_t>& places) {
-  const PlannedValue value = conversion({}, columns_[elements.front().column], hand_.unit, what);
-  append(series, elements, places, value);
-  series.description.push_back(describe(what, elements, value, unitUsed_));
+                   const std::vector<std::size_t>& places,
+                   const ValueMapping& values) {
+  struct Part {
+    std::vector<TableElement> elements;
+    std::vector<std::size_t> places;
+  };
+  const bool isGiven = values.scale != 1.0 || values.offset != 0.0 || !values.unit.empty();
+  std::map<std::tuple<std::string, double, double>, Part> byUnit;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const TableColumn& column = columns_[elements[e].column];
+    Part& part = isGiven ? byUnit[{}] : byUnit[{column.unit, column.scale, column.offset}];
+    part.elements.push_back(elements[e]);
+    part.places.push_back(places[e]);
+  }
+  std::string units;
+  for (const auto& [unit, part] : byUnit) {
+    const PlannedValue value =
+        conversion(values, columns_[part.elements.front().column], hand_.unit, what);
+    append(series, part.elements, part.places, value);
+    series.description.push_back(
+        describe(what, byUnit.size() == 1 ? elements : part.elements, value, unitUsed_));
+    units += (units.empty() ? "" : ", ") + (unitUsed_.empty() ? "none" : unitUsed_) + " of " +
+             shortened(columns_[part.elements.front().column].name);
+  }
+  if (byUnit.size() > 1)
+    note(what + ": the columns have different units, each is converted by its own: " + units);
 }
 
 void Planner::takeGroup(PlannedSeries& series,
@@ -429,24 +443,55 @@ std::string Planner::allName() const {
   return hand_.layout->numMatrices() == 1 ? hand_.matrixName(0) : "matrices";
 }
 
+std::optional<MatrixReading> Planner::wholeHand(const ColumnGroup& group, bool isOpposite) const {
+  return readWhole(
+      group,
+      *hand_.layout,
+      shortened(columns_[group.columns.front()].name),
+      [&](const ColumnGroup& each) { return orderOf(each, isOpposite); },
+      source_.isColumnMajor() != isReversed_);
+}
+
 // One group is the whole hand.
 bool Planner::takeWhole(PlannedSeries& series,
                         const std::vector<ColumnGroup>& groups,
                         bool isOpposite) {
   const ColumnGroup* whole = nullptr;
+  std::optional<MatrixReading> taken;
   for (const ColumnGroup& group : groups) {
-    if (!placesOf(group, *hand_.layout, std::nullopt, orderOf(group, isOpposite))) continue;
+    auto reading = wholeHand(group, isOpposite);
+    if (!reading) continue;
     if (whole)
       refuse("both " + inQuotes(columns_[whole->columns.front()].name) + " and " +
              inQuotes(columns_[group.columns.front()].name) +
              " could be the taxels; choose the columns of each matrix (--matrix)");
     whole = &group;
+    taken = std::move(reading);
   }
-  if (whole) takeGroup(series, allName(), *whole, std::nullopt, isOpposite);
-  return whole != nullptr;
+  if (!whole) return false;
+  take(series, allName(), whole->elements, taken->places);
+  if (taken->note.empty())
+    noteOrder(allName(), *whole, std::nullopt, orderOf(*whole, isOpposite));
+  else
+    note(taken->note + (isOpposite ? ", with rows and columns exchanged" : ""));
+  return true;
 }
 
-// A group per matrix: by its name, else in the order of the file.
+// The columns that have the name of a matrix in theirs.
+bool Planner::takeNamedParts(PlannedSeries& series) {
+  const auto parts = namedParts(columns_, candidates(), hand_, [&](const ColumnGroup& group) {
+    return orderOf(group, false);
+  });
+  for (std::size_t m = 0; m < parts.size(); ++m)
+    if (parts[m].inOrder.empty())
+      takeGroup(series, hand_.matrixName(m), parts[m].group, m, parts[m].isOpposite);
+    else
+      take(series, hand_.matrixName(m) + ", in order", parts[m].group.elements, parts[m].inOrder);
+  return !parts.empty();
+}
+
+// A group per matrix: those that have a matrix's name are its, the others are taken in the order of
+// the file, each for the first matrix of its shape.
 bool Planner::takeParts(PlannedSeries& series,
                         const std::vector<ColumnGroup>& groups,
                         bool isOpposite) {
@@ -455,35 +500,55 @@ bool Planner::takeParts(PlannedSeries& series,
   const auto fits = [&](const ColumnGroup& group, std::size_t m) {
     return placesOf(group, layout, m, orderOf(group, isOpposite)).has_value();
   };
-  std::vector<const ColumnGroup*> parts;
-  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
-    const ColumnGroup* named = nullptr;
-    for (const ColumnGroup& group : groups) {
-      const auto words = wordsOf(columns_[group.columns.front()].name);
-      if (!words.empty() && words == wordsOf(hand_.matrixName(m)) && fits(group, m)) named = &group;
+  const auto keys = matrixKeys(hand_);
+  std::vector<const ColumnGroup*> parts(layout.numMatrices());
+  std::vector<const ColumnGroup*> others;
+  for (const ColumnGroup& group : groups) {
+    const auto m = namedIn(nameWithoutUnit(columns_[group.columns.front()].name), keys);
+    if (m && !parts[*m] && fits(group, *m))
+      parts[*m] = &group;
+    else
+      others.push_back(&group);
+  }
+  for (const ColumnGroup* group : others) {
+    bool fitsAny = false;
+    bool isTaken = false;
+    for (std::size_t m = 0; m < parts.size() && !isTaken; ++m) {
+      if (!fits(*group, m)) continue;
+      fitsAny = true;
+      isTaken = !parts[m];
+      if (isTaken) parts[m] = group;
     }
-    if (named && std::find(parts.begin(), parts.end(), named) == parts.end())
-      parts.push_back(named);
+    // More groups of such shapes than matrices: which ones can't be told.
+    if (fitsAny && !isTaken) return false;
   }
-  if (parts.size() != layout.numMatrices()) {
-    parts.clear();
-    for (const ColumnGroup& group : groups)
-      for (std::size_t m = 0; m < layout.numMatrices(); ++m)
-        if (fits(group, m)) {
-          parts.push_back(&group);
-          break;
-        }
-  }
-  if (parts.size() != layout.numMatrices()) return false;
-  for (std::size_t m = 0; m < parts.size(); ++m)
-    if (!fits(*parts[m], m)) return false;
-  for (std::size_t m = 0; m < parts.size(); ++m)
+  if (std::find(parts.begin(), parts.end(), nullptr) != parts.end()) return false;
+  std::string order;
+  for (std::size_t m = 0; m < parts.size(); ++m) {
     takeGroup(series, hand_.matrixName(m), *parts[m], m, isOpposite);
+    order += (m > 0 ? ", " : "") + hand_.matrixName(m) + " = " +
+             shortened(columns_[parts[m]->columns.front()].name);
+  }
+  note("matrices: no names tell them apart; taken in the order of the file: " + order +
+       " (--matrix NAME=COLUMNS chooses others)");
+  return true;
+}
+
+bool Planner::takeLetters(PlannedSeries& series, const std::vector<ColumnGroup>& groups) {
+  std::vector<std::size_t> all;
+  for (const ColumnGroup& group : groups)
+    all.insert(all.end(), group.columns.begin(), group.columns.end());
+  std::sort(all.begin(), all.end());
+  const auto lettered = letterGroup(columns_, all);
+  const auto reading = lettered ? readLetters(*lettered, *hand_.layout) : std::nullopt;
+  if (!reading) return false;
+  take(series, allName(), lettered->elements, reading->places);
+  note(allName() + ": " + reading->note);
   return true;
 }
 
 // The parts of a table that are matrices by their names only.
-void Planner::takeNamedParts(PlannedSeries& series) {
+void Planner::takeEachByName(PlannedSeries& series) {
   const SensorLayout& layout = *hand_.layout;
   const auto wordOf = [](std::string_view name) {
     std::string word;
@@ -550,16 +615,15 @@ bool Planner::takeColumnsInOrder(PlannedSeries& series, const std::vector<Column
   return true;
 }
 
-// The same of one array: of numbers in a row, or of the rows of all matrices.
+// The same of one array of numbers in a row.
 bool Planner::takeArrayInOrder(PlannedSeries& series, const ColumnGroup& group) {
   if (group.columns.size() != 1) return false;
   const SensorLayout& layout = *hand_.layout;
-  const bool isRow = numVaryingIndices(group) <= 1;
-  if (!isRow && !isStack(group, layout)) return false;
+  if (numVaryingIndices(group) > 1) return false;
   std::vector<TableElement> elements = group.elements;
   auto places = placesInOrder(elements.size(), layout, std::nullopt, false);
-  const bool oneMore = isRow && elements.size() > 1 &&
-                       placesInOrder(elements.size() - 1, layout, std::nullopt, false);
+  const bool oneMore =
+      elements.size() > 1 && placesInOrder(elements.size() - 1, layout, std::nullopt, false);
   if (!places && oneMore && times_.leaveOutFirst(series, group.columns.front(), true)) {
     elements.erase(elements.begin());
     places = placesInOrder(elements.size(), layout, std::nullopt, false);
@@ -594,15 +658,16 @@ PlannedSeries Planner::foundFrames() {
   PlannedSeries series;
   series.file = source_.path();
   if (source_.hasNamedParts()) {
-    takeNamedParts(series);
+    takeEachByName(series);
     return series;
   }
   joinFrameLines(series);
   const std::vector<ColumnGroup> groups = groupColumns(columns_, candidates());
+  if (takeNamedParts(series)) return series;
   for (const bool isOpposite : {false, true})
     if (takeWhole(series, groups, isOpposite) || takeParts(series, groups, isOpposite))
       return series;
-  if (takeColumnsInOrder(series, groups)) return series;
+  if (takeLetters(series, groups) || takeColumnsInOrder(series, groups)) return series;
   for (const ColumnGroup& group : groups)
     if (takeArrayInOrder(series, group)) return series;
   const SensorLayout& layout = *hand_.layout;
@@ -701,6 +766,27 @@ std::string Planner::unusableText() const {
   return text + (count > kShown ? " and " + std::to_string(count - kShown) + " more" : "");
 }
 
+// What can be done where nothing fits: columns are chosen only where there are enough of them.
+std::string Planner::formsText() const {
+  std::size_t numNumbers = 0;
+  bool areArrays = false;
+  for (const TableColumn& column : columns_) {
+    if (column.isNumeric && column.width() <= kMaxNumbersPerRow) numNumbers += column.width();
+    areArrays = areArrays || !isScalar(column);
+  }
+  const std::string chosen = numNumbers >= hand_.layout->numTaxels()
+                                 ? "; choose the columns of each matrix (--matrix)"
+                                 : "";
+  if (areArrays)
+    return chosen +
+           "; arrays are read as frames x rows x columns, frames x matrices x rows x "
+           "columns, or frames x taxels";
+  if (!chosen.empty()) return chosen;
+  return "; texts are read with a number per taxel and a frame per line, or with a line for each "
+         "row of the matrices; a line per taxel is read only as palpate convert writes it "
+         "(frame, time_ms, matrix, y, x, value)";
+}
+
 PlannedSeries Planner::frames() {
   PlannedSeries series = mapping_.matrices.empty() ? foundFrames() : mappedFrames();
   for (const std::size_t column : series.columns)
@@ -732,7 +818,23 @@ void Planner::noteUnused() {
     if (!used.contains(c) && !times_.isPart(c) && !times_.hasSameTimes(c) &&
         !hasWord(columns_[c], {"active", "mask", "meta"}))
       unused.push_back(columns_[c]);
-  if (!unused.empty()) plan_.notes.push_back("not used: " + namesText(unused));
+  if (unused.empty()) return;
+  std::string text = "not used: " + namesText(unused);
+  for (const Kind kind : {Kind::kAngles, Kind::kTemperatures}) {
+    const bool isPlanned =
+        std::any_of(plan_.series.begin(), plan_.series.end(), [&](const PlannedSeries& series) {
+          return series.kind == kind;
+        });
+    const std::size_t count = namesOf(hand_, kind).size();
+    const auto numNumbers = std::count_if(unused.begin(), unused.end(), [](const auto& column) {
+      return column.isNumeric && isScalar(column);
+    });
+    if (count > 0 && !isPlanned && mappingOf(kind).columns.empty() &&
+        static_cast<std::size_t>(numNumbers) >= count)
+      text += kind == Kind::kAngles ? "; --angles chooses joint angles"
+                                    : "; --temperatures chooses temperatures";
+  }
+  plan_.notes.push_back(text);
 }
 
 ImportPlan Planner::plan() {

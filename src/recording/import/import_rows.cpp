@@ -60,6 +60,7 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
     };
     lastUs_.reset();
     rowIndex_ = 0;
+    skipped_ = 0;
     if (all[i].first().file != source.path()) {
       const auto beside = openTable(all[i].first().file, mapping_.text);
       runPass(*beside, all[i], mostRows, part);
@@ -101,7 +102,7 @@ void ImportRows::noteRows(const TableSource& source) {
 std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const TableRow& row) {
   std::optional<std::int64_t> us;
   if (!timeReader_) {
-    const double elapsed = static_cast<double>(rowIndex_) / *plan_.rateHz * kUsPerS;
+    const double elapsed = static_cast<double>(rowIndex_ + skipped_) / *plan_.rateHz * kUsPerS;
     us = mapping_.time.startUs.value_or(0) + std::llround(elapsed);
   } else {
     us = timeReader_->us(row.time);
@@ -339,6 +340,7 @@ void ImportRows::runPass(TableSource& source,
     if (progress && rowIndex_ % kRowsPerReport == 0 && !progress(source.fraction()))
       throw Cancelled();
     if (hasFrames) ++report_.rows;
+    skipped_ += row.skipped;
     findTimeWithin(pass, row);
     if (times) row.time = times->next(timeRow) && timeRow.complete ? timeRow.time : TimeCell{};
     takeRow(source, pass, row);

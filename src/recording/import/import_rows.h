@@ -105,6 +105,7 @@ class ImportRows {
   std::optional<WaitingRow> waiting_;
   std::vector<bool> isThere_;  // the series in the examined row
   std::uint64_t rowIndex_ = 0;
+  std::uint64_t skipped_ = 0;  // rows that the file lacks
   // Of the frame of a list of taxels that is being read.
   std::optional<std::int64_t> listedFrame_;
   std::int64_t lastNumber_ = -1;  // of a listed frame, also of a refused one

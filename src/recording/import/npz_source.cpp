@@ -92,4 +92,13 @@ std::unique_ptr<SequentialReader> NpzSource::unpacked(std::size_t column) {
   return reader;
 }
 
+// np.save() into an open file appends arrays, which NumPy reads one after the other.
+std::string NpzSource::rowNote() const {
+  const NpyHeader& header = arrays_.front().header;
+  const std::uint64_t end = header.dataOffset + header.numBytes().value_or(0);
+  if (isArchive_ || header.kind == NumberKind::kOther || end >= file_.size()) return {};
+  return std::to_string(file_.size() - end) +
+         " bytes behind the array are not read: what they hold (another array?) is not imported";
+}
+
 }  // namespace palpate

@@ -14,6 +14,7 @@ class NpzSource final : public StoredArraySource {
  public:
   explicit NpzSource(const std::filesystem::path& path);
   std::string form() const override;
+  std::string rowNote() const override;
 
  protected:
   std::unique_ptr<SequentialReader> unpacked(std::size_t column) override;
