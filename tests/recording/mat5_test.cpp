@@ -188,6 +188,9 @@ TEST(Mat5, WhatPalpateExportedIsImportedAgain) {
   ASSERT_EQ(again.numFrames(), 2u);
   EXPECT_EQ(again.frame(1).values, made.profile.frame(1).values);
   EXPECT_EQ(again.frameTimeUs(1) - again.frameTimeUs(0), 10'000);
+  // Texts stand in front of the arrays.
+  const ImportPreview preview = previewImport(folder / "out.mat", pad(2, 2), {});
+  EXPECT_EQ(preview.problem, "");
 }
 
 }  // namespace

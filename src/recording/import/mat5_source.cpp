@@ -299,9 +299,6 @@ class Mat5Source::Scan {
     // MATLAB's first axis changes fastest.
     std::reverse(sizes.begin(), sizes.end());
     header.shape = std::move(sizes);
-    // Palpate's own times are N x 1: a row each.
-    if (source_.isOwn_ && header.shape.size() == 2 && header.shape[0] == 1)
-      std::swap(header.shape[0], header.shape[1]);
     const bool isEmpty =
         std::find(header.shape.begin(), header.shape.end(), 0u) != header.shape.end();
     if (isEmpty ? tag.bytes != 0
@@ -364,7 +361,6 @@ Mat5Source::Mat5Source(const std::filesystem::path& path) : StoredArraySource(pa
   isBigEndian_ = version == std::string_view("\1\0MI", 4);
   if (!isBigEndian_ && version != std::string_view("\0\1IM", 4))
     throw FormatError(path, "is no MAT file of version 5: its header is damaged");
-  isOwn_ = text.find("Created by: palpate") != std::string_view::npos;
   for (std::uint64_t at = kMatHeaderBytes; at < file_.size();) {
     std::array<std::byte, kTagBytes> tag{};
     const auto number = [&](std::span<const std::byte> bytes) {
@@ -389,6 +385,24 @@ Mat5Source::Mat5Source(const std::filesystem::path& path) : StoredArraySource(pa
     at += bytes;
   }
   if (columns_.empty()) throw FormatError(path, "is a MAT file without arrays");
+  recogniseOwn();
+}
+
+// In Palpate's own exports (docs/bridges.md) it is known what the axes are, and times, which are
+// N x 1, have a row each.
+void Mat5Source::recogniseOwn() {
+  const auto has = [&](std::string_view name) {
+    return std::any_of(columns_.begin(), columns_.end(), [&](const TableColumn& column) {
+      return column.name == name;
+    });
+  };
+  isOwn_ = has("provenance.program") && has("tactile.m0") && has("tactile.m0_static_mask");
+  for (std::size_t c = 0; isOwn_ && c < columns_.size(); ++c) {
+    std::vector<std::uint64_t>& shape = arrays_[c].header.shape;
+    if (shape.size() != 2 || shape[0] != 1) continue;
+    std::swap(shape[0], shape[1]);
+    columns_[c].setArrayShape(shape);
+  }
 }
 
 std::string Mat5Source::form() const {

@@ -33,6 +33,7 @@ class Mat5Source final : public StoredArraySource {
 
  private:
   class Scan;
+  void recogniseOwn();
   // An element of the file: an array, or a compressed one.
   struct Element {
     std::uint64_t offset = 0;  // of its bytes

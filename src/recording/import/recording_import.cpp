@@ -24,7 +24,8 @@ void readPreviewRows(TableSource& source, ImportPreview& preview) {
   const std::size_t numColumns = std::min(kMostPreviewColumns, preview.columns.size());
   preview.rows.assign(kShownPreviewRows, std::vector<std::string>(numColumns));
   std::size_t numRows = 0;
-  if (!preview.columns.empty() && !preview.columns.front().numRows) {  // a text: all at once
+  const auto isArray = [](const TableColumn& column) { return column.numRows.has_value(); };
+  if (std::none_of(preview.columns.begin(), preview.columns.end(), isArray)) {  // all at once
     std::vector<std::size_t> chosen(numColumns);
     std::iota(chosen.begin(), chosen.end(), 0);
     source.start(chosen, std::nullopt);
@@ -37,7 +38,7 @@ void readPreviewRows(TableSource& source, ImportPreview& preview) {
   for (std::size_t c = 0; c < numColumns; ++c) {
     const TableColumn& column = preview.columns[c];
     const bool isDateArray = column.hasDates && column.numRows.has_value();
-    if (column.numRows && !column.isNumeric && !isDateArray) continue;
+    if (!column.isNumeric && !isDateArray) continue;
     const std::vector<std::size_t> chosen = {c};
     TableRow row;
     try {
