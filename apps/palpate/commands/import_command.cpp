@@ -48,7 +48,8 @@ ImportMapping importMappingOf(const CommandLine& given) {
     mapping.time.column = *column;
     mapping.time.rateHz.reset();
   }
-  if (const auto unit = given.choice("time-unit", {"s", "ms", "us", "ns", "iso", "dmy", "mdy"}))
+  if (const auto unit =
+          given.choice("time-unit", {"s", "ms", "us", "ns", "min", "h", "iso", "dmy", "mdy"}))
     mapping.time.unit = *unit;
   constexpr double kLowestRateHz = 1e-6;
   constexpr double kHighestRateHz = 1e6;
@@ -142,6 +143,7 @@ Json importJson(const fs::path& out, const ImportReport& report) {
       .set("mean_rate_hz", report.meanRateHz)
       .set("gaps", static_cast<std::int64_t>(report.gaps))
       .set("longest_gap_s", report.longestGapS)
+      .set("missing_frames", static_cast<std::int64_t>(report.missingFrames))
       .set("absent_frames", static_cast<std::int64_t>(report.absentFrames))
       .set("counter_restarts", static_cast<std::int64_t>(report.counterRestarts))
       .set("nul_bytes", static_cast<std::int64_t>(report.nulBytes.count))
@@ -202,11 +204,11 @@ int importCommand(const Arguments& words) {
             {"temperatures", "COLUMNS", "the temperatures, in the order of the sensors, or none"},
             {"time",
              "COLUMN",
-             "the times of the rows; DATE,CLOCK or S,NS: two columns; or a file with "
+             "the times of the rows; DATE,CLOCK or S,NS (S,US, S,MS): two columns; or a file with "
              "the times of the rows"},
             {"time-unit",
              "UNIT",
-             "s, ms, us, ns or iso; dmy or mdy: dates with the day or month first"},
+             "s, ms, us, ns, min, h or iso; dmy or mdy: dates with the day or month first"},
             {"rate", "HZ", "rows at equal intervals, where there are no times"},
             {"start",
              "DATE",

@@ -137,6 +137,8 @@ class TableSource {
   virtual std::string rowNote() const { return {}; }
   // Whether each column is part of a matrix by its name, as "left[3]": no order says which one.
   virtual bool hasNamedParts() const noexcept { return false; }
+  // What a message that no column fits should add: "; its head says 3 rows x 2 columns".
+  virtual std::string advice() const { return {}; }
   // The rate that a file gives.
   virtual std::optional<double> rateHz() const { return std::nullopt; }
   // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.
