@@ -551,11 +551,8 @@ bool Planner::takeLetters(PlannedSeries& series, const std::vector<ColumnGroup>&
 // The parts of a table that are matrices by their names only.
 void Planner::takeEachByName(PlannedSeries& series) {
   const SensorLayout& layout = *hand_.layout;
-  const auto wordOf = [](std::string_view name) {
-    std::string word;
-    for (const char letter : smallLetters(name.substr(0, name.find('['))))
-      if (std::isalnum(static_cast<unsigned char>(letter)) != 0) word += letter;
-    return word;
+  const auto isNamed = [&](std::string_view column, std::size_t m) {
+    return nameKey(column.substr(0, column.find('['))) == nameKey(hand_.matrixName(m));
   };
   std::string names;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m)
@@ -564,7 +561,7 @@ void Planner::takeEachByName(PlannedSeries& series) {
     const std::string name = hand_.matrixName(m);
     std::vector<std::size_t> part;
     for (const std::size_t c : candidates())
-      if (wordOf(columns_[c].name) == wordOf(name)) part.push_back(c);
+      if (isNamed(columns_[c].name, m)) part.push_back(c);
     if (part.empty())
       refuse("no file is called as the matrix " + inQuotes(name) +
              "; call the files as the matrices of the hand (" + names +
@@ -573,22 +570,21 @@ void Planner::takeEachByName(PlannedSeries& series) {
     for (const ColumnGroup& group : groupColumns(columns_, part))
       elements.insert(elements.end(), group.elements.begin(), group.elements.end());
     const auto inOrder = placesInOrder(elements.size(), layout, m, false);
-    const std::string what = hand_.matrixName(m);
     if (part.size() == 1 && !isScalar(columns_[part[0]])) {
       MatrixMapping wanted;
       wanted.matrix = m;
       ChosenElements chosen;
       chosen.elements = elements;
-      const auto shaped = placesByShape(wanted, chosen, what);
+      const auto shaped = placesByShape(wanted, chosen, name);
       if (shaped) {
-        take(series, what, elements, *shaped);
+        take(series, name, elements, *shaped);
         continue;
       }
     }
     if (!inOrder)
       refuse(inQuotes(name) + " has " + counted(elements.size(), "number") +
              " per row, but its matrix has " + matrixShape(layout.matrix(m)));
-    take(series, what, elements, *inOrder);
+    take(series, name, elements, *inOrder);
   }
 }
 
