@@ -71,7 +71,6 @@ struct TableRow {
   // Whether the row has as many cells as the table has columns. If not, the rest is not valid.
   bool complete = true;
   std::size_t numCells = 0;       // in the row, when it is not complete
-  std::uint64_t skipped = 0;      // frames that are missing in the file before this row
   std::string fault;              // why it is not complete: " has 4 cells instead of 5"
   std::vector<double> values;     // of the selected columns, one after the other
   std::vector<CellState> states;  // one per value

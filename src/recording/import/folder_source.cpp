@@ -120,50 +120,23 @@ void FolderSource::findFiles() {
             shortened((same + 1)->path.filename().string()) + ": their order can't be told");
 }
 
-// Where one whole number counts the files, numbers that are missing are frames that are missing.
-void FolderSource::findHoles() {
+// Whether one number tells the files apart: it may be the time, or count the frames.
+void FolderSource::findVarying() {
   const std::vector<NameNumber>& first = files_.front().numbers;
   for (std::size_t n = 0; n < first.size(); ++n) {
     const bool differs = std::any_of(files_.begin(), files_.end(), [&](const FrameFile& file) {
       return file.numbers[n] != first[n];
     });
-    if (differs && varying_) {
-      varying_.reset();
-      return;
-    }
+    if (differs && varying_) return varying_.reset();
     if (differs) varying_ = n;
   }
-  if (!varying_) return;
-  const auto numberOf = [&](std::size_t i) { return files_[i].numbers[*varying_]; };
-  std::uint64_t step = UINT64_MAX;
-  for (std::size_t i = 1; i < files_.size(); ++i)
-    step = std::min(step,
-                    static_cast<std::uint64_t>(numberOf(i).first) -
-                        static_cast<std::uint64_t>(numberOf(i - 1).first));
-  std::vector<std::uint64_t> skipped(files_.size(), 0);
-  std::uint64_t all = 0;
-  std::string where;
-  for (std::size_t i = 1; i < files_.size(); ++i) {
-    const std::uint64_t distance = static_cast<std::uint64_t>(numberOf(i).first) -
-                                   static_cast<std::uint64_t>(numberOf(i - 1).first);
-    if (step == 0 || distance % step != 0 || numberOf(i).second != numberOf(0).second) return;
-    skipped[i] = distance / step - 1;
-    all += skipped[i];
-    if (all >= files_.size()) return;  // times, not a count
-    if (skipped[i] > 0 && where.empty()) where = files_[i - 1].path.filename().string();
-  }
-  for (std::size_t i = 0; i < files_.size(); ++i) files_[i].skipped = skipped[i];
-  if (all == 0) return;
-  note_ += (note_.empty() ? "" : "; ") + counted(all, "number") + " of files " +
-           (all == 1 ? "is" : "are") + " missing, the first after " + shortened(where) +
-           ": with a rate, the times go on as if " + (all == 1 ? "it was" : "they were") + " there";
 }
 
 FolderSource::FolderSource(const fs::path& path, const TableOptions& options)
     : path_(path), options_(options) {
   options_.header = HeaderChoice::kAbsent;
   findFiles();
-  findHoles();
+  findVarying();
   columns_.push_back({.name = "file", .type = "number"});
   columns_.push_back(
       {.name = "numbers", .shape = numbersOf(files_.front().path).shape, .type = "number"});
@@ -218,7 +191,6 @@ bool FolderSource::next(TableRow& row) {
   if (next_ == files_.size()) return false;
   const FrameFile& file = files_[next_++];
   row.line = next_;
-  row.skipped = file.skipped;
   row.complete = false;
   FileNumbers numbers;
   try {

@@ -35,7 +35,6 @@ class FolderSource final : public TableSource {
   struct FrameFile {
     std::filesystem::path path;
     std::vector<NameNumber> numbers;
-    std::uint64_t skipped = 0;  // numbers that are missing before it
     bool operator<(const FrameFile& other) const { return numbers < other.numbers; }
   };
   struct FileNumbers {
@@ -44,7 +43,7 @@ class FolderSource final : public TableSource {
   };
   static std::string patternOf(const std::string& stem, std::vector<NameNumber>& numbers);
   void findFiles();
-  void findHoles();
+  void findVarying();
   FileNumbers numbersOf(const std::filesystem::path& file) const;
 
   std::filesystem::path path_;

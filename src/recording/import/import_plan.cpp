@@ -648,7 +648,7 @@ void Planner::joinFrameLines(PlannedSeries& series) {
   const std::string how = source_.joinLines(rows);
   if (how.empty()) return;
   plan_.notes.push_back(how);
-  if (columns_.size() > rows * width && !hasWord(columns_[0], kOtherWords))
+  if (columns_.size() > rows * width && !hasWord(columns_[0], kCounterWords))
     times_.leaveOutFirst(series, 0, false);
 }
 
@@ -806,7 +806,7 @@ void Planner::findCounter(PlannedSeries& series) {
   for (std::size_t c = 0; c < columns_.size() && !counter; ++c)
     if (columns_[c].isNumeric && columns_[c].type != "bool" && isScalar(columns_[c]) &&
         sameRows(columns_[c], values) && c != series.time && !times_.isPart(c) &&
-        !sampleColumns_.contains(c) && hasWord(columns_[c], kOtherWords) &&
+        !sampleColumns_.contains(c) && hasWord(columns_[c], kCounterWords) &&
         columns_[c].name.find_first_of("0123456789") == std::string::npos &&
         std::find(series.columns.begin(), series.columns.end(), c) == series.columns.end() &&
         times_.countsFrames(c))

@@ -390,7 +390,6 @@ void ImportRows::runPass(TableSource& source,
     if (progress && rowIndex_ % kRowsPerReport == 0 && !progress(source.fraction()))
       throw Cancelled();
     if (hasFrames) ++report_.rows;
-    skipped_ += row.skipped;
     findTimeWithin(pass, row);
     if (times) row.time = times->next(timeRow) && timeRow.complete ? timeRow.time : TimeCell{};
     takeRow(source, pass, row);
