@@ -63,11 +63,11 @@ void requirePossibleArea(const CalibrationSteps& gathered, double areaMm2) {
   for (const PressureSample& sample : gathered.samples)
     if (sample.used) active = std::max(active, sample.activeAreaMm2);
   const std::string area =
-      "the area of the indenter (--area), " + numberText(areaMm2) + " mm^2, is ";
+      "the area of the indenter (--area), " + fixedText(areaMm2, 2) + " mm^2, is ";
   if (areaMm2 < gathered.taxelAreaMm2)
-    throw Error(area + "less than one taxel, " + numberText(gathered.taxelAreaMm2) + " mm^2");
+    throw Error(area + "less than one taxel, " + fixedText(gathered.taxelAreaMm2, 2) + " mm^2");
   if (active > 0.0 && areaMm2 > active + gathered.taxelAreaMm2)
-    throw Error(area + "more than was loaded: at most " + numberText(active) +
+    throw Error(area + "more than was loaded: at most " + fixedText(active, 2) +
                 " mm^2 of taxels were active");
 }
 

@@ -4,6 +4,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_details.h"
 

@@ -374,8 +374,8 @@ TEST(CalibrateCommand, TheAreaOfTheIndenterIsOneThatWasLoaded) {
                     folder / "c.json",
                     "--quiet"});
   };
-  expectOneLineError(make("1.5"), 1, {"(--area), 1.5 mm^2, is less than one taxel, 11.56 mm^2"});
-  expectOneLineError(make("160"), 1, {"160 mm^2, is more than was loaded: at most 138.72 mm^2"});
+  expectOneLineError(make("1.5"), 1, {"(--area), 1.50 mm^2, is less than one taxel, 11.56 mm^2"});
+  expectOneLineError(make("160"), 1, {"160.00 mm^2, is more than was loaded: at most 138.72 mm^2"});
   ASSERT_EQ(make("138.72").exitCode, 0);
   const auto applied = palpate(
       {"calibrate", "apply", folder / "step4.dsa", "--calibration", folder / "c.json", "--quiet"});
