@@ -181,7 +181,7 @@ class HelpExamples : public ::testing::Test {
     }
     if (word == "hand.json") {
       makeWeights();
-      return must("palpate calibrate pressure -q weights.csv -o hand.json");
+      return must("palpate calibrate pressure -q weights.csv --area 110 -o hand.json");
     }
   }
   void makeInputs(const std::string& line) const {
