@@ -671,8 +671,7 @@ PlannedSeries Planner::foundFrames() {
   const SensorLayout& layout = *hand_.layout;
   refuse("no columns fit the hand " + inQuotes(hand_.name) + ", which has " + shapeText(layout) +
          " (as many columns are expected, or arrays of rows x " + matrixShape(layout.matrix(0)) +
-         "); the file has " + namesText(columns_) + unusableText() +
-         "; choose the columns of each matrix (--matrix)");
+         "); the file has " + namesText(columns_) + unusableText() + formsText());
 }
 
 // Whether frames can be found when the rows of the arrays are as they are now.
