@@ -101,7 +101,7 @@ void recordAndCompareHand(const std::string& key, EmulatedStreamFormat format) {
     EXPECT_EQ(log.numbers[n], n);
     const TactileFrame frame = profile.frame(n);
     ASSERT_EQ(frame.values, log.values[n]) << "frame " << n;
-    EXPECT_EQ(frame.deviceMs, std::llround(1e6 * static_cast<double>(n) / kRateHz) / 1000);
+    EXPECT_EQ(frame.deviceUs, std::llround(1e6 * static_cast<double>(n) / kRateHz));
     for (const float value : frame.values) active += value > 0.0F ? 1 : 0;
   }
   EXPECT_GT(active, kFrames) << "something was touched";
@@ -251,8 +251,8 @@ TEST(EmulatedStream, RestsWhileNobodyIsConnectedAndGoesOnWithTheNextClient) {
     ASSERT_TRUE(sink.awaitFrames(20));
     EXPECT_EQ(stream.counts().clients, client);
     EXPECT_EQ(device.facts().firmware, "emulated");
-    const std::int64_t firstMs = sink.takeFrames().front().deviceMs.value();
-    EXPECT_TRUE(client == 1 ? firstMs == 0 : firstMs > 0);
+    const std::int64_t firstUs = sink.takeFrames().front().deviceUs.value();
+    EXPECT_TRUE(client == 1 ? firstUs == 0 : firstUs > 0);
     device.stop();
     // The end of the connection is noticed.
     ASSERT_TRUE(awaited([&] {

@@ -56,7 +56,12 @@ void BackgroundJob::startNext() {
     } catch (const Cancelled&) {
       conclude([this, text = now.text] { emit cancelled(text); });
     } catch (const std::exception& error) {
-      conclude([this, message = QString::fromUtf8(error.what())] { emit failed(message); });
+      conclude([this, text = now.text, message = QString::fromUtf8(error.what())] {
+        if (cancelAsked_)
+          emit cancelled(text);
+        else
+          emit failed(message);
+      });
     }
   });
 }

@@ -17,7 +17,7 @@ class BackgroundJob : public QObject {
   Q_OBJECT
  public:
   // The work runs in a thread of its own; an exception that it throws is reported by failed() or,
-  // for Cancelled, by cancelled().
+  // for Cancelled and where the job was cancelled, by cancelled().
   using Work = std::function<void(const Progress&)>;
 
   explicit BackgroundJob(QObject* parent = nullptr) : QObject(parent) {}
