@@ -59,7 +59,7 @@ Profile shortProfile() {
   for (const std::int64_t ms : {0, 10, 20, 40})
     builder.addFrame(kWallStartUs + ms * 1000,
                      numberedFrame(static_cast<std::size_t>(ms), 0).values,
-                     ms % 20 == 0 ? std::optional(ms) : std::nullopt);
+                     ms % 20 == 0 ? std::optional(ms * 1000) : std::nullopt);
   for (const std::int64_t ms : {5, 10, 35})
     builder.addAngles(kWallStartUs + ms * 1000, numberedAngles(1, 0).deg);
   builder.addTemperatures(kWallStartUs + 10'000, std::vector<double>(9, 33.25));

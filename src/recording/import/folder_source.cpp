@@ -252,7 +252,7 @@ std::vector<fs::path> filesPerMatrix(const fs::path& folder) {
       if (entry.path().extension() != ending) continue;
       files.push_back(entry.path());
       const std::string stem = entry.path().stem().string();
-      numNumbered += isDigitAt(stem, stem.size() - 1) ? 1 : 0;
+      numNumbered += stem.find_first_of("0123456789") != std::string::npos ? 1 : 0;
     }
     if (files.size() < 2) continue;
     std::sort(files.begin(), files.end());

@@ -14,30 +14,28 @@
 namespace palpate {
 namespace {
 
-using Kind = PlannedSeries::Kind;
-
 // Speeds, torques and targets of joints are not where they were.
-bool isOtherQuantity(const TableColumn& column, Kind kind) {
+bool isOtherQuantity(const TableColumn& column, PlannedSeries::Kind kind) {
   const auto parts = nameParts(column.name);
   const std::string unit = smallLetters(column.unit);
   return unit.find("/s") != std::string::npos || unit == "nm" || unit == "n m" || unit == "a" ||
          std::any_of(parts.begin(), parts.end(), [&](const std::string& part) {
            return kOtherQuantityWords.contains(part) ||
-                  (kind == Kind::kAngles && kTemperatureWords.contains(part));
+                  (kind == PlannedSeries::Kind::kAngles && kTemperatureWords.contains(part));
          });
 }
 
 // A column for each name of the hand's axes, or of its temperature sensors: called so, or with
 // these words and one that says what it is ("position/thumb base", "board temperature").
 std::vector<TableElement> samplesNamedAsIn(const std::vector<TableColumn>& columns,
-                                           Kind kind,
+                                           PlannedSeries::Kind kind,
                                            const std::vector<std::string>& names,
                                            const std::string& what,
                                            std::vector<std::string>& notes) {
   NameKeys keys;
   for (std::size_t n = 0; n < names.size(); ++n) addName(keys, names[n], n);
-  const auto& words = kind == Kind::kAngles ? kAngleWords : kTemperatureWords;
-  const char* unit = kind == Kind::kAngles ? "deg" : "degC";
+  const auto& words = kind == PlannedSeries::Kind::kAngles ? kAngleWords : kTemperatureWords;
+  const char* unit = kind == PlannedSeries::Kind::kAngles ? "deg" : "degC";
   struct Found {
     std::vector<std::size_t> same, withWord;
   };
@@ -100,8 +98,8 @@ std::vector<TableElement> findSamples(const std::vector<TableColumn>& columns,
                                       std::vector<std::string>& notes,
                                       std::set<std::size_t>& otherColumns) {
   const std::size_t count = names.size();
-  const auto& words = kind == Kind::kAngles ? kAngleWords : kTemperatureWords;
-  const std::string what = kind == Kind::kAngles ? "joint angles" : "temperatures";
+  const auto& words = kind == PlannedSeries::Kind::kAngles ? kAngleWords : kTemperatureWords;
+  const std::string what = kind == PlannedSeries::Kind::kAngles ? "joint angles" : "temperatures";
   std::vector<std::size_t> named;
   std::vector<TableColumn> others;
   for (std::size_t c = 0; c < columns.size(); ++c) {

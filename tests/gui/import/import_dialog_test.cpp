@@ -151,7 +151,9 @@ TEST_F(ImportDialogTest, ARateIsOfOneFileUnlessItIsOfAMapping) {
 TEST_F(ImportDialogTest, WhatIsLeftOutIsAWarningInTheWordsOfTheWindow) {
   showPad();
   EXPECT_FALSE(find<QLabel>("importWarnings")->isVisible());
-  std::string text;
+  std::string text = "time_ms";
+  for (int i = 0; i < 256; ++i) text += ",p" + std::to_string(i);
+  text += "\n";
   for (const char* time : {"10", "20", "20", "30"}) {
     text += time;
     for (int i = 0; i < 256; ++i) text += i == 7 ? ",nan" : ",1";
