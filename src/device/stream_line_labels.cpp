@@ -1,11 +1,11 @@
 // Lines whose values have labels: "A0:1,A1:2", all of a frame in a line, or a line for each. The
-// first frame says in which order the labels stand for the values.
+// labels say which values they are; where they don't, the order of the first frame does.
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string>
 
 #include "palpate/core/escaped_line.h"
-#include "palpate/core/file_name.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/stream_lines.h"
 
@@ -36,17 +36,6 @@ std::optional<StreamTime> timeOfLabel(std::string_view label) {
   return std::nullopt;
 }
 
-// True when the labels are one name with different numbers: "A0", "A1", ..
-bool areNumbered(const std::vector<std::string>& labels) {
-  constexpr std::string_view kDigits = "0123456789";
-  const auto nameOf = [&](const std::string& label) {
-    return std::string_view(label).substr(0, label.find_last_not_of(kDigits) + 1);
-  };
-  return std::ranges::all_of(labels, [&](const std::string& label) {
-    return nameOf(label) == nameOf(labels.front()) && nameOf(label).size() < label.size();
-  });
-}
-
 }  // namespace
 
 // Reads "LABEL:VALUE, .." into lineLabels_ and numbers_. Returns false when it was refused.
@@ -59,7 +48,9 @@ bool StreamLineParser::readPairs(std::string_view line) {
     const std::size_t colon = token.find(':');
     const std::string_view label = token.substr(0, colon);
     if (colon == std::string_view::npos || label.empty() || label.size() > kLongestLabel) {
-      refuse(inQuotes(token) + " has no label, as the other values have");
+      const bool isItem = lineLabels_.empty() && (token == "angles" || token == "temperatures");
+      refuse(inQuotes(token) + (isItem ? " are read without labels, in the order of the hand's"
+                                       : " has no label, as the other values have"));
       return false;
     }
     double value = 0.0;
@@ -103,28 +94,55 @@ void StreamLineParser::readLabelled(std::string_view line, const Sink& sink) {
   takeLabelled(from, item, sink);
 }
 
-// Takes labels_ as those of the values in their order, if they can be. Where the first lines may
-// lack the beginning of a frame only their numbers say the order.
+// Takes labels_ as those of the values, if they can be. Where the first lines may lack the
+// beginning of a frame only the labels themselves say the places, and a frame begins with the first
+// one.
 bool StreamLineParser::learnLabels(bool mayBeInside) {
-  std::vector<std::string> sorted = labels_;
-  std::ranges::sort(sorted, [](const auto& a, const auto& b) { return naturalOrder(a, b) < 0; });
+  placeOf_.clear();
   std::string why;
-  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-    why = "the label " + inQuotes(*twice) + " is there twice";
-  else if (mayBeInside && !areNumbered(labels_))
+  for (std::size_t i = 0; i < labels_.size() && why.empty(); ++i)
+    if (!placeOf_.emplace(labels_[i], i).second)
+      why = "the label " + inQuotes(labels_[i]) + " is there twice";
+  if (why.empty() && !findPlacesOfLabels() && mayBeInside)
     why = "the order of the values is not known: send all of a frame in one line";
   if (!why.empty()) {
     forgetLabels();
     refuse(why);
     return false;
   }
-  if (mayBeInside) labels_ = std::move(sorted);
-  placeOf_.clear();
-  for (std::size_t i = 0; i < labels_.size(); ++i) placeOf_.emplace(labels_[i], i);
+  if (mayBeInside) {
+    for (auto& [label, i] : placeOf_) labels_[i = valueOf_[i]] = label;
+    std::iota(valueOf_.begin(), valueOf_.end(), 0);
+  }
   labelsLearned_ = true;
   labelSeen_.assign(labels_.size(), false);
   numLabelsSeen_ = 0;
   return true;
+}
+
+// Finds the value that each label stands for. Returns whether the labels themselves say it: then
+// the reversed order has the same places.
+bool StreamLineParser::findPlacesOfLabels() {
+  labelNotes_.clear();
+  valueOf_.clear();
+  bool areNamed = false;
+  if (options_.placesOfLabels) {
+    std::vector<std::string> ignored;
+    valueOf_ = options_.placesOfLabels(labels_, labelNotes_);
+    std::vector<std::size_t> reversed =
+        options_.placesOfLabels({labels_.rbegin(), labels_.rend()}, ignored);
+    std::ranges::reverse(reversed);
+    areNamed = valueOf_.size() == labels_.size() && valueOf_ == reversed;
+    if (!areNamed)
+      labelNotes_.push_back("the labels (" + inQuotes(labels_.front()) + " to " +
+                            inQuotes(labels_.back()) +
+                            ") don't say which taxel each is: they are taken in the order of the "
+                            "first frame; send names of the matrices and numbers");
+  }
+  if (valueOf_.size() == labels_.size()) return areNamed;
+  valueOf_.resize(labels_.size());
+  std::iota(valueOf_.begin(), valueOf_.end(), 0);
+  return false;
 }
 
 std::optional<std::size_t> StreamLineParser::placeOfLabel(std::string_view label,
@@ -155,7 +173,7 @@ void StreamLineParser::takeLabelled(std::size_t from, StreamItem& item, const Si
       return refuse("the label " + inQuotes(label) +
                     (place ? " is there twice" : " was not in the first frame"));
     labelSeen_[*place] = true;
-    values_[*place] = static_cast<float>(numbers_[from + i]);
+    values_[valueOf_[*place]] = static_cast<float>(numbers_[from + i]);
   }
   labelSeen_.assign(count, false);
   deliverFrame(item, count, sink);
@@ -186,7 +204,7 @@ void StreamLineParser::takeLabel(std::string_view label, double value, const Sin
     return;
   }
   labelSeen_[*place] = true;
-  partValues_[*place] = static_cast<float>(value);
+  partValues_[valueOf_[*place]] = static_cast<float>(value);
   if (++numLabelsSeen_ < labels_.size()) return;
   labelSeen_.assign(labels_.size(), false);
   numLabelsSeen_ = 0;
@@ -205,7 +223,7 @@ bool StreamLineParser::endsFirstLabels(std::string_view label, const Sink& sink)
   }
   if (!learnLabels(options_.startsInside)) return false;
   if (options_.startsInside) return true;
-  values_ = partValues_;
+  for (std::size_t i = 0; i < labels_.size(); ++i) values_[valueOf_[i]] = partValues_[i];
   StreamItem item;
   deliverFrame(item, labels_.size(), sink);
   return true;

@@ -210,6 +210,19 @@ void StreamLineParser::endLine(const Sink& sink) {
   }
 }
 
+void StreamLineParser::cutOff(const Sink& sink) {
+  const std::string_view line = trimmed(pending_, " \t");
+  // An object and a list have an end of their own.
+  if (skipping_ || line.empty() || line.front() == '#' ||
+      std::string_view("}])").find(line.back()) != std::string_view::npos)
+    return endLine(sink);
+  lastEnd_ = '\0';
+  ++stats_.lines;
+  stats_.lineBytes += pending_.size();
+  pending_.clear();
+  refuse("the last line has no end: its last number may be cut off");
+}
+
 void StreamLineParser::takeLine(std::string_view line, const Sink& sink) {
   ++stats_.lines;
   if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());

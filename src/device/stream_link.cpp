@@ -42,7 +42,8 @@ StreamLineOptions lineOptionsOf(const StreamDeviceOptions& device,
   return {.time = device.time,
           .acceptNumbers = device.format != StreamFormat::kJson,
           .acceptJson = device.format != StreamFormat::kLines,
-          .startsInside = options.startsInside};
+          .startsInside = options.startsInside,
+          .placesOfLabels = device.placesOfLabels};
 }
 
 std::string secondsText(std::int64_t us) {
@@ -215,9 +216,8 @@ void StreamLink::parse(std::span<const std::byte> bytes, bool isDatagram) {
 
 void StreamLink::endOfBytes() {
   const auto sink = [this](const StreamItem& item) { take(item); };
-  // Half a line of a broken connection may lack the last digits of a number, but the last line of
-  // an input has none behind it.
-  if (lines_ && options_.isInput) lines_->endLine(sink);
+  // What came last is half a line or packet, unless it was this program that ended.
+  if (lines_ && !stopping()) lines_->cutOff(sink);
   if (packets_) packets_->flush(sink);
 }
 
@@ -461,6 +461,10 @@ void StreamLink::watchRemarks() {
   if (lines_ && !session_.guessTold && !lines_->guess().empty()) {
     session_.guessTold = true;
     remark(lines_->guess());
+  }
+  if (lines_ && !session_.labelsTold && !lines_->labelNotes().empty()) {
+    session_.labelsTold = true;
+    for (const std::string& note : lines_->labelNotes()) remark(note);
   }
   if (options_.source == nullptr) return;
   if (const std::string text = options_.source->takeRemark(); !text.empty()) remark(text);

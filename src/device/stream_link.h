@@ -24,8 +24,7 @@ class StreamSource;
 
 struct StreamLinkOptions {
   bool startsInside = false;  // see StreamLineOptions
-  // True for standard input: its last line may lack its end, and its frames may arrive faster than
-  // they were measured.
+  // True for standard input: its frames may arrive faster than they were measured.
   bool isInput = false;
   // Knows who sends; null in tests that open a channel of their own.
   StreamSource* source = nullptr;
@@ -151,6 +150,7 @@ class StreamLink : public PortLink {
     bool readsPile = false;
     std::uint64_t framesBeforePile = 0;
     bool guessTold = false;
+    bool labelsTold = false;
 
     std::uint64_t reportedRefused = 0;
     std::uint64_t reportedOutOfRange = 0;

@@ -146,6 +146,14 @@ std::size_t StreamPacketParser::take(std::span<const std::byte> bytes,
     at += count;
     stats_.skippedBytes += count;
   };
+  bool isCutOff = false;
+  const auto skipCutOff = [&] {
+    if (!std::exchange(isCutOff, true)) {
+      ++stats_.badLengths;
+      fault("cut off: " + counted(bytes.size() - at, "byte") + " of it came");
+    }
+    skip(1);
+  };
   while (at < bytes.size()) {
     const auto rest = bytes.subspan(at);
     if (rest[0] != kSync0) {
@@ -166,7 +174,10 @@ std::size_t StreamPacketParser::take(std::span<const std::byte> bytes,
     }
     if (rest.size() < kStreamHeaderBytes) {
       if (!isEnd) break;
-      skip(1);
+      if (rest.size() > 1)
+        skipCutOff();
+      else
+        skip(1);
       continue;
     }
     const auto length = static_cast<std::size_t>(littleEndian(rest.subspan(4, 4)));
@@ -180,7 +191,7 @@ std::size_t StreamPacketParser::take(std::span<const std::byte> bytes,
     const std::size_t total = kStreamPacketBytes + length;
     if (rest.size() < total) {
       if (!isEnd) break;
-      skip(1);
+      skipCutOff();
       continue;
     }
     const auto covered = rest.subspan(kCoveredFrom, total - 4 - kCoveredFrom);

@@ -64,6 +64,28 @@ std::string smallPad(const TemporaryFolder& folder) {
   return (folder / "pad").string();
 }
 
+// stranger S2, S9.
+TEST(RecordStream, LabelsAreTaxelsAndALineWithoutEndIsNone) {
+  const TemporaryFolder folder;
+  const ProgramResult result = recordText(folder,
+                                          "p5:6 p4:5 p3:4 p2:3 p1:2 p0:1\n"
+                                          "p5:60 p4:50 p3:40 p2:30 p1:20 p0:14",
+                                          smallPad(folder));
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_EQ(result.err,
+            "palpate: 1 refused (the last: line 2: the last line has no end: its last number may "
+            "be cut off)\n");
+  const Profile profile = openRecording(folder / "a.palpate");
+  ASSERT_EQ(profile.numFrames(), 1u);
+  EXPECT_EQ(profile.frame(0).values, (std::vector<float>{1, 2, 3, 4, 5, 6}));
+  const TemporaryFolder other;
+  const ProgramResult named = recordText(other, "f:1 e:2 d:3 c:4 b:5 a:6\n", smallPad(other));
+  EXPECT_EQ(named.exitCode, 0);
+  EXPECT_NE(named.err.find("the labels (\"f\" to \"a\") don't say which taxel each is"),
+            std::string::npos)
+      << named.err;
+}
+
 TEST(RecordStream, ValuesOverTheFullScaleAreKeptAndTold) {
   const TemporaryFolder folder;
   std::string text;

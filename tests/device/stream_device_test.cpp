@@ -571,12 +571,13 @@ TEST(StreamDevice, SendersConnectOneAfterTheOther) {
   })) << device.status().tactile.message;
   for (std::size_t sender = 1; sender <= 3; ++sender) {
     const int fd = connectedSocket(port);
-    sendTo(fd, "1,2,3\n4,5");  // the half line goes with its connection
+    sendTo(fd, "1,2,3\n4,5,6");  // the line without its end goes with its connection
     ASSERT_TRUE(sink.awaitFrames(sender));
     ::close(fd);
   }
   EXPECT_TRUE(awaited([&] { return device.status().tactile.state == PortState::kLost; }));
-  EXPECT_EQ(device.status().tactile.suspect, 0u);
+  EXPECT_EQ(device.status().tactile.suspect, 3u) << "stranger S9";
+  EXPECT_EQ(device.status().tactile.items, 3u);
   device.stop();
   EXPECT_FALSE(device.localPort());
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/device/stream_lines.h"
+#include "palpate/recording/label_places.h"
 
 #include "device/stream_hands.h"
 
@@ -19,27 +20,37 @@ struct FormReading {
   std::vector<std::optional<std::int64_t>> timesUs;
   StreamLineStats stats;
   std::string fault, outOfRange, guess;
+  std::vector<std::string> labelNotes;
 };
 
 FormReading readForm(const std::string& text,
                      const HandDescription& hand,
                      const StreamLineOptions& options = {},
-                     std::size_t chunk = SIZE_MAX) {
+                     std::size_t chunk = SIZE_MAX,
+                     bool isCutOff = false) {
   StreamLineParser parser(StreamShape(hand), options);
   FormReading reading;
+  const auto sink = [&](const StreamItem& item) {
+    reading.frames.emplace_back(item.values.begin(), item.values.end());
+    reading.timesUs.push_back(item.deviceUs);
+  };
   const auto bytes = std::as_bytes(std::span(text));
   for (std::size_t at = 0; at < bytes.size(); at += std::min(chunk, bytes.size() - at))
-    parser.push(bytes.subspan(at, std::min(chunk, bytes.size() - at)), [&](const StreamItem& item) {
-      reading.frames.emplace_back(item.values.begin(), item.values.end());
-      reading.timesUs.push_back(item.deviceUs);
-    });
+    parser.push(bytes.subspan(at, std::min(chunk, bytes.size() - at)), sink);
+  if (isCutOff) parser.cutOff(sink);
   reading.stats = parser.stats();
   reading.fault = parser.lastFault();
   reading.outOfRange = parser.lastOutOfRange();
   reading.guess = parser.guess();
+  reading.labelNotes = parser.labelNotes();
   EXPECT_EQ(reading.stats.lineBytes + reading.stats.skippedBytes + parser.pendingBytes(),
             text.size());
   return reading;
+}
+
+// As the program reads the labels.
+StreamLineOptions withLabels(const HandDescription& hand, bool startsInside = false) {
+  return {.startsInside = startsInside, .placesOfLabels = std::bind_front(placesOfLabels, hand)};
 }
 
 // Two matrices of 2 x 2, "left" and "right".
@@ -193,11 +204,54 @@ TEST(StreamLineForms, LabelsOfARunningSenderAreOrderedByTheirNumbers) {
   std::string text = "half\n";
   for (int value = 3; value < 36; ++value)
     text += "A" + std::to_string(value % 12) + ":" + std::to_string(value) + "\n";
-  const FormReading reading = readForm(text, padHand({{3, 4}}), {.startsInside = true});
+  const HandDescription hand = padHand({{3, 4}});
+  const FormReading reading = readForm(text, hand, withLabels(hand, true));
   ASSERT_EQ(reading.frames.size(), 1u) << reading.fault;
   EXPECT_EQ(reading.frames[0], (Values{24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35}));
-  EXPECT_EQ(readForm("half\nb:1\nc:2\na:3\nb:4\n", padHand({{1, 3}}), {.startsInside = true}).fault,
+  const HandDescription small = padHand({{1, 3}});
+  EXPECT_EQ(readForm("half\nb:1\nc:2\na:3\nb:4\n", small, withLabels(small, true)).fault,
             "line 5: the order of the values is not known: send all of a frame in one line");
+}
+
+// stranger S2: they were taken in the order of the first frame.
+TEST(StreamLineForms, LabelsSayWhichTaxelTheyAre) {
+  const HandDescription hand = padHand({{2, 3}});
+  for (const char* text : {"p5:5 p4:4 p3:3 p2:2 p1:1 p0:0\np0:10 p1:11 p2:12 p3:13 p4:14 p5:15\n",
+                           "x0y0:0 x0y1:3 x1y0:1 x1y1:4 x2y0:2 x2y1:5\n"
+                           "x0y0:10 x0y1:13 x1y0:11 x1y1:14 x2y0:12 x2y1:15\n",
+                           "p5:5\np4:4\np3:3\np2:2\np1:1\np0:0\n"
+                           "p5:15\np4:14\np3:13\np2:12\np1:11\np0:10\n"}) {
+    const FormReading reading = readForm(text, hand, withLabels(hand));
+    EXPECT_EQ(reading.frames, kTwoFrames) << text << reading.fault;
+    EXPECT_EQ(reading.labelNotes, std::vector<std::string>{});
+  }
+  const FormReading pads =
+      readForm("right0:5 right1:6 right2:7 right3:8 left0:1 left1:2 left2:3 left3:4\n",
+               twoPads(),
+               withLabels(twoPads()));
+  EXPECT_EQ(pads.frames, (std::vector<Values>{{1, 2, 3, 4, 5, 6, 7, 8}}));
+  const HandDescription three = padHand({{1, 3}});
+  const FormReading named = readForm("c:1,a:2,b:3\n", three, withLabels(three));
+  EXPECT_EQ(named.frames, (std::vector<Values>{{1, 2, 3}}));
+  ASSERT_EQ(named.labelNotes.size(), 1u);
+  EXPECT_NE(named.labelNotes[0].find("are taken in the order of the first frame"),
+            std::string::npos);
+}
+
+// stranger S9: "145" without its last digit was recorded as 14.
+TEST(StreamLineForms, ALineThatIsCutOffIsRefused) {
+  const FormReading cut =
+      readForm("0,1,2,3,4,5\n10,11,12,13,14,1", padHand({{2, 3}}), {}, SIZE_MAX, true);
+  EXPECT_EQ(cut.frames, std::vector<Values>{kTwoFrames[0]});
+  EXPECT_EQ(cut.stats.refused, 1u);
+  EXPECT_EQ(cut.fault, "line 2: the last line has no end: its last number may be cut off");
+  for (const char* whole : {"0,1,2,3,4,5\n[10,11,12,13,14,15]",
+                            "0,1,2,3,4,5\n10,11,12,13,14,15\n",
+                            "0,1,2,3,4,5\n10,11,12,13,14,15\n# end"}) {
+    const FormReading reading = readForm(whole, padHand({{2, 3}}), {}, SIZE_MAX, true);
+    EXPECT_EQ(reading.frames, kTwoFrames) << whole;
+    EXPECT_EQ(reading.stats.refused, 0u) << whole << reading.fault;
+  }
 }
 
 // Each label of the second frame is looked up: none stands where it stood in the first one.
@@ -234,6 +288,8 @@ TEST(StreamLineForms, WrongLabelsAreNamed) {
   EXPECT_EQ(faultOf("a:1,b:2"), "line 2: 2 values with labels instead of 3");
   EXPECT_EQ(faultOf("a:1,b:x,c:3"), "line 2: the value of \"b\" is \"x\", not a number");
   EXPECT_EQ(faultOf("a:1,b:2,3"), "line 2: \"3\" has no label, as the other values have");
+  EXPECT_EQ(faultOf("angles slide:40,index:30"),
+            "line 2: \"angles\" are read without labels, in the order of the hand's");
 }
 
 TEST(StreamLineForms, ListsInBracketsAreNumbers) {

@@ -169,6 +169,19 @@ TEST(StreamPackets, AHalfPacketIsGivenUpAtTheEndOfItsDatagram) {
   EXPECT_EQ(reading.stats.skippedBytes, half.size());
 }
 
+// stranger S9: the last packet of an input went without a word.
+TEST(StreamPackets, APacketThatIsCutOffIsCounted) {
+  const Bytes packet = frameBytes(1, {1, 2, 3});
+  for (const std::size_t size : {std::size_t{2}, std::size_t{12}, packet.size() - 1}) {
+    const Bytes part(packet.begin(), packet.begin() + static_cast<std::ptrdiff_t>(size));
+    const Reading reading = readBytes(joined({packet, part}), padHand({{1, 3}}));
+    EXPECT_EQ(reading.items.size(), 1u);
+    EXPECT_EQ(reading.stats.badLengths, 1u) << size;
+    EXPECT_EQ(reading.fault, "packet 2: cut off: " + std::to_string(size) + " bytes of it came");
+  }
+  EXPECT_EQ(readBytes(joined({packet, packet}), padHand({{1, 3}})).stats.badLengths, 0u);
+}
+
 TEST(StreamPackets, NamesAWrongLength) {
   const Reading reading = readBytes(frameBytes(1, {1, 2, 3, 4}), padHand({{1, 3}}));
   EXPECT_EQ(reading.items.size(), 0u);

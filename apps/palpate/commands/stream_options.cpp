@@ -1,11 +1,13 @@
 #include "commands/stream_options.h"
 
 #include <cstdio>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/recording/label_places.h"
 
 #include "commands/hand_options.h"
 
@@ -62,6 +64,7 @@ std::unique_ptr<StreamDevice> streamSourceOf(const CommandLine& given) {
     throw UsageError("--time is for lines: the other forms say their time themselves");
   options.baud = static_cast<int>(given.integer("baud", 50, 10'000'000).value_or(options.baud));
   options.hand = handOf(given).value();
+  options.placesOfLabels = std::bind_front(placesOfLabels, options.hand);
   try {
     auto stream = std::make_unique<StreamDevice>(std::move(options));
     if (stream->isOpenToOthers())

@@ -34,6 +34,11 @@ enum class StreamTime {
   kMicroseconds,
 };
 
+// Which value of a frame each label stands for, by the labels and, where they don't say it, by
+// their order; nothing when they fit no frame. Adds what was guessed to `notes`.
+using PlacesOfLabels = std::function<std::vector<std::size_t>(
+    const std::vector<std::string>& labels, std::vector<std::string>& notes)>;
+
 struct StreamLineOptions {
   StreamTime time = StreamTime::kAuto;
   bool acceptNumbers = true;  // lines of numbers
@@ -41,6 +46,8 @@ struct StreamLineOptions {
   // True when the first line may lack its beginning, as on a serial port whose sender is running.
   // It is not used then, because a number could lack its first digits.
   bool startsInside = false;
+  // Of values with labels; empty: the order of the first frame says it.
+  PlacesOfLabels placesOfLabels = {};
 };
 
 // Every byte that was pushed is in exactly one of lineBytes, skippedBytes and pendingBytes().
@@ -66,6 +73,9 @@ class StreamLineParser {
   void push(std::span<const std::byte> bytes, const Sink& sink);
   // Takes what is pending as a line, at the end of a datagram or of the input.
   void endLine(const Sink& sink);
+  // The same where more may have followed, at the end of a connection: a line of numbers without
+  // its end is refused, since the last one may lack digits.
+  void cutOff(const Sink& sink);
   const StreamLineStats& stats() const noexcept { return stats_; }
   std::size_t pendingBytes() const noexcept { return pending_.size(); }
   // What is wrong with the last refused line, and which it is: "line 812: 255 numbers instead of
@@ -75,6 +85,8 @@ class StreamLineParser {
   const std::string& lastOutOfRange() const noexcept { return lastOutOfRange_; }
   // What the first number of a line was taken for with StreamTime::kAuto; empty: nothing yet.
   const std::string& guess() const noexcept { return guess_; }
+  // What was guessed of the places of labels; empty: nothing yet.
+  const std::vector<std::string>& labelNotes() const noexcept { return labelNotes_; }
   // Longest line that is read [bytes], enough for the hand's values with 25 characters each.
   std::size_t longestLine() const noexcept { return longestLine_; }
 
@@ -127,6 +139,7 @@ class StreamLineParser {
   void readLabelled(std::string_view line, const Sink& sink);
   bool readPairs(std::string_view line);
   bool learnLabels(bool mayBeInside);
+  bool findPlacesOfLabels();
   void takeLabelled(std::size_t from, StreamItem& item, const Sink& sink);
   void takeLabel(std::string_view label, double value, const Sink& sink);
   bool endsFirstLabels(std::string_view label, const Sink& sink);
@@ -182,8 +195,11 @@ class StreamLineParser {
   std::string separator_;       // the word between two frames; empty: none came
   bool separatorSure_ = false;  // it also came behind a row
   std::string otherWord_;       // the last other one
-  // Labels in the order of the values, and those of the present line.
+  // Labels in the order in which they come, the value of a frame that each stands for, and those of
+  // the present line.
   std::vector<std::string> labels_;
+  std::vector<std::size_t> valueOf_;
+  std::vector<std::string> labelNotes_;
   std::map<std::string, std::size_t, std::less<>> placeOf_;
   bool labelsLearned_ = false;
   std::vector<std::string_view> lineLabels_;

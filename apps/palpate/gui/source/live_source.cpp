@@ -1,5 +1,7 @@
 #include "gui/source/live_source.h"
 
+#include <functional>
+
 #include <palpate/calibration/force_series.h>
 #include <palpate/capture/replay.h>
 #include <palpate/core/error.h>
@@ -8,6 +10,7 @@
 #include <palpate/emulator/scene.h>
 #include <palpate/live/signals_stage.h>
 #include <palpate/model/hand_file.h>
+#include <palpate/recording/label_places.h>
 #include <palpate/recording/recording.h>
 
 #include "gui/source/recording_opener.h"
@@ -29,6 +32,7 @@ std::unique_ptr<Device> streamOf(const StreamConnection& stream,
   StreamDeviceOptions options;
   options.source = stream.source.toStdString();
   options.hand = findHand(stream.hand.toStdString(), handFolders(dataFolder));
+  options.placesOfLabels = std::bind_front(placesOfLabels, options.hand);
   options.format = stream.format;
   options.time = stream.time;
   options.baud = stream.baud;
