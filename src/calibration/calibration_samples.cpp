@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
 
 namespace palpate {
@@ -30,6 +31,7 @@ void gatherRow(const PressureTableRow& row,
     if (*all.matrix >= numMatrices)
       throw Error(file.string() + ": has no matrix " + std::to_string(*all.matrix) + ", only 0.." +
                   std::to_string(numMatrices - 1));
+    all.taxelAreaMm2 = source.profile.layout().matrix(*all.matrix).taxelAreaMm2();
     if (all.hand.empty()) {
       all.hand = source.profile.hand().name;
       all.serial = source.profile.info().serial;
@@ -42,6 +44,31 @@ void gatherRow(const PressureTableRow& row,
   } catch (const Error& error) {
     all.samples.push_back(unusedSample(row, error.what()));
   }
+}
+
+// Says which other row gives the file of this one another pressure; empty: none.
+std::string contradictionOf(const PressureTableRow& row, std::span<const PressureTableRow> rows) {
+  for (const PressureTableRow& other : rows)
+    if (row.problem.empty() && other.problem.empty() && other.file == row.file &&
+        other.pressureKpa != row.pressureKpa)
+      return "line " + std::to_string(row.line) + " says " + numberText(row.pressureKpa) +
+             " kPa, line " + std::to_string(other.line) + " " + numberText(other.pressureKpa) +
+             " kPa: a recording has one pressure";
+  return {};
+}
+
+void requirePossibleArea(const CalibrationSteps& gathered, double areaMm2) {
+  if (!(areaMm2 > 0.0)) return;
+  double active = 0.0;
+  for (const PressureSample& sample : gathered.samples)
+    if (sample.used) active = std::max(active, sample.activeAreaMm2);
+  const std::string area =
+      "the area of the indenter (--area), " + fixedText(areaMm2, 2) + " mm^2, is ";
+  if (areaMm2 < gathered.taxelAreaMm2)
+    throw Error(area + "less than one taxel, " + fixedText(gathered.taxelAreaMm2, 2) + " mm^2");
+  if (active > 0.0 && areaMm2 > active + gathered.taxelAreaMm2)
+    throw Error(area + "more than was loaded: at most " + fixedText(active, 2) +
+                " mm^2 of taxels were active");
 }
 
 }  // namespace
@@ -78,12 +105,16 @@ CalibrationSteps collectCalibrationSteps(std::span<const PressureTableRow> rows,
       return !progress || progress((done + fraction) / count);
     };
     if (!part(0.0)) throw Cancelled();
-    gatherRow(rows[i], folder, open, options, part, all);
+    if (const std::string why = contradictionOf(rows[i], rows); !why.empty())
+      all.samples.push_back(unusedSample(rows[i], why));
+    else
+      gatherRow(rows[i], folder, open, options, part, all);
   }
   return all;
 }
 
 Calibration calibrationOf(const CalibrationSteps& gathered, const PressureModelOptions& options) {
+  requirePossibleArea(gathered, options.indenterAreaMm2);
   Calibration calibration;
   calibration.hand = gathered.hand;
   calibration.serial = gathered.serial;

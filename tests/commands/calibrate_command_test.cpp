@@ -358,6 +358,44 @@ TEST(CalibrateCommand, PressureSaysWhichRowsAreLeftOut) {
   expectOneLineError(palpate({"calibrate", "pressure", folder / "bad.csv"}), 1, {"pressure_kpa"});
 }
 
+// stranger S14: 12 taxels of 11.56 mm^2 are active, 138.72 mm^2.
+TEST(CalibrateCommand, TheAreaOfTheIndenterIsOneThatWasLoaded) {
+  const TemporaryFolder folder;
+  writeTable(folder);
+  const auto make = [&](const char* area) {
+    return palpate({"calibrate",
+                    "pressure",
+                    folder / "table.csv",
+                    "--area",
+                    area,
+                    "--force",
+                    "-o",
+                    folder / "c.json",
+                    "--quiet"});
+  };
+  expectOneLineError(make("1.5"), 1, {"(--area), 1.50 mm^2, is less than one taxel, 11.56 mm^2"});
+  expectOneLineError(make("160"), 1, {"160.00 mm^2, is more than was loaded: at most 138.72 mm^2"});
+  ASSERT_EQ(make("138.72").exitCode, 0);
+  const auto applied = palpate(
+      {"calibrate", "apply", folder / "step4.dsa", "--calibration", folder / "c.json", "--quiet"});
+  EXPECT_EQ(applied.err.find("is not known"), std::string::npos) << applied.err;
+  const std::string row = applied.out.substr(applied.out.find("\n349,") + 1);
+  EXPECT_EQ(row.find(",,"), std::string::npos) << "the force is known: " << row;
+}
+
+// stranger S14.
+TEST(CalibrateCommand, ARecordingHasOnePressure) {
+  const TemporaryFolder folder;
+  writeTable(folder);
+  testing::writeFile(folder / "table.csv",
+                     testing::readFile(folder / "table.csv") + "step0.dsa,80\n");
+  const auto result = palpate({"calibrate", "pressure", folder / "table.csv", "--quiet"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.err.find("kPa, line 11 80 kPa: a recording has one pressure"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(Json::parse(result.out).at("K").at("points").asInteger(), 8);
+}
+
 TEST(CalibrateCommand, TareIsNotedAppliedAndTakenAway) {
   const TemporaryFolder folder;
   for (const char* name : {"a.dsa", "a.palpate"}) {

@@ -43,12 +43,14 @@ struct CalibrationSteps {
   std::vector<PressureSample> samples;
   std::vector<StepReport> reports;  // of the readable recordings
   std::optional<std::size_t> matrix;
-  std::string hand;    // HandDescription::name in the first of them
-  std::string serial;  // ProfileInfo::serial in the first of them; may be empty
+  std::string hand;           // HandDescription::name in the first of them
+  std::string serial;         // ProfileInfo::serial in the first of them; may be empty
+  double taxelAreaMm2 = 0.0;  // of the matrix
   std::size_t numUnused() const;
 };
 
-// Files of the rows are relative to `folder`. Throws Cancelled, and std::invalid_argument
+// Files of the rows are relative to `folder`; rows that give one file different pressures are left
+// out. Throws Cancelled, and std::invalid_argument
 // (options).
 CalibrationSteps collectCalibrationSteps(std::span<const PressureTableRow> rows,
                                          const std::filesystem::path& folder,
@@ -57,7 +59,8 @@ CalibrationSteps collectCalibrationSteps(std::span<const PressureTableRow> rows,
                                          const Progress& progress = {});
 
 // Makes a calibration with model, hand, matrix and samples. The caller adds program version, time,
-// options and settings. Throws std::invalid_argument (options).
+// options and settings. Throws std::invalid_argument (options), and Error: the area of the indenter
+// is less than one taxel, or larger than the active area of every step by more than one.
 Calibration calibrationOf(const CalibrationSteps& gathered,
                           const PressureModelOptions& options = {});
 

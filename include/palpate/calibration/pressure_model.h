@@ -77,7 +77,9 @@ struct PressureModel {
 
   bool valid() const noexcept { return gain.valid; }
   // Whether the loaded area is known. Without it areaFraction is 1, and forces are upper limits.
-  bool knowsArea() const noexcept { return areaFraction != 1.0 || areaFractionSd > 0.0; }
+  bool knowsArea() const noexcept {
+    return options.indenterAreaMm2 > 0.0 || areaFraction != 1.0 || areaFractionSd > 0.0;
+  }
   // Returns the pressure for a contact's K [counts]. Without a temperature it uses that of the
   // options, with a larger standard deviation. NaN when the model is not valid.
   PressureEstimate pressureAt(double staticResponseCounts, std::optional<double> degC) const;
