@@ -56,6 +56,30 @@ TEST_F(LabelsCommandTest, OfAFolderTheTableNamesTheFiles) {
   EXPECT_NE(printed.out.find("slipped,," + path_.string()), std::string::npos) << printed.out;
 }
 
+// stranger S4: the labels of all files were added to one.
+TEST_F(LabelsCommandTest, TakesTheRowsOfItsFileOnly) {
+  const fs::path other = folder_ / "other.palpate";
+  const fs::path table = folder_ / "labels.csv";
+  saveRecording(synthesize({.durationS = 10.0, .grasps = 1}), {}, other);
+  const auto import = [&](const fs::path& file) {
+    return palpate({"labels", file, "--import", table});
+  };
+  testing::writeFile(table,
+                     "begin_s,text,file\n1,mine," + other.string() + "\n2,theirs," +
+                         path_.string() + "\n3,moved,/gone/other.palpate\n");
+  const auto added = import(other);
+  EXPECT_EQ(added.exitCode, 0) << added.err;
+  EXPECT_NE(added.out.find("2 labels added; 1 row of other recordings not taken"),
+            std::string::npos)
+      << added.out;
+  const std::string labels = palpate({"labels", other}).out;
+  EXPECT_NE(labels.find("mine"), std::string::npos) << labels;
+  EXPECT_NE(labels.find("moved"), std::string::npos) << labels;
+  EXPECT_EQ(labels.find("theirs"), std::string::npos) << labels;
+  testing::writeFile(table, "begin_s,text,file\n1,theirs," + path_.string() + "\n");
+  expectOneLineError(import(other), 1, {"its column file names other recordings in each row"});
+}
+
 TEST_F(LabelsCommandTest, NamesBadRowsByTheirLine) {
   const fs::path table = folder_ / "labels.csv";
   testing::writeFile(table, "begin_s,text\n4,good\n400,late\n");

@@ -83,6 +83,34 @@ TEST(LabelTable, NamesBadRowsByTheirLine) {
   EXPECT_EQ(table.problems[7], "line 11: a quote is never closed");
 }
 
+// stranger S15, B12.
+TEST(LabelTable, TakesNamesAsAPersonWritesThemAndUtf8Only) {
+  const Profile profile = tenSeconds();
+  const LabelTable table = readLabelTable(
+      "Begin_S, End_S, Text, Matrix\n1, 2, grasp, 1\n3, 4, gr\xF6\xDF, 0\n5, 6, a b, " +
+          profile.hand().matrices[2].name + "\n7, 8, c, palm\n",
+      profile);
+  ASSERT_EQ(table.events.size(), 2u);
+  EXPECT_EQ(table.events[0].text, "grasp");
+  EXPECT_EQ(table.events[0].matrix, 1);
+  EXPECT_EQ(table.events[1].text, "a b");
+  EXPECT_EQ(table.events[1].matrix, 2);
+  ASSERT_EQ(table.problems.size(), 2u);
+  EXPECT_EQ(table.problems[0], "line 3: its text is not UTF-8: save the table as UTF-8");
+  EXPECT_EQ(table.problems[1],
+            "line 5: matrix 'palm' is none of 0..5, and no matrix has this name");
+  for (const std::string_view utf16 : {std::string_view("\xFF\xFE"
+                                                        "b\0",
+                                                        4),
+                                       std::string_view("\0b\0e", 4)})
+    try {
+      readLabelTable(utf16, profile);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_STREQ(error.what(), "is a text in UTF-16; save it as UTF-8");
+    }
+}
+
 TEST(LabelTable, ReadingEndsAtTheFirstLabelTooManyAndAtAHundredProblems) {
   const Profile profile = tenSeconds();
   std::string csv = "begin_s,text\n";

@@ -32,7 +32,7 @@ int importLabels(const CommandLine& given, const std::string& file, const std::s
   const EventsReport present = readEvents(file);
   const LabelTable table = [&] {
     try {
-      return readLabelTable(csv, profile);
+      return readLabelTable(csv, profile, file);
     } catch (const Error& error) {
       throw FormatError(from, error.what());
     }
@@ -47,7 +47,10 @@ int importLabels(const CommandLine& given, const std::string& file, const std::s
   if (!given.quiet())
     std::printf("%s\n",
                 (file + ": " + counted(added.size(), "label") + " added" +
-                 (known > 0 ? ", " + std::to_string(known) + " were there already" : ""))
+                 (known > 0 ? ", " + std::to_string(known) + " were there already" : "") +
+                 (table.numOthers > 0
+                      ? "; " + counted(table.numOthers, "row") + " of other recordings not taken"
+                      : ""))
                     .c_str());
   for (const std::string& problem : table.problems) sayLabels(from + ": " + problem);
   if (table.more) sayLabels(from + ": has more wrong rows; the rest was not read");
@@ -67,7 +70,8 @@ int labelsCommand(const Arguments& words) {
            "recordings a last column names the file.\n\nWith --import the labels of such a table "
            "are added to FILE, which keeps its own; a label that FILE already has isn't added "
            "again. Columns may stand in any order. begin_s and text are required; a row without "
-           "end_s is a moment, a row without kind is a label. Wrong rows are left out and named by "
+           "end_s is a moment, a row without kind is a label. Where a column names the file, only "
+           "the rows of FILE are added. Wrong rows are left out and named by "
            "their line number; then the exit code is 3, or 1 if all rows are wrong.",
        .options = {{"import", "LABELS.csv", "add the labels of this table to FILE"}},
        .example = "palpate labels recordings > labels.csv",

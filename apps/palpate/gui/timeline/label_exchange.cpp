@@ -39,10 +39,10 @@ QString countsOf(const std::vector<RecordingEvent>& events) {
 }
 
 // Throws Error with one line for the user, which names the file.
-LabelTable tableIn(const QString& path, const Profile& profile) {
+LabelTable tableIn(const QString& path, const OpenedRecording& recording) {
   const std::string text = readTextFile(path.toStdString(), kMaxLabelTableBytes);
   try {
-    return readLabelTable(text, profile);
+    return readLabelTable(text, recording.profile, recording.path);
   } catch (const Error& error) {
     throw FormatError(path.toStdString(), error.what());
   }
@@ -126,7 +126,7 @@ void LabelExchange::importLabels() {
   windowState_.messages.withdraw(kImportTopic);
   reading_.start(
       [this, path, recording, editor = QPointer(editor)]() -> FileReading::Take {
-        return [this, path, editor, table = tableIn(path, recording->profile)] {
+        return [this, path, editor, table = tableIn(path, *recording)] {
           if (editor) return take(table, path, *editor);
           windowState_.messages.flash(QFileInfo(path).fileName() +
                                       ": no labels added, the recording was closed");
@@ -143,6 +143,8 @@ void LabelExchange::take(const LabelTable& table, const QString& path, EventEdit
   QString said = QFileInfo(path).fileName() + ": " + countsOf(added) + " added";
   if (known > 0)
     said += ", " + QString::number(known) + (known == 1 ? " was" : " were") + " there already";
+  if (table.numOthers > 0)
+    said += "; " + QString::number(table.numOthers) + " of other recordings not taken";
   if (table.problems.empty()) return windowState_.messages.flash(said);
   QStringList problems;
   for (const std::string& problem : table.problems) {
