@@ -230,6 +230,153 @@ TEST(ImportForms, AMovieOfTekscanHasItsRate) {
   EXPECT_EQ(made.report.notes[0], "time: the file gives a rate of 100 Hz");
 }
 
+// stranger S10: later frames were one period too early.
+TEST(ImportForms, AHoleInTheNumbersOfFramesIsLoss) {
+  const TemporaryFolder folder;
+  std::string movie = "DATA_TYPE MOVIE\nROWS 2\nCOLS 3\nSECONDS_PER_FRAME 0.05\nASCII_DATA @@\n\n";
+  std::string counted = "frame,p0,p1,p2,p3,p4,p5\n";
+  std::string unnamed, timed = "seq,t_ms,p0,p1,p2,p3,p4,p5\n";
+  for (const char* number : {"1", "2", "3", "4", "6", "7", "8", "9"}) {
+    const std::string values = std::string(number) + ",1,2,3,4,5\n";
+    movie += std::string("Frame ") + number + "\n" + number + ",1,2\n3,4,5\n\n";
+    counted += std::string(number) + "," + values;
+    unnamed += std::string(number) + "," + values;
+    timed += std::string(number) + "," + number + "0," + values;
+  }
+  ImportMapping at20Hz;
+  at20Hz.time.rateHz = 20.0;
+  for (const auto& [text, mapping, periodUs] :
+       std::vector<std::tuple<std::string, ImportMapping, std::int64_t>>{{movie, {}, 50'000},
+                                                                         {counted, at20Hz, 50'000},
+                                                                         {unnamed, at20Hz, 50'000},
+                                                                         {timed, {}, 10'000}}) {
+    const auto made = importText(folder, text, pad(2, 3), mapping);
+    ASSERT_EQ(made.report.frames, 8u) << text << made.report.refused.first;
+    EXPECT_EQ(made.report.missingFrames, 1u) << text;
+    EXPECT_TRUE(made.report.isPartial());
+    EXPECT_NE(made.report.lossText().find("1 frame is missing by the numbers in the file"),
+              std::string::npos)
+        << made.report.lossText();
+    EXPECT_EQ(made.profile.frameTimeUs(3) - made.profile.frameTimeUs(0), 3 * periodUs) << text;
+    EXPECT_EQ(made.profile.frameTimeUs(4) - made.profile.frameTimeUs(0), 5 * periodUs) << text;
+    EXPECT_EQ(made.profile.frame(4).values, (std::vector<float>{6, 1, 2, 3, 4, 5}));
+  }
+  // A line that is refused is no second loss; numbers that start anew are none at all.
+  const std::string damaged =
+      "frame,p0,p1\n1,1,1\n2,1,1\n3,1,1\n4,1\n5,1,1\n1,1,1\n2,1,1\n3,1,1\n4,1,1\n5,1,1\n";
+  const auto made = importText(folder, damaged, pad(1, 2), at20Hz);
+  EXPECT_EQ(made.report.missingFrames, 0u);
+  EXPECT_EQ(made.report.refused.wrongCount, 1u);
+  EXPECT_EQ(made.profile.frameTimeUs(3), 200'000);
+  EXPECT_EQ(made.profile.frameTimeUs(8), 450'000);
+}
+
+// stranger B10.
+TEST(ImportForms, AMovieOfTekscanMayHaveBlockedCellsAndAnotherShape) {
+  const TemporaryFolder folder;
+  std::string text = "DATA_TYPE MOVIE\nROWS 2\nCOLS 3\nSECONDS_PER_FRAME 0.05\nASCII_DATA @@\n\n";
+  for (const char* number : {"1", "2", "3"})
+    text += std::string("Frame ") + number + "\n1,B,3\n4,5," + number + "\n\n";
+  const auto made = importText(folder, text, pad(2, 3));
+  ASSERT_EQ(made.report.frames, 3u) << made.report.refused.first;
+  EXPECT_EQ(made.profile.frame(2).values, (std::vector<float>{1, 0, 3, 4, 5, 3}));
+  EXPECT_NE(made.report.notes[1].find("blocked cells (B) are read as 0"), std::string::npos);
+  const std::string what = testing::errorOf([&] { importText(folder, text, pad(3, 2)); });
+  EXPECT_NE(what.find("; its head says 2 rows x 3 columns"), std::string::npos) << what;
+}
+
+// stranger S12: `info` of the recording told of it.
+TEST(ImportForms, AGapAfterTheFirstFrameIsCounted) {
+  const TemporaryFolder folder;
+  std::string text = "t_ms,p0,p1\n0,1,2\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(100'000 + 10 * i) + ",1,2\n";
+  const auto made = importText(folder, text, pad(1, 2));
+  EXPECT_EQ(made.report.gaps, 1u);
+  EXPECT_EQ(made.report.longestGapS, 100.0);
+  EXPECT_EQ(importText(folder, text.substr(0, text.find("100000")), pad(1, 2)).report.gaps, 0u);
+}
+
+// stranger B3, S16.
+TEST(ImportForms, UnitsOfTime) {
+  const TemporaryFolder folder;
+  const auto lengthUs = [&](const std::string& head, const std::string& rows) {
+    const auto made = importText(folder, head + ",p0,p1\n" + rows, pad(1, 2));
+    EXPECT_EQ(made.report.refused.total(), 0u) << made.report.refused.first;
+    return made.profile.frameTimeUs(made.report.frames - 1) - made.profile.frameTimeUs(0);
+  };
+  const std::string rows = "0.0,1,2\n0.5,3,4\n1.5,5,6\n";
+  EXPECT_EQ(lengthUs("time [min]", rows), 90'000'000);
+  EXPECT_EQ(lengthUs("elapsed (h)", rows), 5'400'000'000);
+  EXPECT_EQ(lengthUs("time_min", rows), 90'000'000);
+  EXPECT_EQ(lengthUs("time [hours]", "1,1,2\n2,3,4\n3,5,6\n"), 7'200'000'000);
+  const std::string parts = "1700000000,900,1,2\n1700000000,950,3,4\n1700000001,0,5,6\n";
+  EXPECT_EQ(lengthUs("sec,ms", parts), 100'000);
+  ImportMapping joined;
+  joined.time.column = "sec,ms";
+  EXPECT_EQ(importText(folder, "sec,ms,p0,p1\n" + parts, pad(1, 2), joined).report.frames, 3u);
+  const auto refusal = [&](const std::string& head, const ImportMapping& mapping = {}) {
+    return testing::errorOf(
+        [&] { importText(folder, head + ",p0,p1\n" + rows, pad(1, 2), mapping); });
+  };
+  const std::string unknown = refusal("time [fortnight]");
+  EXPECT_NE(unknown.find("the unit \"fortnight\" of \"time [fortnight]\" is not known; name it by "
+                         "--time-unit (s, ms, us, ns, min, h)"),
+            std::string::npos)
+      << unknown;
+  ImportMapping minutes;
+  minutes.time.unit = "min";
+  EXPECT_EQ(refusal("time [fortnight]", minutes), "");
+}
+
+// stranger B2, B6, B7.
+TEST(ImportForms, TimesThatCanNotBeReadSayWhy) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& name,
+                           std::initializer_list<const char*> times,
+                           const ImportMapping& mapping = {}) {
+    std::string text = name + ",p0,p1\n";
+    for (const char* time : times) text += std::string(time) + ",1,2\n";
+    return testing::errorOf([&] { importText(folder, text, pad(1, 2), mapping); });
+  };
+  ImportMapping chosen;
+  chosen.time.column = "when";
+  for (const std::string& what : {refusal("time", {"27 Nov 2026 10:00:00", "27 Nov 2026 10:00:01"}),
+                                  refusal("elapsed", {"0:59.95", "1:00.00"}),
+                                  refusal("TimeStamp", {"0.05s", "0.10s"}),
+                                  refusal("when", {"10:00:00:050", "10:00:00:060"}, chosen)})
+    EXPECT_NE(what.find(", which is no time that is read: numbers, 2026-11-22T10:31:05.123Z"),
+              std::string::npos)
+        << what;
+  const std::string large = refusal("time_s", {"1700000000000", "1700000000050"});
+  EXPECT_NE(large.find("the time 1700000000000 is too large for s; is it in ms (--time-unit)?"),
+            std::string::npos)
+      << large;
+  const std::string falling = refusal("time_s", {"0.3", "0.2", "0.1"});
+  EXPECT_NE(falling.find("time: it descends from row to row; sort the file by time"),
+            std::string::npos)
+      << falling;
+}
+
+// stranger B8, B9.
+TEST(ImportForms, WhatIsNoTableNamesTheFormsThatAreRead) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    return testing::errorOf([&] { importText(folder, text, pad(1, 2)); });
+  };
+  const std::string array = refusal("[\n {\n  \"t\": 0.0,\n  \"pad\": [1, 2]\n }\n]\n");
+  EXPECT_NE(array.find("is JSON over several lines; save an object in each line"),
+            std::string::npos)
+      << array;
+  const std::string columns = refusal("{\"time\": [0, 1, 2], \"pad\": [[1, 2], [3, 4], [5, 6]]}\n");
+  EXPECT_NE(columns.find("JSON is read as an object or a list in each line, one for each frame"),
+            std::string::npos)
+      << columns;
+  const std::string pipes = refusal("time|p0|p1\n0|1|2\n1|3|4\n");
+  EXPECT_NE(pipes.find("(cells are separated by commas, semicolons, tabs or blanks)"),
+            std::string::npos)
+      << pipes;
+}
+
 // imports 20.
 TEST(ImportForms, ListsInCellsAndInLines) {
   const TemporaryFolder folder;

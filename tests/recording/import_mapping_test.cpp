@@ -60,7 +60,7 @@ TEST(ImportMapping, RefusesWhatMakesNoSenseWithItsPlace) {
   };
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"("colour": 1)", "unknown key \"colour\""},
-      {R"("time": {"unit": "hours"})", "time.unit is not s, ms"},
+      {R"("time": {"unit": "weeks"})", "time.unit is not s, ms"},
       {R"("time": {"rate_hz": 0})", "time.rate_hz"},
       {R"("time": {"rate_hz": "fast"})", "time.rate_hz is not a number"},
       {R"("time": {"start": "yesterday"})", "time.start is not a date"},

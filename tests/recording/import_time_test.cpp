@@ -92,7 +92,9 @@ TEST(ImportTime, UnitsAreTheWordsOfHeaders) {
   EXPECT_EQ(timeUnitNamed("micros"), TimeUnit::kMicroseconds);
   EXPECT_EQ(timeUnitNamed("\xC2\xB5s"), TimeUnit::kMicroseconds);
   EXPECT_EQ(timeUnitNamed("ns"), TimeUnit::kNanoseconds);
-  EXPECT_EQ(timeUnitNamed("hours"), std::nullopt);
+  EXPECT_EQ(timeUnitNamed("min"), TimeUnit::kMinutes);
+  EXPECT_EQ(timeUnitNamed("hours"), TimeUnit::kHours);
+  EXPECT_EQ(timeUnitNamed("weeks"), std::nullopt);
   for (const TimeUnit unit : {TimeUnit::kSeconds, TimeUnit::kNanoseconds, TimeUnit::kDate})
     EXPECT_EQ(timeUnitNamed(nameOf(unit)), unit);
 }
@@ -116,6 +118,11 @@ TEST(ImportTime, WholeNumbersAreConvertedExactly) {
   EXPECT_EQ(seconds.us(text("12")), 12'000'000);
   EXPECT_EQ(seconds.us(whole(INT64_MAX)), std::nullopt);
   EXPECT_EQ(seconds.us(text("abc")), std::nullopt);
+  TimeReader hours(TimeUnit::kHours, std::nullopt);
+  EXPECT_EQ(hours.us(whole(2)), 7'200'000'000);
+  EXPECT_EQ(hours.us(text("0.25")), 900'000'000);
+  TimeReader minutes(TimeUnit::kMinutes, std::nullopt);
+  EXPECT_EQ(minutes.us(whole(-2)), -120'000'000);
   TimeReader comma(TimeUnit::kSeconds, std::nullopt, ',');
   EXPECT_EQ(comma.us(text("0,25")), 250'000);
 }

@@ -48,7 +48,8 @@ ImportMapping importMappingOf(const CommandLine& given) {
     mapping.time.column = *column;
     mapping.time.rateHz.reset();
   }
-  if (const auto unit = given.choice("time-unit", {"s", "ms", "us", "ns", "iso", "dmy", "mdy"}))
+  if (const auto unit =
+          given.choice("time-unit", {"s", "ms", "us", "ns", "min", "h", "iso", "dmy", "mdy"}))
     mapping.time.unit = *unit;
   constexpr double kLowestRateHz = 1e-6;
   constexpr double kHighestRateHz = 1e6;
@@ -142,6 +143,7 @@ Json importJson(const fs::path& out, const ImportReport& report) {
       .set("mean_rate_hz", report.meanRateHz)
       .set("gaps", static_cast<std::int64_t>(report.gaps))
       .set("longest_gap_s", report.longestGapS)
+      .set("missing_frames", static_cast<std::int64_t>(report.missingFrames))
       .set("absent_frames", static_cast<std::int64_t>(report.absentFrames))
       .set("counter_restarts", static_cast<std::int64_t>(report.counterRestarts))
       .set("nul_bytes", static_cast<std::int64_t>(report.nulBytes.count))
@@ -184,39 +186,38 @@ int importCommand(const Arguments& words) {
                   "from 1), left*, m{m}[{y}][{x}] (matrix, row, column), table[0]..table[5]. Rows "
                   "that can't be used are left out and counted, and so are values outside of the "
                   "hand's range: exit code 3.",
-       .options = {handOption(),
-                   {"output,o", "OUT.palpate", "default: DATA with the ending .palpate"},
-                   {"map", "M.json", "the mapping of an earlier import; other options override it"},
-                   {"save-map", "M.json", "saves the mapping"},
-                   {"preview", "", "shows columns, first rows and the mapping; writes nothing"},
-                   {"json", "", "the report as JSON"},
-                   {"matrix",
-                    "[M=]COLUMNS",
-                    "the columns of matrix M, or of all matrices; may be repeated"},
-                   {"scale", "X", "of the matrices: value = number * X + offset"},
-                   {"offset", "X", "see --scale"},
-                   {"unit", "UNIT", "of the matrices, after scale and offset (kPa, Pa, N, ..)"},
-                   {"angles", "COLUMNS", "the joint angles, in the order of the axes, or none"},
-                   {"angle-unit", "UNIT", "deg or rad, mm or m"},
-                   {"temperatures",
-                    "COLUMNS",
-                    "the temperatures, in the order of the sensors, or none"},
-                   {"time",
-                    "COLUMN",
-                    "the times of the rows; DATE,CLOCK or S,NS: two columns; or a file with "
-                    "the times of the rows"},
-                   {"time-unit",
-                    "UNIT",
-                    "s, ms, us, ns or iso; dmy or mdy: dates with the day or month first"},
-                   {"rate", "HZ", "rows at equal intervals, where there are no times"},
-                   {"start",
-                    "DATE",
-                    "date of the first row (2026-11-22T10:31:05Z); the day of times of day"},
-                   {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
-                   {"decimal", "NAME", "point (default) or comma"},
-                   {"header", "WORD", "a line of names is present, absent or detect (default)"},
-                   {"strict", "", "the first row that can't be used, or has a NaN, is an error"},
-                   {"force", "", "replace OUT, and the file of --save-map"}},
+       .options =
+           {handOption(),
+            {"output,o", "OUT.palpate", "default: DATA with the ending .palpate"},
+            {"map", "M.json", "the mapping of an earlier import; other options override it"},
+            {"save-map", "M.json", "saves the mapping"},
+            {"preview", "", "shows columns, first rows and the mapping; writes nothing"},
+            {"json", "", "the report as JSON"},
+            {"matrix",
+             "[M=]COLUMNS",
+             "the columns of matrix M, or of all matrices; may be repeated"},
+            {"scale", "X", "of the matrices: value = number * X + offset"},
+            {"offset", "X", "see --scale"},
+            {"unit", "UNIT", "of the matrices, after scale and offset (kPa, Pa, N, ..)"},
+            {"angles", "COLUMNS", "the joint angles, in the order of the axes, or none"},
+            {"angle-unit", "UNIT", "deg or rad, mm or m"},
+            {"temperatures", "COLUMNS", "the temperatures, in the order of the sensors, or none"},
+            {"time",
+             "COLUMN",
+             "the times of the rows; DATE,CLOCK or S,NS (S,US, S,MS): two columns; or a file with "
+             "the times of the rows"},
+            {"time-unit",
+             "UNIT",
+             "s, ms, us, ns, min, h or iso; dmy or mdy: dates with the day or month first"},
+            {"rate", "HZ", "rows at equal intervals, where there are no times"},
+            {"start",
+             "DATE",
+             "date of the first row (2026-11-22T10:31:05Z); the day of times of day"},
+            {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
+            {"decimal", "NAME", "point (default) or comma"},
+            {"header", "WORD", "a line of names is present, absent or detect (default)"},
+            {"strict", "", "the first row that can't be used, or has a NaN, is an error"},
+            {"force", "", "replace OUT, and the file of --save-map"}},
        .example = "palpate import pad.csv --hand flat_pad_16x16 -o pad.palpate",
        .minArguments = 1,
        .maxArguments = 1},

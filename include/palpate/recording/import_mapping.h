@@ -39,8 +39,8 @@ struct TimeMapping {
   // Empty: found by name; "none": the rows have no time; two ("Date,Time"): joined. Or a file
   // beside the table, with a time for each of its rows.
   std::string column;
-  std::string
-      unit;  // s, ms, us, ns, iso, dmy, mdy; empty: that of the file, or guessed from the values
+  std::string unit;  // s, ms, us, ns, min, h, iso, dmy, mdy; empty: that of the file, or guessed
+                     // from the values
   std::optional<double> rateHz;         // rows at equal intervals; the file's time is not used
   std::optional<std::int64_t> startUs;  // host time of the first row [us since 1970]; empty: as in
                                         // the file, or 0 with a rate

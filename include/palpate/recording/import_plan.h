@@ -41,6 +41,8 @@ struct PlannedSeries {
   // Where the time is a number of the array columns.front(): which one of a row.
   std::optional<std::size_t> timeWithin;
   TimeUnit timeUnit = TimeUnit::kSeconds;
+  // Of frames: which one of `values` is their number, which has no target.
+  std::optional<std::size_t> number;
   // What was chosen, in words: "matrix 0 \"pad\": m0, kPa to counts, x 0.1".
   std::vector<std::string> description;
 };

@@ -15,6 +15,8 @@ enum class TimeUnit {
   kMilliseconds,
   kMicroseconds,
   kNanoseconds,
+  kMinutes,
+  kHours,
   kDate,        // of ISO 8601, or 22.11.2026
   kDayFirst,    // or 22/11/2026
   kMonthFirst,  // or 11/22/2026
@@ -22,8 +24,8 @@ enum class TimeUnit {
 };
 constexpr bool isDateUnit(TimeUnit unit) { return unit >= TimeUnit::kDate; }
 
-// "s", "ms", "us", "ns", "iso", "dmy", "mdy"; also the words that headers use ("seconds", "millis",
-// "msec").
+// "s", "ms", "us", "ns", "min", "h", "iso", "dmy", "mdy"; also the words that headers use
+// ("seconds", "millis", "msec").
 std::string_view nameOf(TimeUnit unit);
 std::optional<TimeUnit> timeUnitNamed(std::string_view name);
 

@@ -76,12 +76,17 @@ struct ImportReport {
   // Frames of a list of active taxels in which no taxel was active, so that the list does not hold
   // their times.
   std::uint64_t absentFrames = 0;
+  // Frames that are missing before others, by the numbers that the file gives them.
+  std::uint64_t missingFrames = 0;
+  std::string firstMissing;  // "2 frames before line 6"
   // How often a time counter of 32 bits started again at 0, or a time of day passed midnight.
   std::uint64_t counterRestarts = 0;
   std::vector<std::string> notes;  // of the plan, and of what was found in the rows
 
   // Whether something was left out, or values don't belong to the hand.
-  bool isPartial() const noexcept { return refused.total() + outside.total() + nulBytes.count > 0; }
+  bool isPartial() const noexcept {
+    return refused.total() + outside.total() + nulBytes.count + missingFrames > 0;
+  }
   // "4096 bytes 0 left out (a power cut?), from line 10"; empty without any.
   std::string nulText() const;
   // One line that says so, with the first of each; empty otherwise.

@@ -128,6 +128,8 @@ class TableSource {
   // number that stands alone before each frame is the first column. Returns in words what a frame
   // is; empty, and nothing is changed, when the lines don't come in such frames. Before start().
   virtual std::string joinLines(std::size_t /*count*/) { return {}; }
+  // What a message that no column fits should add: "; its head says 3 rows x 2 columns".
+  virtual std::string advice() const { return {}; }
   // The rate that the head of a file gives.
   virtual std::optional<double> rateHz() const { return std::nullopt; }
   // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.

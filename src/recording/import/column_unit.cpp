@@ -108,7 +108,8 @@ bool isUnitEnding(std::string_view text) {
   const KnownUnit* unit = knownUnit(text);
   if (text == "s") return true;
   if (unit && text.size() >= 2) return unit->quantity != Quantity::kCounts || text == "counts";
-  return !unit && timeUnitNamed(text) && !isDateUnit(*timeUnitNamed(text));
+  const auto time = timeUnitNamed(text);  // "_min" and "_h" are more often other words
+  return !unit && time && *time <= TimeUnit::kNanoseconds;
 }
 
 SplitName splitName(std::string_view name) {

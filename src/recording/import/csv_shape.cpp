@@ -525,6 +525,10 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
     }
   }
   if (kept.empty()) throw FormatError(path, "holds no row");
+  if (const std::string_view first = trimmed(kept.front()); first == "[" || first == "{")
+    throw FormatError(path,
+                      "is JSON over several lines; save an object in each line, one for each "
+                      "frame: {\"time\": 0.05, \"pad\": [1, 2, 3]}");
   const SampleLines sample = withoutStamps(std::move(kept));
   const bool isStamped = !sample.stamps.empty();
   if (options.delimiter == 0)
@@ -588,7 +592,10 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
   if (std::none_of(shape.columns.begin(), shape.columns.end(), [](const TableColumn& column) {
         return column.type == "number";
       }))
-    throw FormatError(path, "line " + std::to_string(numbers[0]) + ": holds no numbers: no table");
+    throw FormatError(path,
+                      "line " + std::to_string(numbers[0]) +
+                          ": holds no numbers: no table (cells are separated by commas, "
+                          "semicolons, tabs or blanks)");
   for (std::size_t c = 0; c < shape.columns.size(); ++c)
     if (shape.columns[c].name.empty()) shape.columns[c].name = "column " + std::to_string(c + 1);
   return shape;

@@ -17,6 +17,19 @@ constexpr std::size_t kCsvSampleLines = 200;
 constexpr std::size_t kCsvSampleBytes = 1u << 20;
 constexpr std::size_t kCsvSampleFewestLines = 8;  // also when they are very long
 
+constexpr std::string_view kMovieStart = "DATA_TYPE MOVIE";  // of Tekscan's ASCII export
+constexpr std::string_view kBlocked = "B";  // in a movie: a cell that was taken out
+
+// The number before a frame: one that stands alone, or behind the word "Frame"; empty: it is none.
+std::string_view numberBefore(std::string_view line, char decimal, bool& isFrame) {
+  constexpr std::string_view kWord = "frame";
+  isFrame = smallLetters(line.substr(0, kWord.size())) == kWord;
+  if (isFrame) line = trimmed(line.substr(kWord.size()), " \t:#=");
+  return (isFrame ? parseInteger(line).has_value() : cellNumber(line, decimal).has_value())
+             ? line
+             : std::string_view();
+}
+
 std::vector<std::string> firstLines(LineReader& reader) {
   std::vector<std::string> lines;
   std::size_t bytes = 0;
@@ -26,6 +39,11 @@ std::vector<std::string> firstLines(LineReader& reader) {
     lines.emplace_back(line);
     bytes += line.size();
   }
+  // A blocked cell is no name of a column.
+  if (std::find(lines.begin(), lines.end(), kMovieStart) != lines.end())
+    for (std::string& each : lines)
+      if (each.find_first_not_of("0123456789.,;B \t") == std::string::npos)
+        std::replace(each.begin(), each.end(), kBlocked[0], '0');
   reader.restart();
   return lines;
 }
@@ -37,14 +55,25 @@ CsvSource::CsvSource(const std::filesystem::path& path, const TableOptions& opti
   // The head of a movie of Tekscan.
   constexpr std::string_view kPeriod = "SECONDS_PER_FRAME";
   std::string_view line;
-  for (std::size_t i = 0; i < kCsvSampleLines && !rateHz_ && reader_.next(line); ++i)
+  for (std::size_t i = 0; i < kCsvSampleLines && !rateHz_ && reader_.next(line); ++i) {
+    isMovie_ = isMovie_ || line == kMovieStart;
+    if (isMovie_ && line.starts_with("ROWS ")) movieRows_ = trimmed(line.substr(5));
+    if (isMovie_ && line.starts_with("COLS ")) movieColumns_ = trimmed(line.substr(5));
     if (line.starts_with(kPeriod))
       if (const auto period = parseDouble(trimmed(line.substr(kPeriod.size())));
           period && *period > 0.0)
         rateHz_ = 1.0 / *period;
+  }
   reader_.restart();
   for (std::size_t c = 0; (shape_.labelled || shape_.nested) && c < shape_.columns.size(); ++c)
     labelled_.try_emplace(shape_.columns[c].name, c);
+}
+
+std::string CsvSource::advice() const {
+  if (shape_.nested && shape_.cellNames.empty())
+    return "; JSON is read as an object or a list in each line, one for each frame";
+  if (movieRows_.empty() || movieColumns_.empty()) return {};
+  return "; its head says " + movieRows_ + " rows x " + movieColumns_ + " columns";
 }
 
 std::string CsvSource::form() const {
@@ -134,7 +163,7 @@ std::optional<std::size_t> CsvSource::joinTimes(std::size_t first,
   joined.name += " + " + shape_.columns[second].name;
   joined.example += " " + shape_.columns[second].example;
   joined.isDayOnly = false;
-  if (factor != 0) joined.unit = factor == 1'000'000'000 ? "ns" : "us";
+  if (factor != 0) joined.unit = factor == 1000 ? "ms" : factor == 1'000'000 ? "us" : "ns";
   shape_.columns.push_back(std::move(joined));
   joined_.push_back({first, second, factor, {}});
   return shape_.columns.size() - 1;
@@ -161,6 +190,12 @@ void CsvSource::readJoinedTimes() {
 bool CsvSource::isFrameLine(std::string_view line, std::size_t numbers) {
   splitCells(line, shape_.delimiter, cells_);
   if (cells_.size() == numbers + 1 && trimmedCell(cells_.back()).empty()) cells_.pop_back();
+  if (isMovie_)
+    for (std::string_view& cell : cells_)
+      if (trimmedCell(cell) == kBlocked) {
+        cell = "0";
+        hasBlocked_ = true;
+      }
   const auto isText = [&](std::string_view cell) {
     double value = 0.0;
     return cellStateOf(cell, shape_.decimal, value) == CellState::kText;
@@ -178,6 +213,7 @@ std::string CsvSource::joinLines(std::size_t count) {
   std::size_t length = 0;
   std::size_t numBlocks = 0;
   std::size_t numNumbered = 0;
+  bool areFrames = false;
   std::string before;
   std::string_view line;
   reader_.restart();
@@ -185,7 +221,8 @@ std::string CsvSource::joinLines(std::size_t count) {
     if (isFrameLine(line, found.numbers)) {
       if (length++ > 0) continue;
       ++numBlocks;
-      numNumbered += found.numbers > 1 && cellNumber(before, shape_.decimal) ? 1 : 0;
+      numNumbered +=
+          found.numbers > 1 && !numberBefore(before, shape_.decimal, areFrames).empty() ? 1 : 0;
       continue;
     }
     if (length > 0) ++lengths[std::exchange(length, 0)];
@@ -197,13 +234,15 @@ std::string CsvSource::joinLines(std::size_t count) {
   if (found.areMarked ? 2 * lengths[count] <= numEnded : length < count) return {};
   found.hasNumber = found.areMarked && numNumbered > 0 && numNumbered + 1 >= numBlocks;
   shape_.columns.clear();
-  if (found.hasNumber) shape_.columns.push_back({.name = "line before", .type = "number"});
+  if (found.hasNumber)
+    shape_.columns.push_back({.name = areFrames ? "frame" : "line before", .type = "number"});
   for (std::size_t i = 0; i < found.lines * found.numbers; ++i)
     shape_.columns.push_back({.name = "number " + std::to_string(i + 1), .type = "number"});
   frames_ = std::move(found);
   return "a frame is " + std::to_string(count) + " lines of " + counted(frames_.numbers, "number") +
          (frames_.areMarked ? ", with other lines between the frames"
-                            : ", counted from the first one: nothing marks where a frame begins");
+                            : ", counted from the first one: nothing marks where a frame begins") +
+         (hasBlocked_ ? "; blocked cells (B) are read as 0" : "");
 }
 
 // Reads the lines of the next frame into cells_; false at the end.
@@ -223,7 +262,9 @@ bool CsvSource::readFrame(TableRow& row) {
       lastRowLine_ = reader_.number();
       if (count++ == 0) {
         row.line = lastRowLine_;
-        if (frames_.hasNumber) frames_.text = before + shape_.delimiter;
+        bool isFrame = false;
+        if (frames_.hasNumber)
+          frames_.text.append(numberBefore(before, shape_.decimal, isFrame)) += shape_.delimiter;
       }
       for (const std::string_view cell : cells_)
         if (count <= frames_.lines) frames_.text.append(cell) += shape_.delimiter;

@@ -27,6 +27,7 @@ class CsvSource final : public TableSource {
   std::string endNote() const override;
   std::string joinLines(std::size_t count) override;
   std::optional<double> rateHz() const override { return rateHz_; }
+  std::string advice() const override;
   std::optional<std::size_t> joinTimes(std::size_t first,
                                        std::size_t second,
                                        std::int64_t factor) override;
@@ -46,7 +47,7 @@ class CsvSource final : public TableSource {
     std::size_t lines = 0;       // of a frame; 0: each line is a row
     std::size_t numbers = 0;     // of a line
     bool areMarked = false;      // by other lines between them
-    bool hasNumber = false;      // a number stands alone before each
+    bool hasNumber = false;      // a number stands alone, or behind "Frame", before each
     bool isBegun = false;        // the first one was read
     std::uint64_t brokenAt = 0;  // the first line that is none of a frame, if frames aren't marked
     std::string before = {};     // the last line before the frame
@@ -64,6 +65,10 @@ class CsvSource final : public TableSource {
   CsvShape shape_;
   std::vector<JoinedTime> joined_;  // the last columns
   FrameLines frames_;
+  // Of a movie of Tekscan: what its head says.
+  bool isMovie_ = false;
+  bool hasBlocked_ = false;
+  std::string movieRows_, movieColumns_;
   std::optional<double> rateHz_;
   std::map<std::string, std::size_t, std::less<>> labelled_;  // column of each name of a line
   std::vector<std::size_t> selected_;

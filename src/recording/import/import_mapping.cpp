@@ -119,7 +119,7 @@ TimeMapping timeFrom(const MappingField& field) {
   time.column = field.text("column");
   time.unit = field.text("unit");
   if (!time.unit.empty() && !timeUnitNamed(time.unit))
-    field.failAt("unit", "is not s, ms, us, ns, iso, dmy or mdy");
+    field.failAt("unit", "is not s, ms, us, ns, min, h, iso, dmy or mdy");
   time.rateHz = field.number("rate_hz");
   if (time.rateHz && !(*time.rateHz > 0.0 && *time.rateHz <= 1e6))
     field.failAt("rate_hz", "is not above 0 and at most 1000000");

@@ -97,6 +97,7 @@ class Planner {
   bool anyFrames() const;
   void noteFirstAxis(const std::vector<std::size_t>& arrays);
   void findFrameAxis();
+  void findCounter(PlannedSeries& series);
   void noteUnused();
   std::optional<std::vector<std::size_t>> placesByShape(const MatrixMapping& wanted,
                                                         const ChosenElements& chosen,
@@ -542,7 +543,8 @@ void Planner::joinFrameLines(PlannedSeries& series) {
   const std::string how = source_.joinLines(rows);
   if (how.empty()) return;
   plan_.notes.push_back(how);
-  if (columns_.size() > rows * width) times_.leaveOutFirst(series, 0, false);
+  if (columns_.size() > rows * width && !hasWord(columns_[0], kOtherWords))
+    times_.leaveOutFirst(series, 0, false);
 }
 
 PlannedSeries Planner::foundFrames() {
@@ -649,7 +651,8 @@ std::string Planner::unusableText() const {
     text += (count > 1 ? ", " : "; no numbers: ") + shortened(column.name) + " (" +
             whyNoNumbers(column) + ")";
   }
-  return text + (count > kShown ? " and " + std::to_string(count - kShown) + " more" : "");
+  return text + (count > kShown ? " and " + std::to_string(count - kShown) + " more" : "") +
+         source_.advice();
 }
 
 PlannedSeries Planner::frames() {
@@ -661,7 +664,28 @@ PlannedSeries Planner::frames() {
              shortened(columns_[series.columns.front()].name) + " has " +
              std::to_string(*columns_[series.columns.front()].numRows));
   times_.find(series, mapping_.time.column);
+  findCounter(series);
   return series;
+}
+
+// A column that numbers the frames tells which ones are missing.
+void Planner::findCounter(PlannedSeries& series) {
+  std::optional<std::size_t> counter = times_.counter();
+  const TableColumn& values = columns_[series.columns.front()];
+  for (std::size_t c = 0; c < columns_.size() && !counter; ++c)
+    if (columns_[c].isNumeric && columns_[c].type != "bool" && isScalar(columns_[c]) &&
+        sameRows(columns_[c], values) && c != series.time && !times_.isPart(c) &&
+        !sampleColumns_.contains(c) && hasWord(columns_[c], kOtherWords) &&
+        columns_[c].name.find_first_of("0123456789") == std::string::npos &&
+        std::find(series.columns.begin(), series.columns.end(), c) == series.columns.end() &&
+        times_.countsFrames(c))
+      counter = c;
+  if (!counter) return;
+  const bool isWithin = *counter == series.columns.front();  // the first number of the array
+  series.number = isWithin ? 0 : series.values.size();
+  if (isWithin) return;
+  series.columns.push_back(*counter);
+  series.values.emplace_back();
 }
 
 std::optional<PlannedSeries> Planner::onlySamples(Kind kind) {

@@ -8,6 +8,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
+#include "palpate/model/timing.h"
 
 #include "recording/import/cell_text.h"
 
@@ -59,7 +60,9 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
              progress((static_cast<double>(i) + fraction) / static_cast<double>(all.size()));
     };
     lastUs_.reset();
+    rowUs_.reset();
     rowIndex_ = 0;
+    skipped_ = 0;
     if (all[i].first().file != source.path()) {
       const auto beside = openTable(all[i].first().file, mapping_.text);
       runPass(*beside, all[i], mostRows, part);
@@ -71,6 +74,7 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
     report_.counterRestarts += timeReader_ ? timeReader_->numRestarts() : 0;
     if (all[i].first().kind == PlannedSeries::Kind::kFrames) noteRows(source);
   }
+  countFirstGap();
   if (report_.frames > 1) {
     report_.durationS = static_cast<double>(lastFrameUs_ - *firstUs_) / kUsPerS;
     report_.meanRateHz = static_cast<double>(report_.frames - 1) / report_.durationS;
@@ -89,6 +93,8 @@ void ImportRows::refuse(const TableSource& source,
 
 // What is known of the times and the end of the table when the frames were read.
 void ImportRows::noteRows(const TableSource& source) {
+  if (report_.frames == 1 && numFalling_ > 1 && numFalling_ == report_.refused.notLater)
+    throw FormatError(source.path(), "time: it descends from row to row; sort the file by time");
   if (timeReader_ && timeReader_->assumedUtc())
     report_.notes.push_back("time: the dates have no offset and are taken as UTC");
   report_.nulBytes = source.nulBytes();
@@ -101,7 +107,7 @@ void ImportRows::noteRows(const TableSource& source) {
 std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const TableRow& row) {
   std::optional<std::int64_t> us;
   if (!timeReader_) {
-    const double elapsed = static_cast<double>(rowIndex_) / *plan_.rateHz * kUsPerS;
+    const double elapsed = static_cast<double>(rowIndex_ + skipped_) / *plan_.rateHz * kUsPerS;
     us = mapping_.time.startUs.value_or(0) + std::llround(elapsed);
   } else {
     us = timeReader_->us(row.time);
@@ -112,6 +118,17 @@ std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const 
       refuse(source, row, refused.missing, ": the time is missing");
     else if (row.time.state == CellState::kNotFinite || notFiniteValue(row.time.text))
       refuse(source, row, refused.notFinite, ": the time is not finite");
+    else if (const auto number = row.time.state == CellState::kNumber
+                                     ? std::optional(row.time.number)
+                                     : cellNumber(row.time.text, mapping_.text.decimal);
+             number && !isDateUnit(timeUnit_))
+      refuse(source,
+             row,
+             refused.text,
+             ": the time " +
+                 (row.time.text.empty() ? numberText(*number) : std::string(row.time.text)) +
+                 " is too large for " + std::string(nameOf(timeUnit_)) + "; is it in " +
+                 std::string(nameOf(guessTimeUnit(*number, true))) + " (--time-unit)?");
     else
       refuse(source,
              row,
@@ -119,7 +136,9 @@ std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const 
              ": " + inQuotes(row.time.text) + " is not a time" + commaHint(row.time.text));
     return std::nullopt;
   }
+  const bool falls = *us < std::exchange(rowUs_, *us).value_or(*us);
   if (lastUs_ && *us <= *lastUs_) {
+    numFalling_ += falls ? 1 : 0;
     const std::string early = row.time.text.empty() ? utcText(*us) : std::string(row.time.text);
     refuse(source,
            row,
@@ -185,7 +204,17 @@ bool ImportRows::examine(const TableSource& source,
   return false;
 }
 
+// GapDetector knows no rate at the second frame: the first interval is judged by the next ones.
+void ImportRows::countFirstGap() {
+  const TimingReport timing = timingOf(firstStampsUs_);
+  if (timing.gaps.empty() || timing.gaps.front().frame != 0) return;
+  ++report_.gaps;
+  report_.longestGapS = std::max(report_.longestGapS, timing.gaps.front().seconds);
+}
+
 void ImportRows::addFrame(std::int64_t us) {
+  constexpr std::size_t kFirstStamps = 17;
+  if (firstStampsUs_.size() < kFirstStamps) firstStampsUs_.push_back(us);
   frame_.hostUs = us;
   if (gaps_.afterGap(us)) {
     ++report_.gaps;
@@ -296,7 +325,28 @@ void ImportRows::finishWaiting(const TableSource& source, const Pass& pass, cons
   if (const auto us = timeOf(source, waited.row)) addAll(source, pass, *us, waited.row);
 }
 
+// Counts the frames that are missing before this row, by its number. A number that goes back, or
+// further on than any loss, is another numbering.
+void ImportRows::countMissing(const TableSource& source, const Pass& pass, const TableRow& row) {
+  constexpr double kMostMissing = 1000.0;
+  if (!pass.first().number) return;
+  ++rowsSinceCount_;
+  const std::size_t at = *pass.first().number;
+  if (!row.complete || row.states[at] != CellState::kNumber) return;
+  const double number = row.values[at];
+  const double before = std::exchange(lastCount_, number).value_or(number);
+  const double missing = number - before - static_cast<double>(std::exchange(rowsSinceCount_, 0));
+  if (before == number || !(missing >= 1.0 && missing < kMostMissing)) return;
+  const auto count = static_cast<std::uint64_t>(missing);
+  skipped_ += count;
+  report_.missingFrames += count;
+  if (report_.firstMissing.empty())
+    report_.firstMissing =
+        counted(count, "frame") + " before " + source.rowWord() + " " + std::to_string(row.line);
+}
+
 void ImportRows::takeRow(TableSource& source, const Pass& pass, const TableRow& row) {
+  countMissing(source, pass, row);
   if (!row.complete) {
     refuse(source, row, report_.refused.wrongCount, row.fault);
     return;
@@ -327,6 +377,7 @@ void ImportRows::runPass(TableSource& source,
     columns.insert(columns.end(), series->columns.begin(), series->columns.end());
   timeReader_.reset();
   const PlannedSeries& first = pass.first();
+  timeUnit_ = first.timeUnit;
   if (first.time) timeReader_.emplace(first.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
   const bool isApart = !first.timeFile.empty();
   const auto times = isApart ? openTable(first.timeFile, mapping_.text) : nullptr;

@@ -65,6 +65,8 @@ class ImportRows {
   bool wait(const TableSource& source, const Pass& pass, const TableRow& row);
   void finishWaiting(const TableSource& source, const Pass& pass, const TimeCell* next);
   void noteRows(const TableSource& source);
+  void countMissing(const TableSource& source, const Pass& pass, const TableRow& row);
+  void countFirstGap();
   std::optional<std::int64_t> timeOf(const TableSource& source, const TableRow& row);
   bool examine(const TableSource& source,
                const PlannedSeries& series,
@@ -97,6 +99,7 @@ class ImportRows {
   std::vector<float> maximum_;  // of each place; below 0: it has no taxel
   std::vector<double> sample_;
   GapDetector gaps_;
+  std::vector<std::int64_t> firstStampsUs_;
   std::optional<std::int64_t> firstUs_;  // of the frames
   std::int64_t lastFrameUs_ = 0;
   // Of the pass that runs.
@@ -105,6 +108,12 @@ class ImportRows {
   std::optional<WaitingRow> waiting_;
   std::vector<bool> isThere_;  // the series in the examined row
   std::uint64_t rowIndex_ = 0;
+  std::uint64_t skipped_ = 0;  // rows that the file lacks
+  TimeUnit timeUnit_ = TimeUnit::kSeconds;
+  std::optional<std::int64_t> rowUs_;  // time of the row before, also of a refused one
+  std::uint64_t numFalling_ = 0;       // refused rows whose time is before that of the row before
+  std::optional<double> lastCount_;    // number of the last row that has one
+  std::uint64_t rowsSinceCount_ = 0;
   // Of the frame of a list of taxels that is being read.
   std::optional<std::int64_t> listedFrame_;
   std::int64_t lastNumber_ = -1;  // of a listed frame, also of a refused one

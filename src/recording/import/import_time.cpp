@@ -129,13 +129,13 @@ std::optional<std::int64_t> zoneUs(std::string_view text, std::size_t at) {
 }  // namespace
 
 std::string_view nameOf(TimeUnit unit) {
-  constexpr std::array<std::string_view, 8> kNames = {
-      "s", "ms", "us", "ns", "iso", "dmy", "mdy", "time of day"};
+  constexpr std::array<std::string_view, 10> kNames = {
+      "s", "ms", "us", "ns", "min", "h", "iso", "dmy", "mdy", "time of day"};
   return kNames[static_cast<std::size_t>(unit)];
 }
 
 std::optional<TimeUnit> timeUnitNamed(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, TimeUnit>, 35> kWords = {
+  constexpr std::array<std::pair<std::string_view, TimeUnit>, 43> kWords = {
       {{"s", TimeUnit::kSeconds},
        {"sec", TimeUnit::kSeconds},
        {"secs", TimeUnit::kSeconds},
@@ -164,6 +164,14 @@ std::optional<TimeUnit> timeUnitNamed(std::string_view name) {
        {"nanosecs", TimeUnit::kNanoseconds},
        {"nanosecond", TimeUnit::kNanoseconds},
        {"nanoseconds", TimeUnit::kNanoseconds},
+       {"min", TimeUnit::kMinutes},
+       {"mins", TimeUnit::kMinutes},
+       {"minute", TimeUnit::kMinutes},
+       {"minutes", TimeUnit::kMinutes},
+       {"h", TimeUnit::kHours},
+       {"hr", TimeUnit::kHours},
+       {"hour", TimeUnit::kHours},
+       {"hours", TimeUnit::kHours},
        {"iso", TimeUnit::kDate},
        {"iso8601", TimeUnit::kDate},
        {"date", TimeUnit::kDate},
@@ -246,7 +254,8 @@ std::optional<std::int64_t> TimeReader::wholeOf(const TimeCell& cell) const {
 std::optional<std::int64_t> TimeReader::usOfWhole(std::int64_t value) const {
   std::int64_t total = 0;
   if (__builtin_add_overflow(value, base_, &total)) return std::nullopt;
-  constexpr std::array<std::int64_t, 3> kUsPerUnit = {1'000'000, 1000, 1};
+  constexpr std::array<std::int64_t, 6> kUsPerUnit = {
+      1'000'000, 1000, 1, 0, 60'000'000, 3'600'000'000};
   if (unit_ == TimeUnit::kNanoseconds)  // rounded to the nearest, also before 1970
     return total / 1000 + (total % 1000 >= 500 ? 1 : 0) - (total % 1000 <= -500 ? 1 : 0);
   const std::int64_t factor =
@@ -273,7 +282,7 @@ std::optional<std::int64_t> TimeReader::us(const TimeCell& cell) {
   } else if (lastWhole_) {
     us = usOfWhole(*lastWhole_);
   } else if (number && !isDateUnit(unit_)) {
-    constexpr std::array<double, 4> kUsPerUnit = {1e6, 1e3, 1.0, 1e-3};
+    constexpr std::array<double, 6> kUsPerUnit = {1e6, 1e3, 1.0, 1e-3, 60e6, 3600e6};
     const double value = *number * kUsPerUnit[static_cast<std::size_t>(unit_)];
     if (std::abs(value) <= kLargestUs) us = std::llround(value);
   }

@@ -110,6 +110,10 @@ std::string ImportReport::lossText() const {
   add(refused.summary(), refused.first);
   if (refused.notLater > 0) text += "; where times repeat, --rate keeps all rows";
   add(outside.summary(), outside.first);
+  if (missingFrames > 0)
+    add(counted(missingFrames, "frame") + (missingFrames == 1 ? " is" : " are") +
+            " missing by the numbers in the file",
+        firstMissing);
   if (nulBytes.count > 0) text += (text.empty() ? "" : "; ") + nulText();
   return text;
 }

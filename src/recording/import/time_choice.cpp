@@ -21,8 +21,16 @@ namespace {
 
 constexpr std::size_t kMaxTimeRows = 50;
 
-const std::set<std::string> kTimeWords = {
-    "time", "timestamp", "stamp", "date", "datetime", "millis", "micros", "seconds", "clock"};
+const std::set<std::string> kTimeWords = {"time",
+                                          "timestamp",
+                                          "stamp",
+                                          "date",
+                                          "datetime",
+                                          "millis",
+                                          "micros",
+                                          "seconds",
+                                          "clock",
+                                          "elapsed"};
 // Alone they name the time; in front of a number they may name a taxel.
 const std::set<std::string> kShortTimeWords = {
     "t", "s", "ms", "us", "ns", "sec", "secs", "nsec", "nsecs", "nanosec", "nanosecs"};
@@ -80,6 +88,13 @@ void TimeChoice::refuse(const std::string& why) const {
   throw FormatError(source_.path(), "time: " + why);
 }
 
+void TimeChoice::refuseText(const TableColumn& column) const {
+  refuse(inQuotes(column.name) + " holds " +
+         (column.example.empty() ? column.type : inQuotes(column.example)) +
+         ", which is no time that is read: numbers, 2026-11-22T10:31:05.123Z, 22.11.2026 "
+         "10:31:05.123, 11/22/2026 1:31:05 PM, 10:31:05.123");
+}
+
 void TimeChoice::prepare() {
   straighten();
   joinTimes();
@@ -115,9 +130,12 @@ std::optional<std::int64_t> TimeChoice::joinFactor(std::size_t first,
   if (a.numRows || !a.isNumeric || !b.isNumeric) return std::nullopt;
   if (!isChosen && (whole.stem != part.stem || whole.unit != TimeUnit::kSeconds))
     return std::nullopt;
-  if (!isChosen && part.unit != TimeUnit::kNanoseconds && part.unit != TimeUnit::kMicroseconds)
+  if (!isChosen && part.unit != TimeUnit::kNanoseconds && part.unit != TimeUnit::kMicroseconds &&
+      part.unit != TimeUnit::kMilliseconds)
     return std::nullopt;
-  const std::int64_t factor = part.unit == TimeUnit::kMicroseconds ? 1'000'000 : 1'000'000'000;
+  const std::int64_t factor = part.unit == TimeUnit::kMilliseconds   ? 1000
+                              : part.unit == TimeUnit::kMicroseconds ? 1'000'000
+                                                                     : 1'000'000'000;
   const std::vector<double> wholes = sampleValues(first, 0);
   const std::vector<double> parts = sampleValues(second, 0);
   const auto isWhole = [](double value) { return value == std::floor(value); };
@@ -155,8 +173,8 @@ void TimeChoice::joinTimes() {
     }
     if (!factor)
       refuse(inQuotes(named) +
-             " are not a date and a time of day, or whole seconds and nanoseconds, of a text; "
-             "there are " +
+             " are not a date and a time of day, or whole seconds and what is within the second "
+             "(NAME_ms, NAME_us, NAME_ns), of a text; there are " +
              namesText(columns_));
   }
   constexpr std::size_t kMaxLookedAt = 64;  // times stand in front
@@ -224,6 +242,8 @@ void TimeChoice::takeNamed(PlannedSeries& series, const std::string& named) {
     refuse("there is no column " + inQuotes(named) + "; there are " + namesText(columns_));
   if (!isScalar(columns_[chosen->column]) && !chosen->within)
     refuse(inQuotes(named) + " has several numbers per row; choose one: NAME[0]");
+  if (!columns_[chosen->column].isNumeric && !columns_[chosen->column].hasDates)
+    refuseText(columns_[chosen->column]);
   if (chosen->within && chosen->column != series.columns.front())
     refuse(inQuotes(named) + " is part of an array that doesn't hold the values");
   series.time = chosen->column;
@@ -305,6 +325,9 @@ void TimeChoice::find(PlannedSeries& series, const std::string& named) {
   if (!series.time && isFrames && otherRows)
     refuse(otherRowsText(inQuotes(columns_[*otherRows].name), columns_[*otherRows], values) +
            "; save as many times as frames, or give the rate of the rows (--rate)");
+  for (const TableColumn& column : columns_)
+    if (!series.time && isFrames && isScalar(column) && !column.isNumeric && namesTime(column))
+      refuseText(column);
   if (!series.time && isFrames)
     refuse("no column of times was found" +
            (rowNumber_.empty() ? "" : " (" + rowNumber_ + " counts the rows)") +
@@ -347,6 +370,25 @@ TimeUnit TimeChoice::dateUnitOf(const TableColumn& column) {
   return TimeUnit::kClock;
 }
 
+// The unit that a column or its name states. Another one than of a time is refused.
+std::optional<TimeUnit> TimeChoice::statedUnit(const TableColumn& column, std::string& origin) {
+  const auto since = column.unit.find(" since ");  // of netCDF
+  const auto unit = timeUnitNamed(column.unit.substr(0, since));
+  origin = "by the file";
+  if (unit && !isDateUnit(*unit)) {
+    if (since != std::string::npos)
+      plan_.notes.push_back("time: of " + inQuotes(column.unit) +
+                            " only the unit is used; give the date by --start");
+    return unit;
+  }
+  if (!column.unit.empty() && !unit && mapping_.time.unit.empty())
+    refuse("the unit " + inQuotes(column.unit) + " of " + inQuotes(column.name) +
+           " is not known; name it by --time-unit (s, ms, us, ns, min, h)");
+  const TimePart name = timePartOf(column.name);
+  origin = "by the name";
+  return name.unit && !isDateUnit(*name.unit) ? name.unit : std::nullopt;
+}
+
 void TimeChoice::setTimeUnit(PlannedSeries& series) {
   const TableColumn& column = columns_[*series.time];
   std::string origin = "as given";
@@ -356,12 +398,8 @@ void TimeChoice::setTimeUnit(PlannedSeries& series) {
   } else if (!mapping_.time.unit.empty() && series.kind == PlannedSeries::Kind::kFrames &&
              series.time != joinedTime_) {
     series.timeUnit = *timeUnitNamed(mapping_.time.unit);
-  } else if (const auto unit = timeUnitNamed(column.unit); unit && !isDateUnit(*unit)) {
+  } else if (const auto unit = statedUnit(column, origin)) {
     series.timeUnit = *unit;
-    origin = "by the file";
-  } else if (const auto word = timeUnitNamed(column.name); word && !isDateUnit(*word)) {
-    series.timeUnit = *word;
-    origin = "by the name";
   } else {
     if (!mapping_.time.unit.empty()) {
       series.timeUnit = *timeUnitNamed(mapping_.time.unit);
@@ -390,22 +428,28 @@ void TimeChoice::setTimeUnit(PlannedSeries& series) {
 TimeChoice::Counting TimeChoice::countingOf(std::size_t column, std::size_t within) {
   constexpr std::size_t kMinCounts = 3;
   const std::vector<double> values = sampleValues(column, within);
-  Counting found{values.size() > 1, values.size() >= kMinCounts};
+  Counting found{.ascends = values.size() > 1, .isRowNumber = values.size() >= kMinCounts};
+  std::size_t steps = 0;  // of 1
   if (found.isRowNumber) found.isRowNumber = values[0] == 0.0 || values[0] == 1.0;
   for (std::size_t i = 1; i < values.size(); ++i) {
     found.ascends = found.ascends && values[i] > values[i - 1];
+    steps += values[i] == values[i - 1] + 1.0 ? 1 : 0;
     found.isRowNumber = found.isRowNumber && values[i] == values[i - 1] + 1.0;
   }
+  found.countsFrames = found.ascends && values.size() >= kMinCounts && 2 * steps >= values.size();
   return found;
 }
+
+bool TimeChoice::countsFrames(std::size_t column) { return countingOf(column, 0).countsFrames; }
 
 bool TimeChoice::leaveOutFirst(PlannedSeries& series, std::size_t column, bool isArray) {
   const std::string name = shortened(columns_[column].name) + (isArray ? "[0]" : "");
   const Counting counting = countingOf(column, 0);
   if (!counting.ascends) return false;
-  if (counting.isRowNumber) {
+  if (counting.isRowNumber || (counting.countsFrames && mapping_.time.rateHz)) {
     rowNumber_ = name;
-    plan_.notes.push_back(name + " counts the rows; not used");
+    counter_ = column;
+    plan_.notes.push_back(name + " counts the rows and is no time");
     return true;
   }
   const bool hasTime = time_ || joinedTime_ ||

@@ -31,6 +31,10 @@ class TimeChoice {
   // Finds the time of a series whose columns are known, unless the rows have a rate; that of the
   // frames first. `named`: what the mapping says of it. Throws FormatError.
   void find(PlannedSeries& series, const std::string& named);
+  // A column that numbers the frames and was left out before them.
+  std::optional<std::size_t> counter() const { return counter_; }
+  // Whether the first numbers of a column ascend, by 1 in most rows.
+  bool countsFrames(std::size_t column);
   // Whether a column is known to be the time of the frames.
   bool isOfFrames(std::size_t column) const { return time_ == column; }
   // Whether a column is one of two that are joined to the time.
@@ -43,6 +47,7 @@ class TimeChoice {
  private:
   struct Counting {
     bool ascends = false;
+    bool countsFrames = false;
     bool isRowNumber = false;  // 0, 1, 2, .. or 1, 2, 3, ..
   };
   Counting countingOf(std::size_t column, std::size_t within);
@@ -56,13 +61,16 @@ class TimeChoice {
   std::size_t finestOf(std::size_t time);
   TimeUnit dateUnitOf(const TableColumn& column);
   void setTimeUnit(PlannedSeries& series);
+  std::optional<TimeUnit> statedUnit(const TableColumn& column, std::string& origin);
   [[noreturn]] void refuse(const std::string& why) const;
+  [[noreturn]] void refuseText(const TableColumn& column) const;
 
   TableSource& source_;
   const std::vector<TableColumn>& columns_;
   const ImportMapping& mapping_;
   ImportPlan& plan_;
-  std::string rowNumber_;            // a column that counts the rows
+  std::string rowNumber_;  // a column that counts the rows
+  std::optional<std::size_t> counter_;
   std::optional<std::size_t> time_;  // column of the frames
   std::optional<std::size_t> timeWithin_;
   std::optional<std::size_t> joinedTime_;  // column that the source made of the two timeParts_

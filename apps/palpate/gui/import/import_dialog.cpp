@@ -185,6 +185,8 @@ QWidget* ImportDialog::makeFile() {
                               {"ms", "ms"},
                               {"µs", "us"},
                               {"ns", "ns"},
+                              {"min", "min"},
+                              {"h", "h"},
                               {"date (ISO 8601)", "iso"},
                               {"date, day first", "dmy"},
                               {"date, month first", "mdy"}});
