@@ -33,10 +33,7 @@ double IntervalStatistics::meanRateHz() const noexcept {
 double IntervalStatistics::rateHz() const noexcept {
   if (frames_ < 2) return 0.0;
   const double median = medianUs();
-  const double gapUs = gapThresholdUs(median);
-  double between = static_cast<double>(lastUs_ - firstUs_);
-  for (const std::int64_t interval : longOnes_)
-    if (static_cast<double>(interval) > gapUs) between -= static_cast<double>(interval);
+  const double between = static_cast<double>(lastUs_ - firstUs_) - 1e6 * gapsS();
   const double mean =
       between / static_cast<double>(std::max<std::int64_t>(frames_ - 1 - gaps(), 1));
   return 1e6 / (isInBursts(median, mean) ? mean : median);
@@ -48,6 +45,15 @@ std::int64_t IntervalStatistics::gaps() const noexcept {
   return std::count_if(longOnes_.begin(), longOnes_.end(), [gapUs](std::int64_t interval) {
     return static_cast<double>(interval) > gapUs;
   });
+}
+
+double IntervalStatistics::gapsS() const noexcept {
+  if (frames_ < 2) return 0.0;
+  const double gapUs = gapThresholdUs(medianUs());
+  double sumUs = 0.0;
+  for (const std::int64_t interval : longOnes_)
+    if (static_cast<double>(interval) > gapUs) sumUs += static_cast<double>(interval);
+  return sumUs / 1e6;
 }
 
 double IntervalStatistics::medianUs() const noexcept {

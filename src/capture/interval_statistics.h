@@ -21,6 +21,7 @@ class IntervalStatistics {
   double meanRateHz() const noexcept;  // (frames - 1) / duration
   double rateHz() const noexcept;      // as in TimingReport
   std::int64_t gaps() const noexcept;  // intervals longer than max(1 s, 5 median intervals)
+  double gapsS() const noexcept;       // their sum
 
  private:
   double medianUs() const noexcept;

@@ -258,6 +258,10 @@ struct Recorder::Impl {
   std::jthread thread;
 };
 
+std::string RecordingReport::openGapText() const {
+  return openGapS > 0.0 ? "no frame came in its last " + fixedText(openGapS, 1) + " s" : "";
+}
+
 Recorder::Recorder(RecorderOptions options, const Clock& clock)
     : impl_(std::make_unique<Impl>(std::move(options), clock)) {}
 

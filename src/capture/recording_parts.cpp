@@ -588,8 +588,10 @@ void RecordingParts::addOwn(RecordingEvent event) {
 // What is missing at the end has no end that the device would tell in time.
 void RecordingParts::addOpenGaps(RoundTime time) {
   if (!options_.openGaps || std::exchange(gapsTaken_, true)) return;
-  for (RecordingEvent& gap : options_.openGaps(std::min(time.nowUs, endUs_.value_or(time.nowUs))))
+  for (RecordingEvent& gap : options_.openGaps(std::min(time.nowUs, endUs_.value_or(time.nowUs)))) {
+    counts_.openGapS = std::max(counts_.openGapS, static_cast<double>(gap.t1Us - gap.tUs) / 1e6);
     unwrittenEvents_.push_back(std::move(gap));
+  }
 }
 
 void RecordingParts::writePendingEvents() {
@@ -792,6 +794,7 @@ RecordingReport RecordingParts::report() const {
   const auto vanished = unfinished_ ? vanishing() : std::vector<const PalpateWriter*>();
   report.lost += lostInQueues_;
   report.gaps = intervals_.gaps();
+  report.gapsS = intervals_.gapsS();
   report.firstFrameUs = intervals_.firstUs();
   report.lastFrameUs = intervals_.lastUs();
   report.durationS = intervals_.durationS();

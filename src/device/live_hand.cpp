@@ -136,6 +136,10 @@ std::future<CommandAnswer> LiveHand::submit(DeviceCommand command) {
   return nobody.get_future();
 }
 
+std::optional<DeviceEvent> LiveHand::openGap(std::int64_t untilUs) const {
+  return impl_->tactile ? impl_->tactile->openGap(untilUs) : std::nullopt;
+}
+
 std::vector<int> LiveHand::axisStates() const {
   return impl_->motion ? impl_->motion->axisStates() : std::vector<int>{};
 }

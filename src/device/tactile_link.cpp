@@ -49,7 +49,19 @@ std::optional<DsaControllerInfo> TactileLink::facts() const {
   return known_;
 }
 
+std::optional<DeviceEvent> TactileLink::openGap(std::int64_t untilUs) const {
+  std::lock_guard lock(mutex_);
+  if (!openGap_ || untilUs <= openGap_->fromUs) return std::nullopt;
+  return gapEvent(openGap_->fromUs, untilUs, missingIn(*openGap_, untilUs, false));
+}
+
 // --- The connection
+
+void TactileLink::forget() {
+  session_ = {};
+  std::lock_guard lock(mutex_);
+  openGap_.reset();
+}
 
 void TactileLink::connect(ByteChannel& channel) {
   DsaControllerOptions options;
@@ -107,7 +119,7 @@ void TactileLink::disconnected() {
   controller_.reset();
   delivering_ = false;
   session_.held.reset();
-  if (!session_.gapFromUs && session_.lastStampUs != 0) session_.gapFromUs = session_.lastStampUs;
+  if (!session_.gapFromUs && session_.lastStampUs != 0) beginGap(session_.lastStampUs);
 }
 
 void TactileLink::ended() {
@@ -242,7 +254,7 @@ void TactileLink::watchSilence() {
   if (!session_.gapFromUs) {
     controller_->flush();  // a packet may be behind a corrupt size
     if (clock_.monotonicUs() - session_.lastFrameUs < limitUs) return;
-    session_.gapFromUs = session_.lastStampUs != 0 ? session_.lastStampUs : time_.nowUs();
+    beginGap(session_.lastStampUs != 0 ? session_.lastStampUs : time_.nowUs());
     setState(
         PortState::kSilent,
         port_ + ": no frames for " +
@@ -269,18 +281,17 @@ void TactileLink::watchSilence() {
 void TactileLink::resetRateEstimate() { session_.loss.reset(); }
 
 // Estimated from the usual rate, because the controller's clock is not known over the whole gap.
-TactileLink::Missing TactileLink::missingSince(std::int64_t fromUs,
-                                               std::int64_t nowUs,
-                                               bool frameReceived) const {
-  if (!(session_.periodMs > 0.0)) return {};
-  const double periods = static_cast<double>(nowUs - fromUs) / 1000.0 / session_.periodMs;
+TactileLink::Missing TactileLink::missingIn(const OpenGap& gap,
+                                            std::int64_t nowUs,
+                                            bool frameReceived) {
+  if (!(gap.periodMs > 0.0)) return {};
+  const double periods = static_cast<double>(nowUs - gap.fromUs) / 1000.0 / gap.periodMs;
   const double frames = std::round(periods) - (frameReceived ? 1.0 : 0.0);
   return {static_cast<std::uint64_t>(std::max(frames, 0.0)), true};
 }
 
-void TactileLink::endGap(std::int64_t nowUs, const Missing& missing) {
-  const std::int64_t fromUs = *std::exchange(session_.gapFromUs, std::nullopt);
-  const double seconds = static_cast<double>(nowUs - fromUs) / 1e6;
+DeviceEvent TactileLink::gapEvent(std::int64_t fromUs, std::int64_t toUs, const Missing& missing) {
+  const double seconds = static_cast<double>(toUs - fromUs) / 1e6;
   Json json = Json::object().set("seconds", seconds);
   std::string text = "no frames for " + numberText(std::round(seconds * 1000.0) / 1000.0) + " s";
   if (missing.frames) {
@@ -288,12 +299,25 @@ void TactileLink::endGap(std::int64_t nowUs, const Missing& missing) {
         .set("estimated", missing.estimated);
     text += std::string(missing.estimated ? ", about " : ", ") + std::to_string(*missing.frames) +
             " frames are missing";
-    updateStatus([&](PortStatus& status) {
-      status.lost += *missing.frames;
-      if (missing.estimated) status.estimatedLost += *missing.frames;
-    });
   }
-  event("gap", text, fromUs, nowUs, {}, json.text(-1));
+  return {fromUs, toUs, "gap", {}, std::move(text), json.text(-1)};
+}
+
+void TactileLink::beginGap(std::int64_t fromUs) {
+  session_.gapFromUs = fromUs;
+  std::lock_guard lock(mutex_);
+  openGap_ = {fromUs, session_.periodMs};
+}
+
+void TactileLink::endGap(std::int64_t nowUs, const Missing& missing) {
+  const std::int64_t fromUs = *std::exchange(session_.gapFromUs, std::nullopt);
+  updateStatus([&](PortStatus& status) {
+    openGap_.reset();
+    status.lost += missing.frames.value_or(0);
+    if (missing.estimated) status.estimatedLost += missing.frames.value_or(0);
+  });
+  const DeviceEvent gap = gapEvent(fromUs, nowUs, missing);
+  event(gap.kind, gap.text, gap.tUs, gap.t1Us, {}, gap.json);
 }
 
 // A wrong checksum now and then is normal. One packet in ten means that sender and receiver are out

@@ -27,13 +27,14 @@ class TactileLink : public PortLink {
 
   HandDescription hand() const;  // may be called from any thread
   std::optional<DsaControllerInfo> facts() const;
+  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const;  // see Device
 
  protected:
   void connect(ByteChannel& channel) override;
   void work() override;
   void disconnected() override;
   void ended() override;
-  void forget() override { session_ = {}; }
+  void forget() override;
   void closing() override;
   CommandAnswer execute(const DeviceCommand& command) override;
 
@@ -55,7 +56,17 @@ class TactileLink : public PortLink {
     std::optional<std::uint64_t> frames;
     bool estimated = true;
   };
-  Missing missingSince(std::int64_t fromUs, std::int64_t nowUs, bool frameReceived) const;
+  // A time without frames that has not ended.
+  struct OpenGap {
+    std::int64_t fromUs = 0;
+    double periodMs = 0.0;  // as Session::periodMs
+  };
+  static Missing missingIn(const OpenGap& gap, std::int64_t nowUs, bool frameReceived);
+  static DeviceEvent gapEvent(std::int64_t fromUs, std::int64_t toUs, const Missing& missing);
+  Missing missingSince(std::int64_t fromUs, std::int64_t nowUs, bool frameReceived) const {
+    return missingIn({fromUs, session_.periodMs}, nowUs, frameReceived);
+  }
+  void beginGap(std::int64_t fromUs);
   void endGap(std::int64_t nowUs, const Missing& missing);
   void resetRateEstimate();
   void restoreSettings();
@@ -73,6 +84,7 @@ class TactileLink : public PortLink {
   // Read by other threads, requires mutex_.
   HandDescription hand_;
   std::optional<DsaControllerInfo> known_;
+  std::optional<OpenGap> openGap_;
 
   std::shared_ptr<const SensorLayout> layout_;
   std::map<std::size_t, Wanted> wanted_;

@@ -88,7 +88,10 @@ TEST(CaptureSession, ASilenceAtTheEndOfTheRecordingIsAGap) {
     scripted.session->step();
   }
   ASSERT_FALSE(scripted.session->recording());
-  EXPECT_EQ(scripted.session->stopRecording().counters.at("lost"), 7);
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.counters.at("lost"), 7);
+  EXPECT_NEAR(report.openGapS, 1.0, 0.02);
+  EXPECT_EQ(report.openGapText(), "no frame came in its last 1.0 s");
   const auto events = readableRecording(folder / "a.palpate").events;
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, "gap");

@@ -4,6 +4,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_details.h"
 
@@ -358,6 +359,7 @@ TEST(Recorder, rateAndGapsOfTheReportAreThoseOfTheFile) {
   const RecordingReport report = scripted.session->stopRecording();
   EXPECT_DOUBLE_EQ(report.rateHz, 100.0);
   EXPECT_EQ(report.gaps, 1);
+  EXPECT_DOUBLE_EQ(report.gapsS, timingOf(openRecording(folder / "a.palpate")).gaps.at(0).seconds);
   EXPECT_DOUBLE_EQ(report.durationS, 4.49);
   EXPECT_DOUBLE_EQ(report.meanRateHz, 199.0 / 4.49);
 }

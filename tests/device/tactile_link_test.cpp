@@ -182,6 +182,34 @@ TEST(TactileLink, AGapThatTheEndFindsOpenIsCountedToo) {
   EXPECT_NEAR(Json::parse(gaps[0].json).at("lost").asDouble(), expectedLost(gaps[0]) + 1.0, 1.0);
 }
 
+// A recording that ends while the hand is unplugged asks for it.
+TEST(TactileLink, AGapThatIsOpenIsKnownToOthers) {
+  Bench bench;
+  bench.begin();
+  bench.frames(50);
+  EXPECT_FALSE(bench.link.openGap(bench.time.nowUs()));
+  bench.line->pullThePlug();
+  bench.plugged = false;
+  bench.link.step();
+  const std::int64_t untilUs = bench.time.nowUs() + 8'000'000;
+  const auto open = bench.link.openGap(untilUs);
+  ASSERT_TRUE(open);
+  EXPECT_EQ(open->kind, "gap");
+  EXPECT_EQ(open->t1Us, untilUs);
+  const Json json = Json::parse(open->json);
+  EXPECT_NEAR(json.at("seconds").asDouble(), 8.0, 0.1);
+  EXPECT_NEAR(json.at("lost").asDouble(), 8'000'000.0 / kPeriodUs, 3.0);
+  EXPECT_TRUE(json.at("estimated").asBool());
+  EXPECT_EQ(bench.link.status().lost, 0u) << "counted once it ends";
+  EXPECT_TRUE(bench.events("gap").empty());
+  bench.plugged = true;
+  bench.dsa.streaming = false;
+  bench.connect();
+  bench.frames(3);
+  EXPECT_FALSE(bench.link.openGap(bench.time.nowUs()));
+  EXPECT_EQ(bench.events("gap").size(), 1u);
+}
+
 TEST(TactileLink, BeforeAFrameWasSeenNoNumberIsMadeUp) {
   Bench bench;
   bench.begin();

@@ -204,7 +204,8 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
          counted(static_cast<std::uint64_t>(report.temperatures), "temperature sample") + "; " +
          std::to_string(countOf(report, "lost") + report.lost) + " lost, " +
          counted(badChecksumsOf(device), "bad checksum") + ", " +
-         counted(static_cast<std::uint64_t>(report.gaps), "gap");
+         counted(static_cast<std::uint64_t>(report.gaps), "gap") +
+         (report.openGapS > 0.0 ? "; " + report.openGapText() : "");
 }
 
 std::unique_ptr<Device> recordedDevice(const CommandLine& given) {

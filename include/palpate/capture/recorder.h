@@ -109,6 +109,8 @@ struct RecordingReport {
   // during the recording (bad_checksums, lost: frames that were sent but not received, ..).
   std::map<std::string, std::int64_t> counters;
   std::int64_t gaps = 0;           // intervals longer than max(1 s, 5 median intervals)
+  double gapsS = 0.0;              // their sum [s]
+  double openGapS = 0.0;           // its end without frames, of RecordingOptions::openGaps [s]
   std::int64_t writeFailures = 0;  // commits that failed, and were tried again
   // Stamps of the first and the last recorded frame [us since 1970]; 0: no frame was recorded.
   std::int64_t firstFrameUs = 0;
@@ -128,6 +130,9 @@ struct RecordingReport {
   // unwritten.
   bool complete = true;
   std::string message;  // one line that describes a problem; empty: none
+
+  // "no frame came in its last 8.0 s"; empty: frames came up to its end.
+  std::string openGapText() const;
 };
 
 struct RecorderStatus {

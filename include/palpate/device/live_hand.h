@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <palpate/core/time.h>
@@ -47,6 +48,7 @@ class LiveHand : public Device {
   DeviceStatus status() const override;
   std::future<CommandAnswer> submit(DeviceCommand command) override;
   bool isFreeRunning() const override { return true; }
+  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const override;
   std::vector<int> axisStates() const override;
 
  private:
