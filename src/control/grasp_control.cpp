@@ -183,13 +183,38 @@ void GraspControl::pollReplies() {
   }
 }
 
+// A hand that was away may have been switched off and on: nobody knows what it holds since then.
+void GraspControl::checkReturn(const DeviceStatus& status) {
+  const auto returned = [](std::optional<std::uint64_t>& known, std::uint64_t now) {
+    return std::exchange(known, now).value_or(now) != now;
+  };
+  const bool tactile = returned(tactileReturns_, status.tactile.reconnects);
+  const bool motion = returned(motionReturns_, status.motion ? status.motion->reconnects : 0);
+  if ((!tactile && !motion) || machine_.active() || !lastMotion_) return;
+  GraspStatus before;
+  before.lastMotion = lastMotion_;
+  const bool held = !motorsOff_ && conditionOf(before).condition == HandCondition::kHolding;
+  if (!unprotected_.empty()) {
+    constexpr std::string_view kBefore = "before the port came back: ";
+    if (!unprotected_.starts_with(kBefore)) unprotected_.insert(0, kBefore);
+  } else if (motion && held) {
+    unprotected_ =
+        "the motion port was gone, and is back: whether the hand still holds what it held is not "
+        "known";
+    const std::int64_t nowUs = session_.nowUs();
+    note({nowUs, nowUs, "alarm", {}, "not protected: " + unprotected_, {}});
+  }
+  wasAway_ = wasAway_ || motion;
+}
+
 void GraspControl::checkLinks() {
+  const DeviceStatus status = session_.device().status();
+  checkReturn(status);
   if (!machine_.active()) {
-    if (portGone_ && motionProblem(session_.device().status()).empty()) portGone_.reset();
+    if (portGone_ && motionProblem(status).empty()) portGone_.reset();
     return;
   }
   const std::int64_t nowUs = clock_.monotonicUs();
-  const DeviceStatus status = session_.device().status();
   // The port's thread has sent stops, and opens the port again: the stop is repeated until it is
   // answered.
   if (status.motion && status.motion->state == PortState::kFault)
@@ -328,6 +353,7 @@ void GraspControl::grasp(const GraspRequest& request, std::optional<std::uint64_
       lastFault_.clear();
       portGone_.reset();
       unprotected_.clear();
+      wasAway_ = false;
     } catch (const std::exception& error) {
       refused(request, error.what());
       throw;
@@ -479,6 +505,7 @@ GraspStatus GraspControl::presentStatus() const {
   status.last = last_;
   status.lastMotion = lastMotion_;
   status.unprotected = unprotected_;
+  status.wasAway = wasAway_;
   const DeviceStatus device = session_.device().status();
   status.cannotMove = motionProblem(device);
   if (!status.cannotMove.empty()) status.portGone = portGone_;

@@ -369,7 +369,7 @@ void GraspStateMachine::motionEnded(const std::vector<int>& states, std::int64_t
     return pause(Next::kSettle, "closed as far as it goes", monoUs);
   // It closed again because something slipped, and touches nothing now.
   const bool lost = isSlipAware() && held_;
-  const std::string text = !axes.empty() ? "finished: held: " + axes
+  const std::string text = !axes.empty() ? "finished: held at the joints: " + axes
                            : lost        ? std::string(kNothingHeldText)
                                          : "finished: at its target";
   // Motors of blocked axes keep pushing. After the grasp the taxels are no longer monitored, so the

@@ -147,6 +147,10 @@ ExplainedCondition conditionOf(const GraspStatus& status) {
     return {Condition::kReady,
             "the motors are off: the fingers can be moved by hand, and an object may fall; the "
             "next motion switches them on"};
+  if (status.wasAway)
+    return {Condition::kReady,
+            "the motion port was gone since the last motion: what the hand holds is not known; a "
+            "motion can begin"};
   return status.lastMotion ? afterMotion(*status.lastMotion)
                            : ExplainedCondition{Condition::kReady, "a motion can begin"};
 }

@@ -231,6 +231,45 @@ TEST(GraspControl, AProtectionThatEndedIsToldUntilItIsAcknowledged) {
   EXPECT_TRUE(bench.session->takeEvents().empty()) << "once";
 }
 
+// It may have been switched off and on, or be another one in the same place.
+TEST(GraspControl, WhatAHandHoldsThatWasAwayIsNotKnown) {
+  GraspBench bench;
+  bench.control->grasp(reactive(200));
+  bench.feel(1, 250.0F);
+  bench.feel(20, 250.0F);
+  ASSERT_EQ(bench.control->condition().condition, HandCondition::kHolding);
+  bench.hand->state.motion->state = PortState::kLost;
+  bench.wait(5000);
+  EXPECT_EQ(bench.control->condition().condition, HandCondition::kGone);
+  bench.hand->state.motion->state = PortState::kStreaming;
+  ++bench.hand->state.motion->reconnects;
+  bench.wait(5000);
+  const ExplainedCondition back = bench.control->condition();
+  EXPECT_EQ(back.condition, HandCondition::kNotProtected);
+  EXPECT_TRUE(back.sentence.ends_with("is not known")) << back.sentence;
+  bench.control->acknowledge();
+  EXPECT_EQ(bench.control->condition().condition, HandCondition::kReady);
+  EXPECT_TRUE(bench.control->status().wasAway);
+}
+
+TEST(GraspControl, AProtectionThatEndedSaysThatThePortIsBack) {
+  GraspBench bench;
+  ASSERT_NO_FATAL_FAILURE(hold(bench));
+  bench.hand->state.tactile.state = PortState::kLost;
+  bench.hand->state.tactile.message = "unplugged";
+  bench.wait(1);
+  const std::string why = bench.control->condition().sentence;
+  ASSERT_TRUE(why.starts_with("the tactile port is gone")) << why;
+  bench.hand->state.tactile.state = PortState::kStreaming;
+  for (int time = 0; time < 2; ++time) {
+    ++bench.hand->state.tactile.reconnects;
+    bench.wait(5000);
+    EXPECT_EQ(
+        bench.control->condition(),
+        (ExplainedCondition{HandCondition::kNotProtected, "before the port came back: " + why}));
+  }
+}
+
 TEST(GraspControl, TheNextMotionAndRelaxAcknowledge) {
   for (const bool relaxes : {false, true}) {
     GraspBench bench;

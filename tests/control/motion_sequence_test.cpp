@@ -177,7 +177,7 @@ TEST_F(SequenceRunTest, ABlockedOpeningEndsIt) {
   bench_.hand->states = {0, 4, 0, 0, 0, 0, 0};
   pass(2.0);
   EXPECT_FALSE(run_.running());
-  EXPECT_NE(run_.status().text.find("held: finger 0 proximal"), std::string::npos)
+  EXPECT_NE(run_.status().text.find("held at the joints: finger 0 proximal"), std::string::npos)
       << run_.status().text;
   EXPECT_EQ(numMotions(), 1u);
   EXPECT_GE(bench_.hand->count<StopMotion>(), 1u) << "motors that push are stopped";

@@ -53,6 +53,8 @@ struct GraspStatus {
   std::optional<GraspReport> portGone;
   // Whether relax() switched the motors off, and no motion has begun since.
   bool motorsOff = false;
+  // Whether the motion port was away since `lastMotion` ended: what the hand holds is not known.
+  bool wasAway = false;
   // Number of calls of stop() and relax() so far, whether or not something was moving.
   std::uint64_t stopsAsked = 0;
   // Joint angles as last read [deg]; empty: not known.
@@ -151,6 +153,7 @@ class GraspControl {
   void processFrames();  // of the tactile stream
   void pollReplies();    // answers of the hand
   void checkLinks();
+  void checkReturn(const DeviceStatus& status);
   void send();
   void report();
   void onEnded(const GraspReport& ended);
@@ -184,6 +187,9 @@ class GraspControl {
   std::optional<GraspReport> last_;
   std::optional<GraspReport> lastMotion_;
   std::string unprotected_;  // see GraspStatus
+  bool wasAway_ = false;     // see GraspStatus
+  // PortStatus::reconnects as last seen.
+  std::optional<std::uint64_t> motionReturns_, tactileReturns_;
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
   bool motorsOff_ = false;
