@@ -27,6 +27,7 @@ void LiveSeries::setHistory(const SignalHistory* history) {
   timeS_.clear();
   first_ = 0;
   breaks_.clear();
+  breakAfterUs_.reset();
   for (Entry& entry : entries_) entry.values.clear();
 }
 
@@ -112,7 +113,9 @@ std::size_t LiveSeries::update() {
       history_->after(newestUs_.value_or(std::numeric_limits<std::int64_t>::min()));
   for (const SharedSignalSample& sample : samples) {
     if (!originUs_) originUs_ = sample->hostUs;
-    if (!empty() && (sample->afterGap || missed)) breaks_.push_back(timeS_.size() - 1);
+    const bool told = breakAfterUs_ && sample->hostUs > *breakAfterUs_;
+    if (told) breakAfterUs_.reset();
+    if (!empty() && (sample->afterGap || missed || told)) breaks_.push_back(timeS_.size() - 1);
     missed = false;
     timeS_.push_back(secondsOf(sample->hostUs));
     for (Entry& entry : entries_) entry.values.push_back(valueOf(entry, *sample));
@@ -120,6 +123,17 @@ std::size_t LiveSeries::update() {
   }
   if (const auto oldestUs = history_->oldestUs()) forgetBefore(*oldestUs);
   return samples.size();
+}
+
+void LiveSeries::breakAfter(std::int64_t hostUs) {
+  if (!newestUs_ || hostUs >= *newestUs_) {
+    breakAfterUs_ = hostUs;
+    return;
+  }
+  const auto index = indexAt(secondsOf(hostUs));
+  if (!index) return;
+  const auto at = std::ranges::lower_bound(breaks_, *index);
+  if (at == breaks_.end() || *at != *index) breaks_.insert(at, *index);
 }
 
 void LiveSeries::forgetBefore(std::int64_t hostUs) {

@@ -132,6 +132,27 @@ TEST(LiveSeries, GapsBreakTheLineAndHaveNoValue) {
       points.begin(), points.end(), [](const SeriesPoint& point) { return std::isnan(point.y); }));
 }
 
+// A connection that was lost for 0.8 s; the event comes before the sample behind it, or later.
+TEST(LiveSeries, AGapThatAnEventTellsBreaksTheLineHoweverShortItIs) {
+  for (const bool late : {false, true}) {
+    SignalHistory history;
+    LiveSeries series;
+    series.setHistory(&history);
+    series.setWanted({ofMatrix(2)});
+    for (int i = 0; i < 10; ++i) history.add(resultsAt(0.1 * i, 4.0));
+    series.update();
+    const std::int64_t lastUs = resultsAt(0.9).frame->hostUs;
+    if (!late) series.breakAfter(lastUs);
+    for (int i = 17; i < 20; ++i) history.add(resultsAt(0.1 * i, 4.0));
+    series.update();
+    for (int time = 0; late && time < 2; ++time) series.breakAfter(lastUs);
+    ASSERT_EQ(series.gaps().size(), 1u);
+    EXPECT_NEAR(series.gaps()[0].fromS, 0.9, 1e-9);
+    EXPECT_NEAR(series.gaps()[0].toS, 1.7, 1e-9);
+    EXPECT_EQ(series.valueAt(ofMatrix(2), 1.2), std::nullopt);
+  }
+}
+
 TEST(LiveSeries, ForgetsWhatTheHistoryDrops) {
   SignalHistory history({.keepS = 10.0});
   LiveSeries series;

@@ -30,6 +30,10 @@ class LiveSeries {
   // dropped. Returns the number of new samples.
   std::size_t update();
 
+  // Frames are missing after a stamp [us since 1970], as an event says: the next sample follows a
+  // gap, however short it is.
+  void breakAfter(std::int64_t hostUs);
+
   bool empty() const noexcept { return first_ == timeS_.size(); }
   std::size_t numSamples() const noexcept { return timeS_.size() - first_; }
   // Times of the oldest and the newest sample [s]; 0 when there is none.
@@ -83,6 +87,7 @@ class LiveSeries {
   std::size_t first_ = 0;
   // Indices of the last samples before gaps, ascending.
   std::vector<std::size_t> breaks_;
+  std::optional<std::int64_t> breakAfterUs_;  // of a sample that is yet to come
   std::vector<Entry> entries_;
 };
 
