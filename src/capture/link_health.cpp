@@ -281,7 +281,7 @@ PreflightCheck checkPreflight(const LinkInputs& inputs,
                               const HealthOptions& options) {
   const auto hours = hoursOf(folder.freeBytes, bytesPerSecond(inputs.recorder, options));
   const auto red = [&](std::string text) {
-    return PreflightCheck{false, "not ready: " + std::move(text), folder.freeBytes, hours};
+    return PreflightCheck{false, false, "not ready: " + std::move(text), folder.freeBytes, hours};
   };
   if (!inputs.started) return red("no hand is connected");
   for (const std::string& fault :
@@ -308,7 +308,10 @@ PreflightCheck checkPreflight(const LinkInputs& inputs,
     return red("no temperature has been received yet");
   }
   if (hours) text += ", disk for " + diskTimeText(*hours);
-  return {true, text, folder.freeBytes, hours};
+  const std::uint64_t outOfRange = inputs.device.tactile.outOfRange;
+  if (outOfRange > 0)
+    text += "; " + counted(outOfRange, "frame") + " with values outside the hand's range";
+  return {true, outOfRange > 0, text, folder.freeBytes, hours};
 }
 
 }  // namespace palpate

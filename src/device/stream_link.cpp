@@ -497,7 +497,10 @@ void StreamLink::watchSilence() {
 
 // Why no frames come, as far as it is known.
 std::string StreamLink::whySilent(std::int64_t monotonicUs) const {
-  if (session_.faultUs != 0 && monotonicUs - session_.faultUs < kFaultShownUs) return lastFault();
+  // What was refused before the last frame, or with it, is no cause.
+  if (monotonicUs - session_.faultUs < kFaultShownUs &&
+      session_.faultUs - session_.lastFrameUs > kStreamSilentUs / 2)
+    return lastFault();
   if (lines_ && lines_->pendingBytes() > 0)
     return counted(lines_->pendingBytes(), "byte") + " came without the end of a line";
   const std::string holder = options_.source ? options_.source->holderText() : std::string();

@@ -274,6 +274,17 @@ TEST(CheckBeforeRun, saysReadyInOneLine) {
   EXPECT_EQ(check.text, "ready: 31.2 frames/s, up to 38 deg C, disk for 5 days");
 }
 
+TEST(CheckBeforeRun, isDoubtfulWhenValuesAreOutsideOfTheRange) {
+  LinkInputs inputs = streaming();
+  EXPECT_FALSE(checkPreflight(inputs, kGoodFolder).doubtful);
+  inputs.device.tactile.outOfRange = 412;
+  const PreflightCheck check = checkPreflight(inputs, kGoodFolder);
+  EXPECT_TRUE(check.ready);
+  EXPECT_TRUE(check.doubtful);
+  EXPECT_TRUE(check.text.ends_with("; 412 frames with values outside the hand's range"))
+      << check.text;
+}
+
 TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
   const Temperatures warm{0, {30.0}};
   const auto textOf = [&](LinkInputs inputs, const FolderState& folder = kGoodFolder) {

@@ -149,6 +149,8 @@ std::string withoutPort(const PortStatus& port);
 // Result of the check before a run: ready or not, in one line.
 struct PreflightCheck {
   bool ready = false;
+  // Ready, but what comes should be looked at first; the text says why.
+  bool doubtful = false;
   std::string text;
   std::optional<std::uint64_t> freeBytes;  // on the disk of the checked folder
   std::optional<double> diskHours;         // at this rate
