@@ -607,6 +607,12 @@ TEST(RecordingImport, ValuesOutsideOfTheRangeAreKeptAndCounted) {
             "6 values outside the hand's range: 2 above full scale, 2 below 0, 2 NaN (taken as 0)");
   EXPECT_TRUE(made.report.isPartial());
   EXPECT_EQ(ImportReport().lossText(), "");
+  // The recording knows it, too.
+  const auto events = readEvents(folder / "out.palpate").events;
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "alarm");
+  EXPECT_EQ(events[0].tUs, made.profile.frameTimeUs(0));
+  EXPECT_NE(events[0].text.find("2 NaN (taken as 0)"), std::string::npos) << events[0].text;
 }
 
 TEST(RecordingImport, AGarbledCounterDoesNotShiftTheRest) {
@@ -725,6 +731,7 @@ TEST(RecordingImport, APreviewShowsWhatAnImportWouldDo) {
   EXPECT_EQ(preview.sample.rows, kPreviewRows);
   EXPECT_EQ(preview.sample.frames, kPreviewRows - 1);
   EXPECT_EQ(preview.sample.gaps, 1u);
+  EXPECT_DOUBLE_EQ(preview.rateHz, 100.0) << "whatever the gap is";
   EXPECT_EQ(preview.sample.refused.text, 1u);
   EXPECT_FALSE(preview.isWhole);
   const ImportPreview wrong = previewImport(folder / "t.csv", pad(3, 3), {});

@@ -110,6 +110,7 @@ struct ImportPreview {
   std::vector<std::string> notes;
   // Of the first kPreviewRows rows.
   ImportReport sample;
+  double rateHz = 0.0;   // TimingReport::rateHz of its frames
   bool isWhole = false;  // the table has no more rows
 };
 constexpr std::size_t kPreviewRows = 2000;

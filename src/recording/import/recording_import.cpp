@@ -5,9 +5,11 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/model/timing.h"
 #include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/recording.h"
 
@@ -133,7 +135,11 @@ ImportReport importRecording(const fs::path& data,
       meta,
       [&](PalpateWriter& writer) {
         ImportSink sink;
-        sink.frame = [&](const TactileFrame& frame) { writer.addFrame(frame); };
+        std::int64_t firstUs = 0;
+        sink.frame = [&](const TactileFrame& frame) {
+          if (firstUs == 0) firstUs = frame.hostUs;
+          writer.addFrame(frame);
+        };
         sink.angles = [&](const JointAngles& angles) { writer.addAngles(angles); };
         sink.temperatures = [&](const Temperatures& each) { writer.addTemperatures(each); };
         ImportRows rows(hand, mapping, plan, options.strict, std::move(sink));
@@ -144,6 +150,15 @@ ImportReport importRecording(const fs::path& data,
                             "no row can be used" + (report.refused.first.empty()
                                                         ? ": there is none"
                                                         : "; the first: " + report.refused.first));
+        // Who reads the recording later has not seen what the import said.
+        if (report.isPartial())
+          writer.addEvent(
+              {firstUs,
+               firstUs,
+               "alarm",
+               {},
+               "imported from " + shortened(data.filename().string()) + ": " + report.lossText(),
+               ""});
       },
       options.overwrite);
   return report;
@@ -159,8 +174,12 @@ ImportPreview previewImport(const fs::path& data,
   readPreviewRows(*source, preview);
   try {
     const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
-    ImportRows rows(hand, mapping, plan, false, {});
+    std::vector<std::int64_t> stampsUs;
+    ImportSink sink;
+    sink.frame = [&](const TactileFrame& frame) { stampsUs.push_back(frame.hostUs); };
+    ImportRows rows(hand, mapping, plan, false, std::move(sink));
     rows.run(*source, kPreviewRows, {});
+    preview.rateHz = timingOf(stampsUs).rateHz;
     for (const PlannedSeries& series : plan.series)
       preview.choices.insert(
           preview.choices.end(), series.description.begin(), series.description.end());
