@@ -149,6 +149,9 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   const QString notes = find<QLabel>("forceNotes")->text();
   EXPECT_TRUE(notes.contains("35 deg C assumed")) << notes.toStdString();
   EXPECT_TRUE(notes.contains("settings of the calibration")) << notes.toStdString();
+  EXPECT_TRUE(find<QLabel>("forceNotes")->isVisible());
+  EXPECT_LT(find<QLabel>("forceNotes")->y(), find<QWidget>("forceTable")->y());
+  EXPECT_TRUE(find<QLabel>("forceAssumed")->isVisible()) << "no fact of the recording";
   // The fields begin with the calibration's own; what is typed is taken.
   EXPECT_EQ(find<QDoubleSpinBox>("forceSensitivity")->value(), 1.0);
   const float before = found.at(frame, 3).staticResponseCounts;
@@ -165,8 +168,12 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   settle();
   EXPECT_NEAR(page.found()->at(frame, 3).staticResponseCounts, before, 0.01F * before);
   const auto tables = page.tables();
-  ASSERT_EQ(tables.size(), 1u);
+  ASSERT_EQ(tables.size(), 2u);
   EXPECT_EQ(tables[0].make().numRows, 400u * 6u);
+  const TextTable assumptions = tables[1].make();
+  ASSERT_GE(assumptions.numRows, 1u);
+  EXPECT_EQ(assumptions.row(0).front(),
+            "measured on matrix 3; that the others answer alike is assumed");
   find<QPushButton>("forceDrop")->click();
   settle();
   EXPECT_TRUE(why().contains("No calibration"));

@@ -77,6 +77,16 @@ TEST_F(ChartPictureTest, PrintIsDarkOnWhiteWhateverTheTheme) {
   EXPECT_EQ(image().pixelColor(1, 1), colorsOf(Theme::kDark).window);
 }
 
+// "counts" alone doesn't tell mean, max and sum apart.
+TEST_F(ChartPictureTest, TheAxisOfALowChartHasItsWholeNameWhereThePictureHasRoom) {
+  plot_.yAxis->setLabel("counts");
+  plot_.yAxis->setProperty(kWholeNameProperty, "mean in counts");
+  EXPECT_NE(svg().find("mean in counts"), std::string::npos);
+  EXPECT_EQ(plot_.yAxis->label(), "counts") << "as before";
+  look_.size.setHeight(120.0);
+  EXPECT_EQ(svg().find("mean in counts"), std::string::npos);
+}
+
 TEST_F(ChartPictureTest, TheCurveEndsAtTheAxes) {
   plot_.graph(0)->setPen(QPen(QColor("#c17d00"), 5.0));
   const QImage printed = image();

@@ -121,6 +121,54 @@ TEST_F(ImportDialogTest, ChangedFieldsAreTriedAtOnce) {
   EXPECT_TRUE(find<QLabel>("importChoices")->text().contains("250 Hz"));
 }
 
+// A file with times would be read at the rate of another one.
+TEST_F(ImportDialogTest, ARateIsOfOneFileUnlessItIsOfAMapping) {
+  showPad();
+  auto* rate = find<QDoubleSpinBox>("importRate");
+  rate->setValue(250.0);
+  saveImportRequest(dialog_->request(), settings_);
+  std::filesystem::copy_file(folder_ / "pad.csv", folder_ / "other.csv");
+  dialog_->setData(path("other.csv"));
+  EXPECT_EQ(rate->text(), "times of the file");
+  rate->setValue(250.0);
+  find<QLineEdit>("importData")->setText(path("pad.csv"));
+  emit find<QLineEdit>("importData")->editingFinished();
+  EXPECT_EQ(rate->text(), "times of the file");
+  rate->setValue(250.0);
+  emit find<QLineEdit>("importData")->editingFinished();
+  EXPECT_EQ(rate->value(), 250.0) << "the same file";
+  dialog_->askForName = [](const QString&) { return QString("pad at 250 Hz"); };
+  find<QPushButton>("importSavePreset")->click();
+  rate->setValue(10.0);
+  dialog_->setData(path("other.csv"));
+  EXPECT_EQ(rate->value(), 250.0);
+  awaitPreview();
+  open();
+  EXPECT_EQ(find<QDoubleSpinBox>("importRate")->text(), "times of the file");
+  awaitPreview();
+}
+
+TEST_F(ImportDialogTest, WhatIsLeftOutIsAWarningInTheWordsOfTheWindow) {
+  showPad();
+  EXPECT_FALSE(find<QLabel>("importWarnings")->isVisible());
+  std::string text;
+  for (const char* time : {"10", "20", "20", "30"}) {
+    text += time;
+    for (int i = 0; i < 256; ++i) text += i == 7 ? ",nan" : ",1";
+    text += "\n";
+  }
+  testing::writeFile(folder_ / "twice.csv", text);
+  dialog_->setData(path("twice.csv"));
+  awaitPreview();
+  const auto* warnings = find<QLabel>("importWarnings");
+  EXPECT_TRUE(warnings->isVisible());
+  EXPECT_EQ(warnings->property("role").toString(), "warning");
+  EXPECT_TRUE(warnings->text().contains("3 NaN (taken as 0)")) << warnings->text().toStdString();
+  EXPECT_TRUE(warnings->text().contains("a rate (Time, in Hz) keeps all rows"))
+      << warnings->text().toStdString();
+  EXPECT_FALSE(warnings->text().contains("--"));
+}
+
 TEST_F(ImportDialogTest, DecimalCommasAreNamedAndRead) {
   std::string text;
   for (int row = 0; row < 4; ++row) {

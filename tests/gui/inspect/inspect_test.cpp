@@ -1,4 +1,6 @@
 #include <QApplication>
+#include <QStyle>
+#include <QTableView>
 #include <set>
 
 #include "palpate/device/sdh2.h"
@@ -52,6 +54,28 @@ TEST_F(InspectTest, ShowsTheSignalsOfTheFrame) {
   EXPECT_EQ(cell(0, MatrixTableModel::kMean), "–");
   press(Qt::Key_Right);
   EXPECT_EQ(cell(1, MatrixTableModel::kMean), "90");
+}
+
+TEST_F(InspectTest, NoNumberIsElided) {
+  open({"good.dsa"});
+  auto* view = find<QTableView>("matrixTable");
+  table().showForces(std::vector<MatrixTableModel::Force>(
+                         7, {.newtons = 112.99, .sd = 1.0, .inRange = true, .areaKnown = false}),
+                     {});
+  ASSERT_EQ(cell(1, MatrixTableModel::kForce), "≤ 112.99");
+  const int margin = 2 * (view->style()->pixelMetric(QStyle::PM_FocusFrameHMargin) + 1);
+  for (int column = 1; column < table().columnCount(); ++column) {
+    if (view->isColumnHidden(column)) continue;
+    for (int row = 0; row < table().rowCount(); ++row)
+      EXPECT_EQ(view->fontMetrics().elidedText(
+                    cell(row, column), Qt::ElideRight, view->columnWidth(column) - margin),
+                cell(row, column));
+  }
+}
+
+TEST_F(InspectTest, ARecordingWhoseTimesCountFromZeroHasNoDate) {
+  open({"undated.csv"});
+  EXPECT_EQ(fact("recordingFacts", "start (UTC)"), "no date is known");
 }
 
 TEST_F(InspectTest, OnlyWhatChangedIsToldToTheTable) {

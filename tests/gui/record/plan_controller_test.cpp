@@ -192,6 +192,16 @@ TEST_F(PlanControllerTest, LostFramesAreAProblem) {
   EXPECT_TRUE(checked_[0].contains("6 frames lost")) << checked_[0].toStdString();
 }
 
+TEST_F(PlanControllerTest, AnEndWithoutFramesIsAProblem) {
+  controller_.begin(0.0);
+  RecordingReport report = recorded("a.palpate");
+  report.openGapS = 8.04;
+  controller_.end(report);
+  controller_.settle();
+  ASSERT_EQ(checked_.size(), 1);
+  EXPECT_TRUE(checked_[0].contains("no frame came in its last 8.0 s")) << checked_[0].toStdString();
+}
+
 TEST_F(PlanControllerTest, IsRememberedAfterARestart) {
   controller_.setFollowed(true);
   controller_.begin(0.0);

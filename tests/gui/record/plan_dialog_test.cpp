@@ -94,6 +94,24 @@ TEST_F(PlanDialogTest, CellsAreEditedAndABadValueIsNamedByRowAndColumn) {
   EXPECT_FALSE(table()->flags(table()->index(0, PlanModel::kDone)) & Qt::ItemIsEditable);
 }
 
+// A recording begins while its object is being typed.
+TEST_F(PlanDialogTest, WhatIsBeingTypedIsKeptAndTaken) {
+  auto* view = find<QTableView>("planTable");
+  const QModelIndex object = table()->index(0, PlanModel::kObject);
+  view->setCurrentIndex(object);
+  view->edit(object);
+  auto* editor = qobject_cast<QLineEdit*>(view->indexWidget(object));
+  ASSERT_TRUE(editor);
+  editor->selectAll();
+  QTest::keyClicks(editor, "mug");
+  controller_.hold();
+  EXPECT_EQ(editor->text(), "mug");
+  dialog_->takeTyped();
+  EXPECT_EQ(controller_.plan().rows()[0].object, "mug");
+  controller_.release();
+  EXPECT_EQ(editor->text(), "mug");
+}
+
 TEST_F(PlanDialogTest, TheLimitsOfTheCheckAreFoldedAndSet) {
   EXPECT_TRUE(find<QLabel>("planLimitsSummary")->accessibleName().contains("1.0 s at least") ||
               find<QLabel>("planLimitsSummary")->text().contains("1.0 s"));

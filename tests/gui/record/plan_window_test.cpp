@@ -127,6 +127,8 @@ TEST_F(PlanWindowTest, ThatThePlanIsDoneIsOnTheButton) {
   report.paths = {folder_ / "no_such.palpate"};
   plan().end(report);
   plan().settle();
+  EXPECT_EQ(record()->iconText(), " Record") << "to be decided";
+  EXPECT_TRUE(record()->toolTip().contains("1 take is to be decided"));
   plan().keep(folder_ / "no_such.palpate");
   EXPECT_EQ(record()->iconText(), " Record: the plan is done");
 }

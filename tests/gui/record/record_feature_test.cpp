@@ -77,20 +77,31 @@ TEST_F(RecordFeatureTest, ThatNothingIsLostIsNotSaidBesideAGap) {
   endRecording();
   EXPECT_TRUE(offered().endsWith("nothing lost")) << offered().toStdString();
   endRecording(1);
-  EXPECT_TRUE(offered().endsWith("1 gap in which no frame arrived")) << offered().toStdString();
+  EXPECT_TRUE(offered().endsWith("1 gap of 0.0 s in which no frame arrived"))
+      << offered().toStdString();
 }
 
-TEST_F(RecordFeatureTest, SaysHowMuchIsMissingInGaps) {
-  // 101 frames at 10 Hz are 10 s; 2.5 s of 12.5 s are missing.
+// The chart and `palpate info` tell the same length.
+TEST_F(RecordFeatureTest, SaysHowLongTheGapsAre) {
   RecordingReport report;
   report.paths = {folder_ / "run_001.palpate"};
   report.frames = 101;
   report.rateHz = 10.0;
   report.durationS = 12.5;
-  report.gaps = 1;
+  report.gaps = 2;
+  report.gapsS = 4.42;
   emit windowState_->live.recordingEnded(report);
-  EXPECT_TRUE(offered().endsWith("1 gap in which no frame arrived: 2.5 s are missing"))
+  EXPECT_TRUE(offered().endsWith("2 gaps of 4.4 s in which no frame arrived"))
       << offered().toStdString();
+}
+
+TEST_F(RecordFeatureTest, ATakeWhoseHandWasGoneAtItsEndLacksSomething) {
+  RecordingReport report;
+  report.paths = {folder_ / "run_001.palpate"};
+  report.frames = 627;
+  report.openGapS = 8.04;
+  emit windowState_->live.recordingEnded(report);
+  EXPECT_TRUE(offered().endsWith("no frame came in its last 8.0 s")) << offered().toStdString();
 }
 
 // What the user stopped while it waited for contact is no alarm.
@@ -268,6 +279,52 @@ TEST_F(RecordFeatureTest, ThePlanAsksAboutABadTakeAndItCountsOnceItIsKept) {
   EXPECT_EQ(feature_.plan().progressText(), "1 of 2");
   EXPECT_TRUE(question->isHidden());
   EXPECT_TRUE(feature_.strips().back().widget->isHidden()) << "decided there, too";
+}
+
+// As after a restart: another take was not recorded in this session.
+TEST_F(RecordFeatureTest, ATakeToBeDecidedCanBeDiscardedAfterARestartAndNothingBesideIt) {
+  namespace fs = std::filesystem;
+  const fs::path take = folder_ / "ball.palpate", other = folder_ / "ball_002.palpate";
+  for (const fs::path& each : {take, other}) testing::writeFile(each, "");
+  feature_.plan().addRow({.object = "ball", .repetitions = 2});
+  feature_.plan().begin(std::nullopt);
+  RecordingReport report;
+  report.paths = {take};
+  feature_.plan().end(report);
+  feature_.plan().settle();
+  windowState_->actions.at("recordingPlan")->trigger();
+  QCoreApplication::processEvents();
+  auto& question = actionsOf_.findChild<PlanDialog*>()->question();
+  const auto others = question.findChildren<QPushButton*>("offerOther");
+  ASSERT_EQ(others.size(), 2);
+  ASSERT_EQ(others[1]->text(), "Discard…");
+  windowState_->prompts.confirmed = [](const QString&, const QString&) { return true; };
+  QStringList trashed;
+  feature_.lastTake().moveToTrash = [&](const QString& path) {
+    trashed << path;
+    return true;
+  };
+  others[1]->click();
+  EXPECT_EQ(trashed, QStringList(QString::fromStdString(take.string())));
+  EXPECT_FALSE(feature_.plan().undecided());
+}
+
+TEST_F(RecordFeatureTest, ARecordingBesideThePlanIsSaidToBeOne) {
+  connectEmulated();
+  feature_.plan().addRow({.object = "ball", .repetitions = 1});
+  feature_.plan().setFollowed(true);
+  feature_.plan().begin(std::nullopt);
+  endRecording();
+  feature_.plan().settle();  // there is no such file: to be decided
+  ASSERT_TRUE(feature_.plan().undecided());
+  QString button;
+  windowState_->prompts.recording = [&](const RecordingSettings&, const QString& said) {
+    button = said;
+    return std::optional<RecordingSettings>();
+  };
+  windowState_->actions.at("record")->trigger();
+  EXPECT_EQ(button, "Record outside of the plan");
+  disconnect();
 }
 
 TEST_F(RecordFeatureTest, KeysOfTheWindowWorkInThePlanExceptThoseOfItsTable) {

@@ -128,15 +128,21 @@ TEST_F(HandChipTest, AProtectionThatEndedStaysUntilAClickOnTheChip) {
   EXPECT_TRUE(isLogged("hand: not protected: stopped: the tactile port is gone"));
   EXPECT_TRUE(
       await([&] { return isLogged("alarm: not protected: stopped: the tactile port is gone"); }));
-  EXPECT_TRUE(
-      find<QLabel>("handState")->text().startsWith("Not protected: stopped: the tactile port"));
+  // The port is back, and how it is acknowledged stands with it.
+  const auto* state = find<QLabel>("handState");
+  EXPECT_TRUE(await([&] {
+    return state->text().startsWith(
+        "Not protected: before the port came back: stopped: the tactile port");
+  })) << state->text().toStdString();
+  EXPECT_TRUE(state->text().contains("Hand > Acknowledge")) << state->text().toStdString();
   // A stop is no acknowledgement.
   control().stop();
   QTest::mouseClick(&chip(), Qt::LeftButton);
   ASSERT_TRUE(says("stopped"));
   EXPECT_FALSE(actions().at("acknowledgeHand")->isEnabled());
   EXPECT_TRUE(
-      QToolTip::text().startsWith("The hand is not protected: stopped: the tactile port is gone"))
+      QToolTip::text().startsWith("The hand is not protected: before the port came back: stopped: "
+                                  "the tactile port is gone"))
       << QToolTip::text().toStdString();
 }
 

@@ -26,6 +26,12 @@ Profile profileWithStamps(const std::vector<std::int64_t>& stampsMs) {
   return builder.finish(std::move(info));
 }
 
+Profile undatedFrames() {
+  ProfileBuilder builder(sdh2().layout);
+  for (std::int64_t i = 0; i < 3; ++i) builder.addFrame(i * 10'000, emptyFrame().values);
+  return builder.finish({});
+}
+
 Profile twentyFrames() {
   std::vector<std::int64_t> stamps;
   for (std::int64_t i = 0; i < 20; ++i) stamps.push_back(50 * i);

@@ -13,6 +13,8 @@ namespace palpate::gui {
 Profile profileWithStamps(const std::vector<std::int64_t>& stampsMs);
 // As above with 20 frames, 50 ms apart.
 Profile twentyFrames();
+// Three frames whose times count from 0.
+Profile undatedFrames();
 // One frame of the SDH-2, all zero.
 TactileFrame emptyFrame();
 

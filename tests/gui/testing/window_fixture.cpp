@@ -21,6 +21,7 @@ WindowTest::WindowTest() {
       return profileWithStamps(stamps);
     }
     if (name.starts_with("empty")) return profileWithStamps({});
+    if (name.starts_with("undated")) return undatedFrames();
     if (name.starts_with("rich")) return synthesize({.durationS = 4.0, .grasps = 1});
     if (name.starts_with("slip")) return movingContact();
     while (name.starts_with("slow"))

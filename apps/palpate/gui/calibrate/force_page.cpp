@@ -112,9 +112,11 @@ ForcePage::ForcePage(QSettings& settings, QWidget* parent)
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
+  // Above what is computed under these assumptions, where no small dock hides them.
+  notes_->setProperty("role", QVariant());
+  column->addWidget(notes_);
   column->addWidget(table_, 3);
   column->addWidget(chart_, 2);
-  column->addWidget(notes_);
   setContent(content);
   askForCalibration = [this] {
     return QFileDialog::getOpenFileName(
@@ -167,6 +169,10 @@ void ForcePage::makeTop() {
   made->addWidget(sensitivity_);
   made->addWidget(new QLabel("threshold", this));
   made->addWidget(threshold_);
+  assumed_ = new QLabel("assumed", this);
+  assumed_->setObjectName("forceAssumed");
+  assumed_->setToolTip("Neither the recording nor the device says these settings");
+  made->addWidget(assumed_);
   made->addWidget(keep_);
   made->addStretch(1);
   top().addLayout(files);
@@ -266,9 +272,12 @@ void ForcePage::compute() {
     const PressureMapOptions options = pressureOptions(kept, typed);
     auto found = std::make_shared<const ForceSeries>(
         forceSeries(of->profile, calibration, options, kept.tare, progress));
-    const SensorSettings own = options.settings.empty()
-                                   ? calibration.settings
-                                   : options.settings[calibration.matrix % options.settings.size()];
+    // Those of a calibration may have been read from its device; that this recording has the same
+    // is an assumption.
+    SensorSettings own = options.settings.empty()
+                             ? calibration.settings
+                             : options.settings[calibration.matrix % options.settings.size()];
+    own.assumed = own.assumed || options.settings.empty();
     return [this, found, own] { take(found, own); };
   });
 }
@@ -280,6 +289,7 @@ void ForcePage::take(const std::shared_ptr<const ForceSeries>& found, const Sens
     sensitivity_->setValue(own.sensitivity);
     threshold_->setValue(own.thresholdCounts);
   }
+  assumed_->setVisible(own.assumed);
   chart_->setSeries(found);
   showFrame();
   QString notes = linesOf(found->assumptions);
@@ -361,7 +371,14 @@ void ForcePage::setTheme(Theme theme) {
 
 std::vector<ExportedTable> ForcePage::tables() const {
   if (!shown() || !found_) return {};
-  return {{"forces", [found = found_] { return forceTable(found); }}};
+  return {{"forces", [found = found_] { return forceTable(found); }},
+          {"assumptions of the forces", [found = found_] {
+             return TextTable{.header = {"assumption"},
+                              .numRows = found->assumptions.size(),
+                              .row = [found](std::size_t row) {
+                                return std::vector<std::string>{found->assumptions[row]};
+                              }};
+           }}};
 }
 
 void ForcePage::paint(QPainter& painter, const PictureLook& look, const QString& title) {

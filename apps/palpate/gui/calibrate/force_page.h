@@ -96,6 +96,7 @@ class ForcePage : public ComputedPage {
   QDoubleSpinBox* threshold_ = nullptr;
   ForceChart* chart_;
   FiguresTable* table_;
+  QLabel* assumed_ = nullptr;  // beside the settings
   QLabel* notes_;
 };
 

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "gui/appearance/theme.h"
+#include "gui/chart/chart_style.h"
 #include "gui/picture/picture_export.h"
 
 namespace palpate::gui {
@@ -43,7 +44,9 @@ QBrush groundOf(const QCustomPlot& plot) {
 // Changes the look of a chart and restores it in the destructor.
 class Restyled {
  public:
-  Restyled(QCustomPlot& plot, const PictureLook& look, const QFont& font) : plot_(plot) {
+  // `height`: that of the axes and what is around them.
+  Restyled(QCustomPlot& plot, const PictureLook& look, const QFont& font, double height)
+      : plot_(plot), height_(height) {
     look_ = look;
     font_ = font;
     background_ = groundOf(plot);
@@ -93,6 +96,12 @@ class Restyled {
     change(axis, &QCPAxis::tickLabelColor, &QCPAxis::setTickLabelColor, ink(axis.tickLabelColor()));
     change(axis, &QCPAxis::labelFont, &QCPAxis::setLabelFont, font_);
     change(axis, &QCPAxis::tickLabelFont, &QCPAxis::setTickLabelFont, font_);
+    // On the screen the chart may have been lower than in the picture.
+    constexpr double kAroundAxis = 0.25;  // share of the height that the other axis may take
+    const QString whole = axis.property(kWholeNameProperty).toString();
+    if (!whole.isEmpty() && !axis.label().isEmpty() &&
+        QFontMetricsF(font_).horizontalAdvance(whole) < (1.0 - kAroundAxis) * height_)
+      change(axis, &QCPAxis::label, &QCPAxis::setLabel, whole);
     QCPGrid& grid = *axis.grid();
     change(grid, &QCPGrid::pen, &QCPGrid::setPen, ink(grid.pen()));
     change(grid, &QCPGrid::subGridPen, &QCPGrid::setSubGridPen, ink(grid.subGridPen()));
@@ -128,6 +137,7 @@ class Restyled {
   }
 
   QCustomPlot& plot_;
+  double height_;
   PictureLook look_;
   QFont font_;
   QBrush background_;
@@ -294,7 +304,7 @@ ChartBody chartBodyOf(QCustomPlot& plot, const PictureLook& look, double head) {
           body.smallest = {std::min<double>(body.smallest.width(), rect->width()),
                            std::min<double>(body.smallest.height(), rect->height())};
       });
-  const Restyled restyled(plot, look, chartPictureFont(look, plot));
+  const Restyled restyled(plot, look, chartPictureFont(look, plot), look.size.height() - head);
   QCPPainter chart(&body.picture);
   chart.setMode(QCPPainter::pmVectorized);
   chart.setMode(QCPPainter::pmNoCaching);

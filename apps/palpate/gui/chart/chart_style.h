@@ -39,6 +39,8 @@ QString signalAxisName(PlottedSignal signal,
                        const QString& handUnit,
                        const QWidget& plot,
                        const DisplayUnits& units = {});
+// The whole name of an axis, whose label may be shorter where the chart is low.
+inline constexpr const char* kWholeNameProperty = "wholeName";
 // The long name of an axis or, if the chart is too low for it, the short one; empty if that is cut,
 // too.
 QString fittingName(const QString& name, const QString& shortName, const QWidget& plot);

@@ -59,6 +59,7 @@ void UnitAxes::nameAxes() {
     const QString how = QString(byHand_.contains(axis.unit) ? ", by hand" : "") +
                         (logarithmic_.contains(axis.unit) ? ", log" : "");
     axis.axis->setLabel(fittingName(axis.name + how, axis.unit + how, plot_));
+    axis.axis->setProperty(kWholeNameProperty, axis.name + how);
     if (axis.axis->label().isEmpty()) (axis.axis == plot_.yAxis ? left : right) << axis.unit + how;
   }
   showInCorner(atLeft_, left.join(", "), Qt::AlignLeft | Qt::AlignTop);

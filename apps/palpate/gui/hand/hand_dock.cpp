@@ -603,7 +603,9 @@ void HandDock::showState(const GraspStatus& status) {
     const QString text = QString::fromStdString(status.unprotected);
     if (std::exchange(explainedEndUs_, status.lastMotion->endUs) != status.lastMotion->endUs)
       emit explained(text);
-    return say("Not protected: " + text + (said_.isEmpty() ? "" : "\n" + said_), true);
+    return say("Not protected: " + text + ". Hand > Acknowledge: you have seen it." +
+                   (said_.isEmpty() ? "" : "\n" + said_),
+               true);
   }
   if (!said_.isEmpty()) return say(said_, true);
   if (const QString own = ownMotion(); !own.isEmpty())

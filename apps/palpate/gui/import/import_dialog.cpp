@@ -56,9 +56,8 @@ QString sampleText(const ImportPreview& preview) {
                      .arg(preview.isWhole ? "All" : "The first",
                           QString::fromStdString(counted(sample.rows, "row")),
                           QString::fromStdString(counted(sample.frames, "frame")),
-                          QString::number(sample.meanRateHz, 'f', 1),
+                          QString::number(preview.rateHz, 'f', 1),
                           QString::fromStdString(counted(sample.gaps, "gap")));
-  if (sample.isPartial()) text += "\n" + QString::fromStdString(sample.lossText());
   return text;
 }
 
@@ -222,6 +221,10 @@ QWidget* ImportDialog::makePreview() {
   column->addWidget(form_);
   column->addWidget(columns_, 1);
   column->addWidget(choices_);
+  warnings_ = wrappedLabel("importWarnings");
+  warnings_->setProperty("role", "warning");
+  warnings_->hide();
+  column->addWidget(warnings_);
   return side;
 }
 
@@ -260,6 +263,7 @@ QWidget* ImportDialog::makeFoot() {
 void ImportDialog::connectFields() {
   const auto changed = [this] { look(); };
   connect(data_, &QLineEdit::editingFinished, this, [this] {
+    takeRateOfMapping();
     proposeOut();
     look();
   });
@@ -274,8 +278,18 @@ void ImportDialog::connectFields() {
   connect(&job_, &BackgroundJob::finished, this, &ImportDialog::showProblem);
 }
 
+// A rate that was typed belongs to the file before.
+void ImportDialog::takeRateOfMapping() {
+  if (std::exchange(dataBefore_, data_->text()) == data_->text()) return;
+  const auto chosen = importPreset(settings_, preset_->currentData().toString());
+  filling_ = true;
+  rate_->setValue(chosen ? chosen->time.rateHz.value_or(0.0) : 0.0);
+  filling_ = false;
+}
+
 void ImportDialog::setData(const QString& path) {
   data_->setText(path);
+  takeRateOfMapping();
   out_->clear();
   proposeOut();
   look();
@@ -379,6 +393,7 @@ void ImportDialog::take(const ImportLook& look) {
   if (otherHand) fields_->setHand(*look.hand);
   QString form;
   QString choices;
+  QString warnings;
   if (look.preview) {
     const ImportPreview& preview = *look.preview;
     form = QString::fromStdString(preview.form);
@@ -387,7 +402,9 @@ void ImportDialog::take(const ImportLook& look) {
     if (!preview.time.empty()) lines << "time: " + QString::fromStdString(preview.time);
     for (const std::string& note : preview.notes) lines << QString::fromStdString(note);
     if (preview.problem.empty()) lines << sampleText(preview);
-    choices = lines.join("\n");
+    choices = inWindowWords(lines.join("\n"));
+    if (preview.problem.empty())
+      warnings = inWindowWords(QString::fromStdString(preview.sample.lossText()));
     showColumns(preview);
   } else {
     columns_->setRowCount(0);
@@ -395,6 +412,8 @@ void ImportDialog::take(const ImportLook& look) {
   }
   form_->setText(form);
   choices_->setText(choices);
+  warnings_->setText(warnings);
+  warnings_->setVisible(!warnings.isEmpty());
   showProblem();
 }
 

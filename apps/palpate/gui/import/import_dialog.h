@@ -62,6 +62,7 @@ class ImportDialog : public QDialog {
   void usePreset();
   void listPresets(const QString& chosen);
   // Beside the table, unless a name was typed already.
+  void takeRateOfMapping();
   void proposeOut();
   // Where to save: with folder and ending; empty: nothing was typed.
   QString out() const;
@@ -89,10 +90,12 @@ class ImportDialog : public QDialog {
   QLineEdit* time_ = nullptr;
   QComboBox* timeUnit_ = nullptr;
   QDoubleSpinBox* rate_ = nullptr;
+  QString dataBefore_;
   ImportFields* fields_ = nullptr;
   QLabel* form_ = nullptr;
   QTableWidget* columns_ = nullptr;
   QLabel* choices_ = nullptr;
+  QLabel* warnings_ = nullptr;  // what is left out, or doesn't fit the hand
   QString proposed_;
   QLineEdit* out_ = nullptr;
   QCheckBox* strict_ = nullptr;

@@ -7,6 +7,8 @@
 #include <palpate/core/number_text.h>
 #include <palpate/model/hand_file.h>
 
+#include "gui/appearance/captions.h"
+
 namespace palpate::gui {
 namespace fs = std::filesystem;
 namespace {
@@ -70,7 +72,7 @@ QString textOf(const ImportReport& report, const QString& out) {
   if (report.absentFrames > 0)
     text += ", " + QString::fromStdString(counted(report.absentFrames, "frame")) +
             " without an active taxel are not in the list";
-  if (report.isPartial()) text += ", " + QString::fromStdString(report.lossText());
+  if (report.isPartial()) text += ", " + inWindowWords(QString::fromStdString(report.lossText()));
   return text;
 }
 
@@ -85,6 +87,7 @@ ImportRequest loadImportRequest(const QSettings& settings) {
   ImportRequest request;
   request.hand = settings.value(kImportHand).toString();
   request.mapping = mappingIn(settings.value(kImportMapping)).value_or(ImportMapping());
+  request.mapping.time.rateHz.reset();  // of the file that was imported
   request.data = settings.value(kImportFolder).toString();
   request.strict = settings.value(kImportStrict, false).toBool();
   return request;

@@ -38,8 +38,12 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
   facts.push_back({"hand", QString::fromStdString(profile.hand().name)});
   if (!info.serial.empty()) facts.push_back({"serial", QString::fromStdString(info.serial)});
   if (profile.numFrames() > 0) {
-    const std::string start = utcText(profile.frameTimeUs(0));
-    facts.push_back({"start (UTC)", QString::fromStdString(start).left(19)});
+    // Times that count from 0 have no date.
+    constexpr std::int64_t kYearUs = 365LL * 24 * 3600 * 1'000'000;
+    const std::int64_t startUs = profile.frameTimeUs(0);
+    facts.push_back({"start (UTC)",
+                     startUs < kYearUs ? QString("no date is known")
+                                       : QString::fromStdString(utcText(startUs)).left(19)});
   }
   facts.push_back({"frames", QString::number(profile.numFrames())});
   if (const UnreadableSamples& unreadable = recording.unreadableNow(); unreadable.count > 0)

@@ -19,6 +19,7 @@ constexpr int kLastAlways = MatrixTableModel::kMaximum;
 constexpr int kFirstNumber = 1;
 // With more matrices the table scrolls.
 constexpr int kMatrixTableMostRowsSeen = 13;
+constexpr int kMatrixTablePadding = 14;  // [px]
 
 bool sameText(const CharacteristicSignals& a, const CharacteristicSignals& b) {
   return a.active == b.active && a.sum == b.sum && a.maximum == b.maximum && a.minimum == b.minimum;
@@ -292,20 +293,40 @@ MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(
   header->setSectionResizeMode(MatrixTableModel::kName, QHeaderView::Stretch);
   fitToText(*this, [this] { fitColumns(); });
   connect(model, &QAbstractItemModel::modelReset, this, &QWidget::updateGeometry);
+  connect(model, &QAbstractItemModel::dataChanged, this, &MatrixTable::growColumns);
+}
+
+// No number is elided.
+void MatrixTable::growColumns() {
+  bool grown = false;
+  for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
+    int& width = columnSizes_[static_cast<std::size_t>(column)];
+    const int before = width;
+    for (int row = 0; row < model()->rowCount(); ++row)
+      width = std::max(width,
+                       kMatrixTablePadding + fontMetrics().horizontalAdvance(
+                                                 model()->index(row, column).data().toString()));
+    if (width == before) continue;
+    horizontalHeader()->resizeSection(column, width);
+    grown = true;
+  }
+  if (!grown) return;
+  hideColumns(this->width());
+  updateGeometry();
 }
 
 void MatrixTable::fitColumns() {
   verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
   const int digit = fontMetrics().horizontalAdvance('0');
-  constexpr int kPadding = 14;
   for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
     const int digits = column == MatrixTableModel::kSum ? 6 : 4;
     const QString name = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
     int& width = columnSizes_[static_cast<std::size_t>(column)];
     width = std::max(digits * digit, horizontalHeader()->fontMetrics().horizontalAdvance(name)) +
-            kPadding;
+            kMatrixTablePadding;
     horizontalHeader()->resizeSection(column, width);
   }
+  growColumns();
   hideColumns(width());
   updateGeometry();
 }

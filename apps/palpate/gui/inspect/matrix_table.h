@@ -103,6 +103,7 @@ class MatrixTable : public QTableView {
   int nameWidth() const;
   // As wide as their headings and figures, in the present size of text.
   void fitColumns();
+  void growColumns();
   void hideColumns(int width);
   std::array<int, MatrixTableModel::kNumColumns> columnSizes_{};  // [px]
   TickDelegate* ticks_;

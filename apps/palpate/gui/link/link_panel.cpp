@@ -232,7 +232,9 @@ void LinkPanel::showCheck() {
   QColor color = colors.muted;
   if (connected_ && lastCheck_) {
     text = QString::fromStdString(lastCheck_->text);
-    color = lastCheck_->ready ? colors.accent : colors.danger;
+    color = !lastCheck_->ready     ? colors.danger
+            : lastCheck_->doubtful ? colors.warning
+                                   : colors.accent;
   } else if (connected_) {
     text = "checking …";
   }

@@ -237,7 +237,7 @@ void PlanController::end(const RecordingReport& report) {
   plan_.addTake(*row, {.file = file});
   lastTake_ = file;
   save();
-  auto problem = std::make_shared<std::string>();
+  auto problem = std::make_shared<std::string>(report.openGapText());
   TakeCheckOptions limits = limits_;
   limits.leastS = leastS_.value_or(limits.leastS);
   checking_.start(
@@ -246,7 +246,8 @@ void PlanController::end(const RecordingReport& report) {
         try {
           std::vector<Profile> parts;
           for (const fs::path& path : paths) parts.push_back(openRecording(path));
-          *problem = checkTake(parts, lost, limits, progress).problem();
+          const std::string found = checkTake(parts, lost, limits, progress).problem();
+          *problem += (problem->empty() || found.empty() ? "" : "; ") + found;
         } catch (const Cancelled&) {
           throw;
         } catch (const std::exception& error) {

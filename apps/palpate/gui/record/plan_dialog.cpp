@@ -8,11 +8,13 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QResizeEvent>
 #include <QScreen>
 #include <QScrollBar>
+#include <QStyledItemDelegate>
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -42,6 +44,16 @@ QTableView { background: palette(base); border: 1px solid palette(mid); border-r
 #planFoot { border-top: 1px solid palette(mid); }
 #planSaid { color: palette(bright-text); }
 )";
+
+// What is being typed stays, whatever changes elsewhere in the plan meanwhile.
+class PlanCells : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  void setEditorData(QWidget* editor, const QModelIndex& index) const override {
+    const auto* line = qobject_cast<const QLineEdit*>(editor);
+    if (!line || !line->isModified()) QStyledItemDelegate::setEditorData(editor, index);
+  }
+};
 
 }  // namespace
 
@@ -128,6 +140,7 @@ QWidget* PlanDialog::makeRows() {
   table_->setObjectName("planTable");
   table_->setAccessibleName("Plan of recordings");
   table_->setModel(model_);
+  table_->setItemDelegate(new PlanCells(table_));
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   table_->setTabKeyNavigation(false);
@@ -250,6 +263,11 @@ void PlanDialog::resizeEvent(QResizeEvent* event) {
   if (event->size().width() != event->oldSize().width()) fitColumns();
   // What comes next is shortened to another width.
   showState();
+}
+
+void PlanDialog::takeTyped() {
+  QWidget* editor = table_->indexWidget(table_->currentIndex());
+  if (editor) emit table_->itemDelegate()->commitData(editor);
 }
 
 void PlanDialog::say(const QString& text) {

@@ -34,6 +34,8 @@ class PlanDialog : public QDialog {
 
   // The line for the question about a take.
   OfferStrip& question() noexcept { return *question_; }
+  // Takes what is being typed into a cell, as if the user had pressed Enter.
+  void takeTyped();
   // What Escape ends before it closes this window: true if there was something; may be empty.
   std::function<bool()> escape;
 

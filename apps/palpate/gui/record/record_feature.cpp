@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <palpate/core/number_text.h>
+#include <palpate/recording/recording.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
@@ -77,18 +78,29 @@ QString handKey(const Device& device) {
   return text;
 }
 
+// A recording with the parts that follow it. Another recording may have the name of a part, so that
+// each must say whose it is.
+std::vector<std::filesystem::path> partsFrom(const std::filesystem::path& first) {
+  std::vector<std::filesystem::path> parts{first};
+  try {
+    for (int part = 2;; ++part) {
+      const std::filesystem::path next = partPath(first, part);
+      if (!std::filesystem::exists(next)) break;
+      const auto meta = readRecordingMeta(next);
+      const auto whose = meta.find("part_of");
+      if (whose == meta.end() || whose->second != first.filename().string()) break;
+      parts.push_back(next);
+    }
+  } catch (const std::exception&) {
+    // What can't be read stays.
+  }
+  return parts;
+}
+
 // What Record does by the plan that is followed; empty: none is.
 QString plannedText(const PlanController& plan) {
   if (!plan.followed()) return {};
   return plan.nextTake().isEmpty() ? plan.nextText() : plan.nextTake();
-}
-
-// How much is missing, from the duration and the usual rate; empty: too little to say.
-QString missingText(const RecordingReport& report) {
-  if (!(report.rateHz > 0.0) || report.frames < 2) return {};
-  const double missingS = report.durationS - static_cast<double>(report.frames - 1) / report.rateHz;
-  constexpr double kLeastToldS = 0.1;
-  return missingS < kLeastToldS ? QString() : ": " + figure(missingS, 1) + " s are missing";
 }
 
 std::int64_t counterOf(const RecordingReport& report, const char* name) {
@@ -97,9 +109,9 @@ std::int64_t counterOf(const RecordingReport& report, const char* name) {
 }
 
 bool missesSomething(const RecordingReport& report) {
-  return !report.complete || report.lost > 0 || report.gaps > 0 || counterOf(report, "lost") > 0 ||
-         counterOf(report, "suspect") > 0 || counterOf(report, "out_of_range") > 0 ||
-         !report.mcapFailure.empty();
+  return !report.complete || report.lost > 0 || report.gaps > 0 || report.openGapS > 0.0 ||
+         counterOf(report, "lost") > 0 || counterOf(report, "suspect") > 0 ||
+         counterOf(report, "out_of_range") > 0 || !report.mcapFailure.empty();
 }
 
 QString summaryOf(const RecordingReport& report) {
@@ -121,11 +133,11 @@ QString summaryOf(const RecordingReport& report) {
     text += ", " + countedText(outOfRange, "frame") + " with values outside the hand's range";
   if (report.lost > 0) text += ", " + QString::number(report.lost) + " lost by the recorder";
   if (report.gaps > 0)
-    text +=
-        (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
-        " in which no frame arrived" + missingText(report);
-  if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0 && suspect == 0 &&
-      outOfRange == 0)
+    text += ", " + countedText(report.gaps, "gap") + " of " + figure(report.gapsS, 1) +
+            " s in which no frame arrived";
+  if (report.openGapS > 0.0) text += ", " + QString::fromStdString(report.openGapText());
+  if (report.complete && report.lost == 0 && report.gaps == 0 && report.openGapS == 0.0 &&
+      notReceived == 0 && suspect == 0 && outOfRange == 0)
     text += ", nothing lost";
   if (!report.mcapFailure.empty())
     text += "; the MCAP file is not whole: " + QString::fromStdString(report.mcapFailure);
@@ -296,10 +308,12 @@ void RecordFeature::askAbout(const std::filesystem::path& file, OfferStrip& line
       });
   line.warn(true);
   line.offerAlso("Keep", "It counts as it is", [this, file] { plan_.keep(file); });
-  if (!take_.paths().empty() && take_.paths().front() == file)
-    line.offerAlso("Discard…", "Moves it to the trash, after a question, and repeats it", [this] {
-      take_.discard();
-    });
+  line.offerAlso(
+      "Discard…", "Moves it to the trash, after a question, and repeats it", [this, file] {
+        // After a restart, or once another one was recorded: all its parts are found again.
+        if (take_.paths().empty() || take_.paths().front() != file) take_.set(partsFrom(file));
+        take_.discard();
+      });
 }
 
 void RecordFeature::askInPlan() {
@@ -502,11 +516,15 @@ void RecordFeature::toggle() {
   if (!isPlanSure()) return;
   takeFolder();
   const auto planned = plan_.nextSettings(settings_);
+  const bool isBesidePlan = plan_.followed() && !planned && !plan_.plan().rows().empty();
   if (!planned && settings_.askEachTime) {
-    const auto wanted = state().prompts.recording(settings_, "Start recording");
+    const auto wanted = state().prompts.recording(
+        settings_, isBesidePlan ? "Record outside of the plan" : "Start recording");
     if (!wanted) return;
     use(*wanted);
   }
+  if (isBesidePlan)
+    state().messages.flash("This recording is outside of the plan: " + plan_.nextText());
   const RecordingSettings next = planned.value_or(settings_);
   const bool isPlanned = planned.has_value();
   if (isPlanned) plan_.hold();
@@ -569,7 +587,8 @@ void RecordFeature::begin(const RecordingSettings& counted, bool planned) {
     if (planned) plan_.release();
     return;
   }
-  // The row of the plan may have been edited during the countdown.
+  // The row of the plan may have been edited during the countdown, and still be.
+  if (planDialog_) planDialog_->takeTyped();
   const auto held = plan_.holds() ? plan_.nextSettings(settings_) : std::nullopt;
   if (!held) plan_.release();
   const RecordingSettings settings = held.value_or(counted);
@@ -623,14 +642,16 @@ void RecordFeature::showState() {
     action->setText(on ? "Stop &recording" : "&Record");
   }
   const QString planned = on ? QString() : plannedText(plan_);
-  if (action->property(kPlannedProperty).toBool() == planned.isEmpty())
-    action->setProperty(kPlannedProperty, !planned.isEmpty());
+  // That takes are to be decided has no room on the button.
+  const bool isOnButton = !planned.isEmpty() && (!plan_.nextTake().isEmpty() || !plan_.undecided());
+  if (action->property(kPlannedProperty).toBool() != isOnButton)
+    action->setProperty(kPlannedProperty, isOnButton);
   const QString tip = on ? "Stop and finish the recording (Ctrl+R)"
                          : "Start recording, with the last two seconds (Ctrl+R)" +
                                (planned.isEmpty() ? QString() : "\n" + planned);
   if (action->toolTip() != tip) action->setToolTip(tip);
   QString text = " Record";
-  if (!planned.isEmpty()) text += ": " + planned;
+  if (isOnButton) text += ": " + planned;
   if (counting) {
     text = " in " + QString::number(countdown_.leftS()) + " s";
   } else if (on) {

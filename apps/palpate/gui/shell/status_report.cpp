@@ -120,7 +120,9 @@ void StatusReport::reportLive() {
   Status now;
   const bool diskFails =
       !recorder.writeError.empty() || !recorder.relocation.empty() || !recorder.mcapFailure.empty();
-  now.lamp = live.stale() || held || diskFails ? Status::Lamp::kWarning : Status::Lamp::kGood;
+  const bool outOfRange = health.device.tactile.outOfRange > 0;
+  now.lamp = live.stale() || held || diskFails || outOfRange ? Status::Lamp::kWarning
+                                                             : Status::Lamp::kGood;
   if (live.source() && live.source()->finished())
     now.state = "the replay has ended";
   else if (live.stale())
@@ -142,6 +144,7 @@ void StatusReport::reportLive() {
     now.state += " · now in " + QString::fromStdString(recorder.path.filename().string());
   else if (!recorder.mcapFailure.empty())
     now.state += " · no MCAP file any more";
+  if (outOfRange) now.state += " · values outside the range";
   if (windowState_.activeFilters.applied()) now.state += " · filtered";
   if (held) now.state = "on hold (P resumes) · " + now.state;
   now.figures = {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include <palpate/core/json.h>
 #include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 
@@ -486,8 +487,14 @@ void LiveChart::addEvent(const RecordingEvent& event) {
   const ThemeColors& colors = colorsOf(theme_);
   const double beginS = series_.secondsOf(event.tUs);
   const QString text = QString::fromStdString(event.text);
-  // Gaps are visible in the samples.
-  if (event.kind == "gap") return;
+  // Long gaps are visible in the samples, shorter ones only here. Of a stream that loses a frame
+  // now and then the line goes on.
+  constexpr std::int64_t kLeastGapUs = 150'000;
+  if (event.kind == "gap") {
+    if (event.t1Us - event.tUs >= kLeastGapUs && !Json::parse(event.json).contains("stream"))
+      series_.breakAfter(event.tUs);
+    return;
+  }
   if (event.kind == "mark" || event.kind == "label")
     line(beginS, nameOfEvent(event), text.isEmpty() ? "mark" : "mark: " + text, colors.accent);
   else if (event.kind == "grasp")

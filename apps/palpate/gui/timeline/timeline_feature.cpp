@@ -46,6 +46,20 @@ constexpr const char* kLiveAxesSetting = "live/axes";
 // In the unit of the axis.
 constexpr double kLargestAxisValue = 1e12;
 
+// "finger 0 distal, x 3, y 5": of one taxel.
+QString placeOfTaxel(const HandDescription& hand, const TaxelSelection& one) {
+  for (std::size_t m = 0; m < one.numMatrices(); ++m) {
+    const Mask& mask = one.mask(m);
+    const auto at = std::ranges::find_if(mask, [](auto chosen) { return chosen != 0; });
+    if (at == mask.end()) continue;
+    const auto place = static_cast<int>(at - mask.begin());
+    const int columns = hand.layout->matrix(m).columns;
+    return QString::fromStdString(hand.matrixName(m)) + ", x " + QString::number(place % columns) +
+           ", y " + QString::number(place / columns);
+  }
+  return {};
+}
+
 // Each range is a text "begin end unit".
 RangesByHand loadRanges(const QSettings& settings, const char* name) {
   RangesByHand ranges;
@@ -83,6 +97,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   header_ = new TimelineHeader({.ofSelection = {actions.zoomSelection,
                                                 actions.addLabel,
                                                 actions.crop,
+                                                actions.statistics,
                                                 actions.dropSelection},
                                 .ofCursors = {actions.zoomSelection, actions.dropSelection},
                                 .ofLive = {actions.freeze}},
@@ -492,7 +507,8 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
     const std::size_t count = chosen.count();
     add(taxelCurve(*hand,
                    chosen,
-                   count == 1 ? QString("chosen taxel") : QString::number(count) + " chosen taxels",
+                   count == 1 ? "chosen taxel: " + placeOfTaxel(*hand, chosen)
+                              : QString::number(count) + " chosen taxels",
                    0,
                    theme));
   }
