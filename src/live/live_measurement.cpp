@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
+#include "palpate/recording/recording_losses.h"
 
 namespace palpate {
 namespace {
@@ -28,14 +28,9 @@ std::string framesText(std::uint64_t count) {
 
 // Frames that a gap event reports as lost; 0 where it doesn't say, or speaks of other items.
 std::uint64_t framesLostIn(const RecordingEvent& event) {
-  try {
-    const Json json = Json::parse(event.json);
-    if (json.contains("stream") && json.at("stream").asString() != "tactile") return 0;
-    if (!json.contains("lost")) return 0;
-    return static_cast<std::uint64_t>(std::max<std::int64_t>(json.at("lost").asInteger(), 0));
-  } catch (const Error&) {
-    return 0;
-  }
+  for (const RecordingLoss& loss : lossesOf({&event, 1}))
+    if (loss.stream == "tactile") return loss.lost;
+  return 0;
 }
 
 }  // namespace

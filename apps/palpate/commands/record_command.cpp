@@ -223,8 +223,7 @@ CommandSpec recordSpec() {
           "records only when another program asks for it (palpate remote start); OUT is then a "
           "folder, or a folder with a template of file names. Exit code 3: the recorder lost "
           "something, frames were refused or hold values outside the hand's range, or a stream "
-          "lost "
-          "some.",
+          "lost some.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"output,o", "OUT.palpate", "where to record"},

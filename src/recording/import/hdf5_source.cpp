@@ -69,7 +69,6 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
   for (std::size_t c = 0; c < columns_.size() && described < kMostDescribedTexts; ++c)
     if (facts_[c].kind == Hdf5Kind::kText && facts_[c].shape.size() == 1 && facts_[c].fault.empty())
       ++described, describeTexts(c);
-  rateHz_ = findRate();
 }
 
 std::vector<std::string> Hdf5Source::texts(std::size_t column,
@@ -103,7 +102,8 @@ void Hdf5Source::describeTexts(std::size_t column) {
   described.dateForm = dateFormOf(dates);
 }
 
-std::optional<double> Hdf5Source::findRate() {
+// That of the file, its groups and arrays, where all that have one agree.
+std::optional<double> Hdf5Source::rateHz() const {
   constexpr std::size_t kMostObjects = 100;
   std::set<std::string> objects = {""};
   for (const TableColumn& column : columns_)

@@ -19,7 +19,7 @@ class Hdf5Source final : public ArraySource {
   std::string form() const override;
   bool isColumnMajor() const noexcept override { return isMatlab_; }
   void reverseAxes(std::size_t column) override;
-  std::optional<double> rateHz() const override { return rateHz_; }
+  std::optional<double> rateHz() const override;
 
  protected:
   void open(std::size_t column) override;
@@ -41,10 +41,8 @@ class Hdf5Source final : public ArraySource {
   // Of a column of texts: whether they are dates.
   void describeTexts(std::size_t column);
   // The attribute of the file, its groups and data sets, where all that have one agree.
-  std::optional<double> findRate();
 
   bool isMatlab_ = false;
-  std::optional<double> rateHz_;
   std::vector<std::string> timeTexts_;  // of the loaded rows
   std::set<std::size_t> reversed_;      // columns
   std::unique_ptr<Hdf5Process> file_;

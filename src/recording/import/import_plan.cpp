@@ -861,8 +861,8 @@ ImportPlan Planner::plan() {
     column.shape.clear();  // a vector of MATLAB has two axes
     return timeScore(column, Kind::kFrames) > 0;
   });
-  const auto rate = source_.rateHz();
-  if (rate && !hasTimes && mapping_.time == TimeMapping{}) {
+  const bool isAsked = !hasTimes && mapping_.time == TimeMapping{};
+  if (const auto rate = isAsked ? source_.rateHz() : std::nullopt) {
     mapping_.time.rateHz = rate;
     plan_.notes.push_back("time: the file gives a rate of " + numberText(*rate) + " Hz");
   }

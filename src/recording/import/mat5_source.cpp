@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::uint64_t kMatHeaderBytes = 128;
 constexpr std::uint64_t kTagBytes = 8;
-constexpr std::size_t kMostMatArrays = 10'000;
-constexpr std::size_t kMostMatNamesBytes = 4u << 20;
-constexpr std::size_t kMostMatNameBytes = 4096;
-constexpr std::size_t kMostMatDimensions = 8;
-constexpr int kMostNesting = 16;
+constexpr std::size_t kMaxMatArrays = 10'000;
+constexpr std::size_t kMaxMatNamesBytes = 4u << 20;
+constexpr std::size_t kMaxMatNameBytes = 4096;
+constexpr std::size_t kMaxMatDimensions = 8;
+constexpr int kMaxNesting = 16;
 
 // Types of elements.
 constexpr std::uint32_t kInt32Element = 5;
@@ -224,14 +224,14 @@ class Mat5Source::Scan {
 
   // Room for so many columns more.
   bool hasRoom(std::uint64_t count) const {
-    return count <= kMostMatArrays - source_.columns_.size();
+    return count <= kMaxMatArrays - source_.columns_.size();
   }
 
   void add(NpyHeader header, const std::string& type) {
     source_.nameBytes_ += name_.size();
-    if (!hasRoom(1) || source_.nameBytes_ > kMostMatNamesBytes)
+    if (!hasRoom(1) || source_.nameBytes_ > kMaxMatNamesBytes)
       throw FormatError(source_.path_,
-                        "has too many arrays (more than " + std::to_string(kMostMatArrays) +
+                        "has too many arrays (more than " + std::to_string(kMaxMatArrays) +
                             "), or too long names");
     source_.addArray(name_, std::move(header), type);
   }
@@ -246,14 +246,14 @@ class Mat5Source::Scan {
     const auto matClass = static_cast<std::uint8_t>(flags & 0xFF);
     std::vector<std::uint64_t> sizes;
     if (matClass != kOpaqueClass) sizes = readSizes(end);
-    const std::string ownName = text(kMostMatNameBytes, end);
+    const std::string ownName = text(kMaxMatNameBytes, end);
     if (givenName.empty()) name_ = ownName;
     // Without a name: data of MATLAB's own for objects.
     if (name_.empty()) return;
     if (matClass >= kFirstNumberClass && matClass <= kLastNumberClass)
       return addNumbers(matClass, flags, std::move(sizes), end);
     const std::uint64_t count = partsOf(sizes);
-    const bool isRead = nesting < kMostNesting && hasRoom(count);
+    const bool isRead = nesting < kMaxNesting && hasRoom(count);
     if (matClass == kStructClass && isRead) return readFields(count, end, nesting);
     if (matClass == kCellClass && isRead) {
       const std::string name = name_;
@@ -269,13 +269,13 @@ class Mat5Source::Scan {
     std::uint64_t count = 1;
     if (std::find(sizes.begin(), sizes.end(), 0u) != sizes.end()) return 0;
     for (const std::uint64_t size : sizes)
-      count = std::min<std::uint64_t>(count * size, kMostMatArrays + 1);  // sizes have 31 bits
+      count = std::min<std::uint64_t>(count * size, kMaxMatArrays + 1);  // sizes have 31 bits
     return count;
   }
 
   std::vector<std::uint64_t> readSizes(std::uint64_t end) {
-    constexpr std::size_t kMostSizes = 4096;
-    const std::vector<std::byte> bytes = content(kInt32Element, 4 * kMostSizes, end);
+    constexpr std::size_t kMaxSizes = 4096;
+    const std::vector<std::byte> bytes = content(kInt32Element, 4 * kMaxSizes, end);
     if (bytes.size() % 4 != 0 || bytes.size() < 8) damaged();
     std::vector<std::uint64_t> sizes;
     for (std::size_t i = 0; i < bytes.size(); i += 4) {
@@ -310,7 +310,7 @@ class Mat5Source::Scan {
     const bool isComplex = (flags & kComplexFlag) != 0;
     const bool isLogical = (flags & kLogicalFlag) != 0;
     if (isLogical && header.kind == NumberKind::kUnsigned) header.kind = NumberKind::kBool;
-    if (isComplex || header.shape.size() > kMostMatDimensions) header.kind = NumberKind::kOther;
+    if (isComplex || header.shape.size() > kMaxMatDimensions) header.kind = NumberKind::kOther;
     if (header.kind == NumberKind::kOther) header.shape.clear();
     add(std::move(header), isComplex ? "complex" : isLogical ? "bool" : classText(matClass));
   }
@@ -328,7 +328,7 @@ class Mat5Source::Scan {
     const std::string name = name_;
     const std::vector<std::byte> lengthBytes = content(kInt32Element, 4, end);
     const std::uint64_t length = number(lengthBytes);
-    const std::string all = text(kMostMatNamesBytes, end);
+    const std::string all = text(kMaxMatNamesBytes, end);
     if (lengthBytes.size() != 4 || length == 0 || all.size() % length != 0) damaged();
     std::vector<std::string> fields;
     for (std::size_t at = 0; at < all.size(); at += length) {

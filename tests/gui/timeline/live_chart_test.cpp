@@ -161,6 +161,34 @@ TEST_F(LiveChartTest, RollsOnBySilenceAndShadesTheGap) {
       << chart_.valuesAt(33.0).toStdString();
 }
 
+// Events of a recording that is replayed may be of any program: `json` may be empty, or none.
+TEST_F(LiveChartTest, AGapThatAnEventTellsInterruptsTheLine) {
+  const auto interruptions = [&] {
+    int count = 0;
+    for (const QCPGraphData& point : *chart_.graph(2)->data())
+      count += std::isnan(point.value) ? 1 : 0;
+    return count;
+  };
+  double nextS = 5.0;
+  const auto gapAt = [&](double fromS, double seconds, const char* json) {
+    const auto fromUs = kStartUs + static_cast<std::int64_t>(1e6 * fromS);
+    chart_.addEvent(
+        {fromUs, fromUs + static_cast<std::int64_t>(1e6 * seconds), "gap", {}, "lost", json});
+    // The curves are drawn anew when they have moved by a pixel.
+    for (int i = 0; i < 10; ++i) frame(nextS += 1.0 / 30.0, 5.0);
+    chart_.refresh(0.0);
+    return interruptions();
+  };
+  for (int i = 0; i <= 5 * 30; ++i) frame(i / 30.0, 5.0);
+  chart_.refresh(0.0);
+  EXPECT_EQ(interruptions(), 0);
+  EXPECT_EQ(gapAt(1.0, 0.4, R"({"stream": "angles", "lost": 9})"), 0) << "of the joints";
+  EXPECT_EQ(gapAt(1.0, 0.05, R"({"lost": 1})"), 0) << "a single frame";
+  EXPECT_EQ(gapAt(1.0, 0.4, ""), 1);
+  EXPECT_EQ(gapAt(2.0, 0.4, "{not JSON"), 2);
+  EXPECT_EQ(gapAt(3.0, 0.4, R"({"stream": "tactile", "lost": 12})"), 3);
+}
+
 TEST_F(LiveChartTest, HeightFollowsTheLargestInSight) {
   frame(0.0, 730.0);
   chart_.refresh(0.0);

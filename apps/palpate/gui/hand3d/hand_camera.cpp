@@ -15,7 +15,7 @@ constexpr double kLargestTargetMm = 1e6;
 // Share of the picture that fit() fills.
 constexpr double kFilledByFit = 0.92;
 // Height that fit() shows at least, so that a sensor of a few taxels leaves room for the scale.
-constexpr double kLeastShownMm = 20.0;
+constexpr double kMinShownMm = 20.0;
 
 double finiteOr(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
 
@@ -182,7 +182,7 @@ void HandCamera::fit(const std::vector<Eigen::Vector3d>& pointsMm, double aspect
   // Keeps the nearest point in front of the near plane.
   double eye = nearest + std::max(kMinDistanceMm, 0.05 * (nearest - furthest));
   for (int i = 0; i < 2; ++i) eye = std::max(eye, 0.5 * (upper[i] + lower[i]) / tangent[i]);
-  eye = std::max(eye, 0.5 * (nearest + furthest) + 0.5 * kLeastShownMm / tanOfHalfField(*this));
+  eye = std::max(eye, 0.5 * (nearest + furthest) + 0.5 * kMinShownMm / tanOfHalfField(*this));
   const Eigen::Vector3d middle(
       0.5 * (upper[0] - lower[0]), 0.5 * (upper[1] - lower[1]), 0.5 * (nearest + furthest));
   targetMm = axes.transpose() * middle;

@@ -203,7 +203,7 @@ SurfaceLine lineOf(const HandPose& pose,
 }
 
 // A slab below the lowest taxel of a surface that is given taxel by taxel; without triangles where
-// there is no such place.
+// its taxels look to all sides.
 HandBody slabUnderTaxels(const HandPose& pose, std::size_t matrix) {
   const SensorSurface& surface = pose.description().surfaces[matrix];
   HandBody body{.role = HandBodyRole::kLink, .place = surface.place, .triangles = {}, .edges = {}};

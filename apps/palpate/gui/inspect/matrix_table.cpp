@@ -298,14 +298,17 @@ MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(
 
 // No number is elided.
 void MatrixTable::growColumns() {
+  const int digit = fontMetrics().horizontalAdvance('0');
   bool grown = false;
   for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
     int& width = columnSizes_[static_cast<std::size_t>(column)];
     const int before = width;
-    for (int row = 0; row < model()->rowCount(); ++row)
-      width = std::max(width,
-                       kMatrixTablePadding + fontMetrics().horizontalAdvance(
-                                                 model()->index(row, column).data().toString()));
+    for (int row = 0; row < model()->rowCount(); ++row) {
+      const QString text = model()->index(row, column).data().toString();
+      // Most have room, which needs no measuring.
+      if (kMatrixTablePadding + digit * text.size() <= width) continue;
+      width = std::max(width, kMatrixTablePadding + fontMetrics().horizontalAdvance(text));
+    }
     if (width == before) continue;
     horizontalHeader()->resizeSection(column, width);
     grown = true;

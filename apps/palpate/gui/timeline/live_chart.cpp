@@ -12,9 +12,9 @@
 #include <cmath>
 #include <limits>
 
-#include <palpate/core/json.h>
 #include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
+#include <palpate/recording/recording_losses.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/chart/chart_style.h"
@@ -487,12 +487,12 @@ void LiveChart::addEvent(const RecordingEvent& event) {
   const ThemeColors& colors = colorsOf(theme_);
   const double beginS = series_.secondsOf(event.tUs);
   const QString text = QString::fromStdString(event.text);
-  // Long gaps are visible in the samples, shorter ones only here. Of a stream that loses a frame
-  // now and then the line goes on.
-  constexpr std::int64_t kLeastGapUs = 150'000;
+  // Long gaps are visible in the samples, shorter ones only here. Where single frames are lost the
+  // line goes on.
+  constexpr double kMinGapS = 0.15;
   if (event.kind == "gap") {
-    if (event.t1Us - event.tUs >= kLeastGapUs && !Json::parse(event.json).contains("stream"))
-      series_.breakAfter(event.tUs);
+    for (const RecordingLoss& loss : lossesOf({&event, 1}))
+      if (loss.stream == "tactile" && loss.seconds >= kMinGapS) series_.breakAfter(event.tUs);
     return;
   }
   if (event.kind == "mark" || event.kind == "label")
