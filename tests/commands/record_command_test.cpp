@@ -180,6 +180,25 @@ TEST(RecordCommand, OfAKilledProcessTheMcapFileHasItsWholeChunks) {
   }
 }
 
+TEST(RecordCommand, AHandThatIsGoneAtTheEndIsToldByTheExitCode) {
+  const TemporaryFolder folder;
+  EmulatedHandOptions options;
+  options.rate = EmulationRate::kFixed;
+  options.hz = 100.0;
+  options.faults.unplugs = {{.atS = 2.0, .durationS = 60.0}};
+  const EmulatedHand hand(std::make_unique<NumberedHand>(), options);
+  const auto result = palpate({"record",
+                               "--dsa",
+                               hand.dsaPort(),
+                               "-o",
+                               folder / "a.palpate",
+                               "--duration",
+                               "4.0",
+                               "--quiet"});
+  EXPECT_EQ(result.exitCode, 3) << result.err;
+  EXPECT_EQ(result.err.find("palpate: no frame came in its last "), 0u) << result.err;
+}
+
 // F2 of the attack. All is in the files that are named, and the exit code says that it isn't as it
 // was asked for.
 TEST(RecordCommand, AFileThatIsDeletedRenamedOrReplacedIsKeptAndToldOf) {

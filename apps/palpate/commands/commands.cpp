@@ -166,7 +166,7 @@ const std::vector<Command>& allCommands() {
       {"grasp", "moves a connected hand: plain, reactive and slip-aware grasps", nullptr},
       {"grasps", "finds the grasps in recordings, as CSV", &graspsCommand},
       {"hands", "lists the known hands, and checks the folder of a hand", &handsCommand},
-      {"import", "imports tables of other programs: CSV, NumPy, HDF5", nullptr},
+      {"import", "imports tables of other programs: CSV, NumPy, HDF5, MAT", nullptr},
       {"info", "shows what recordings contain", &infoCommand},
       {"kinematics",
        "computes where the taxels are at given joint angles, as CSV",

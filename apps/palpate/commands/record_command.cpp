@@ -198,8 +198,7 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
          counted(static_cast<std::uint64_t>(report.temperatures), "temperature sample") + "; " +
          std::to_string(report.counter("lost") + report.lost) + " lost, " +
          counted(badChecksumsOf(device), "bad checksum") + ", " +
-         counted(static_cast<std::uint64_t>(report.gaps), "gap") +
-         (report.openGapS > 0.0 ? "; " + report.openGapText() : "");
+         counted(static_cast<std::uint64_t>(report.gaps), "gap");
 }
 
 std::unique_ptr<Device> recordedDevice(const CommandLine& given) {
@@ -222,8 +221,9 @@ CommandSpec recordSpec() {
           "{date}, {time}, {operator}, {object}, {run} (next free number). With --remote it "
           "records only when another program asks for it (palpate remote start); OUT is then a "
           "folder, or a folder with a template of file names. Exit code 3: the recorder lost "
-          "something, frames were refused or hold values outside the hand's range, or a stream "
-          "lost some.",
+          "something, frames were refused or hold values outside the hand's range, no frame came "
+          "at "
+          "its end, or a stream lost some.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"output,o", "OUT.palpate", "where to record"},
@@ -301,7 +301,7 @@ int recordCommand(const Arguments& words) {
     std::fprintf(stderr,
                  "palpate: the MCAP file stopped before the end: %s\n",
                  escapedLine(report.mcapFailure).c_str());
-  const std::string leftOut = leftOutText(report.losses(), streamOf(session));
+  const std::string leftOut = leftOutText(report, streamOf(session));
   if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
   if (!report.complete) std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
   return report.complete && report.mcapFailure.empty() && leftOut.empty() ? kDone : kPartlyDone;

@@ -78,7 +78,7 @@ int recordRemotely(const CommandLine& given,
   RemoteRecorderOptions options = remoteRecordingOptionsOf(given, std::move(each));
   std::atomic<bool> whole = true;
   options.onFinished = [&](const RecordingReport& report) {
-    const std::string leftOut = leftOutText(report.losses(), streamOf(session));
+    const std::string leftOut = leftOutText(report, streamOf(session));
     if ((!report.complete || !leftOut.empty()) && !report.paths.empty()) whole = false;
     if (given.has("json") || !given.quiet()) sayRemoteRecording(report, given.has("json"));
     if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());

@@ -109,4 +109,10 @@ std::string leftOutText(FrameLosses losses, const StreamDevice* stream) {
   return textOf(losses);
 }
 
+std::string leftOutText(const RecordingReport& report, const StreamDevice* stream) {
+  const std::string losses = leftOutText(report.losses(), stream);
+  const std::string end = report.openGapText();
+  return losses + (losses.empty() || end.empty() ? "" : ", ") + end;
+}
+
 }  // namespace palpate::commands

@@ -41,5 +41,7 @@ class StreamNotice {
 // What ends `record` and `stream` with kPartlyDone, in one line; empty: nothing. `stream` may be
 // null: frames that a hand's own controller sent and that were damaged on the line are normal.
 std::string leftOutText(FrameLosses losses, const StreamDevice* stream);
+// The same of a recording, which may have ended while no frames came.
+std::string leftOutText(const RecordingReport& report, const StreamDevice* stream);
 
 }  // namespace palpate::commands
