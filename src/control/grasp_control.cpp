@@ -7,8 +7,10 @@
 #include <utility>
 #include <variant>
 
+#include "palpate/capture/link_health.h"
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
 
 #include "control/command_answers.h"
 
@@ -96,6 +98,26 @@ void GraspControl::step() {
     runGuardedCycle();
   }
   deliverHere();
+  runTasks();
+}
+
+void GraspControl::advance(ControlTask& task) {
+  const std::lock_guard lock(tasksMutex_);
+  tasks_.push_back(&task);
+}
+
+void GraspControl::forget(ControlTask& task) noexcept {
+  const std::lock_guard lock(tasksMutex_);
+  std::erase(tasks_, &task);
+}
+
+void GraspControl::runTasks() noexcept {
+  const std::lock_guard lock(tasksMutex_);
+  for (ControlTask* task : tasks_) try {
+      task->step(session_.nowUs());
+    } catch (...) {
+      stop();
+    }
 }
 
 void GraspControl::runGuardedCycle() noexcept {
@@ -151,8 +173,18 @@ void GraspControl::processFrames() {
     else if (const auto* angles = std::get_if<JointAngles>(&item))
       machine_.onAngles(angles->deg, nowUs);
     else if (const auto* temperatures = std::get_if<Temperatures>(&item))
-      machine_.onTemperatures(temperatures->degC);
+      onTemperatures(temperatures->degC);
   items_.clear();
+}
+
+void GraspControl::onTemperatures(const std::vector<double>& degC) {
+  machine_.onTemperatures(degC);
+  tooHot_.clear();
+  const auto& sensors = session_.device().hand().temperatureSensors;
+  for (std::size_t i = 0; i < std::min(degC.size(), sensors.size()); ++i)
+    if (degC[i] > HealthOptions{}.maxTemperatureDegC)
+      tooHot_ +=
+          (tooHot_.empty() ? "" : ", ") + sensors[i].name + " " + fixedText(degC[i], 1) + " °C";
 }
 
 void GraspControl::send() {
@@ -509,6 +541,7 @@ GraspStatus GraspControl::presentStatus() const {
   const DeviceStatus device = session_.device().status();
   status.cannotMove = motionProblem(device);
   if (!status.cannotMove.empty()) status.portGone = portGone_;
+  status.tooHot = tooHot_;
   status.motorsOff = motorsOff_;
   status.stopsAsked = stopsAsked_;
   status.calibrated = calibrated_;

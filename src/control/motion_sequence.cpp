@@ -229,7 +229,8 @@ bool SequenceRun::usesTactile() const {
 }
 
 void SequenceRun::begin(MotionSequence sequence, const HandDescription& hand, std::int64_t hostUs) {
-  if (running())
+  const std::lock_guard lock(mutex_);
+  if (status_.running)
     throw DeviceError(DeviceFault::kRefused, "sequence", "refused: a sequence runs; stop it first");
   sequence.validate(hand);
   const GraspStatus now = control_.status();
@@ -240,6 +241,9 @@ void SequenceRun::begin(MotionSequence sequence, const HandDescription& hand, st
   if (!now.cannotMove.empty())
     throw DeviceError(
         DeviceFault::kRefused, "sequence", "refused: the hand can't move: " + now.cannotMove);
+  if (!now.tooHot.empty())
+    throw DeviceError(
+        DeviceFault::kRefused, "sequence", "refused: the hand is too hot: " + now.tooHot);
   sequence_ = std::move(sequence);
   status_ = {};
   stopsBefore_ = now.stopsAsked;
@@ -263,7 +267,8 @@ void SequenceRun::finish(const std::string& text, bool failed) {
 }
 
 void SequenceRun::end(const std::string& why) {
-  if (!running()) return;
+  const std::lock_guard lock(mutex_);
+  if (!status_.running) return;
   const std::string at = place();
   // Ended first: whatever follows, no further step begins.
   finish("sequence ended in " + at + ": " + why, true);
@@ -291,10 +296,15 @@ void SequenceRun::next(std::int64_t hostUs) {
 }
 
 void SequenceRun::step(std::int64_t hostUs) {
-  if (!running()) return;
+  const std::lock_guard lock(mutex_);
+  if (!status_.running) return;
   const GraspStatus now = control_.status();
   const std::string at = "sequence ended in " + place() + ": ";
   if (now.stopsAsked != stopsBefore_) return finish(at + "the hand was stopped", true);
+  if (!now.tooHot.empty()) {
+    finish(at + "too hot: " + now.tooHot, true);
+    return control_.stop();
+  }
   const SequenceStep& step = sequence_.steps[status_.step];
   if (isMotion(step)) {
     const std::string own = describe(requestOf(step));

@@ -21,12 +21,7 @@ class SequenceOnTheHand : public ::testing::Test {
     bench_.connect();
     run_ = std::make_unique<SequenceRun>(*bench_.control);
   }
-  bool go(const std::function<bool()>& until) {
-    return testing::eventuallyTrue([&] {
-      run_->step(bench_.session->nowUs());
-      return until();
-    });
-  }
+  bool go(const std::function<bool()>& until) { return testing::eventuallyTrue(until); }
   void begin() {
     MotionSequence sequence = everyKind();
     sequence.steps = {

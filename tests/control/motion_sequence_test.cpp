@@ -24,10 +24,7 @@ class SequenceRunTest : public ::testing::Test {
   std::size_t numMotions() const { return bench_.hand->count<MoveJoints>(); }
   // Advances by frames of 30 ms. The hand is still, so each motion ends after its announced second.
   void pass(double seconds, float counts = 0.0F) {
-    for (int i = 0; i < static_cast<int>(std::lround(seconds / 0.03)); ++i) {
-      bench_.feel(1, counts);
-      run_.step(now());
-    }
+    bench_.feel(static_cast<int>(std::lround(seconds / 0.03)), counts);
   }
   bool reach(std::size_t step) {
     for (int i = 0; i < 1000 && run_.running() && run_.status().step != step; ++i) pass(0.03);
@@ -91,7 +88,7 @@ TEST_F(SequenceRunTest, AStopInEachStepEndsTheSequence) {
     }
 }
 
-// From another thread, between the look at the status and the next motion.
+// After the step's time is over, and before the control cycle begins the next motion.
 TEST_F(SequenceRunTest, AStopAtTheEndOfAStepLetsNoMotionFollow) {
   MotionSequence sequence = everyKind();
   sequence.steps = {resting(Kind::kWait, 0.5), opening()};
@@ -99,7 +96,7 @@ TEST_F(SequenceRunTest, AStopAtTheEndOfAStepLetsNoMotionFollow) {
   pass(0.48);
   bench_.clock.pass(100'000);
   bench_.control->stop();
-  run_.step(now());
+  bench_.control->step();
   EXPECT_EQ(numMotions(), 0u);
   EXPECT_FALSE(run_.running());
 }
@@ -159,6 +156,38 @@ TEST_F(SequenceRunTest, AnAlarmEndsItAndStopsTheHand) {
   EXPECT_EQ(run_.status().text, "sequence ended in step 1 of 5: motor 3 is too hot");
   pass(6.0);
   EXPECT_EQ(numMotions(), 1u);
+}
+
+// Nobody but the control cycle has to notice it.
+TEST_F(SequenceRunTest, AHandThatIsTooHotEndsItAndBeginsNone) {
+  const auto measure = [&](double degC) {
+    Temperatures temperatures;
+    temperatures.hostUs = now();
+    temperatures.degC.assign(sdh2().temperatureSensors.size(), 40.0);
+    temperatures.degC[1] = degC;
+    bench_.hand->sink->onTemperatures(std::move(temperatures));
+  };
+  const std::string hot = sdh2().temperatureSensors[1].name + " 65.1 °C";
+  run_.begin(everyKind(), sdh2(), now());
+  measure(65.0);
+  pass(0.03);
+  EXPECT_TRUE(run_.running()) << "the limit itself is allowed";
+  measure(65.1);
+  pass(0.03);
+  EXPECT_FALSE(run_.running());
+  EXPECT_EQ(run_.status().text, "sequence ended in step 1 of 5: too hot: " + hot);
+  EXPECT_EQ(bench_.hand->count<StopMotion>(), 1u);
+  pass(6.0);
+  EXPECT_EQ(numMotions(), 1u);
+  try {
+    run_.begin(everyKind(), sdh2(), now());
+    FAIL() << "it began";
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("too hot: " + hot), std::string::npos) << error.what();
+  }
+  measure(64.0);
+  pass(0.03);
+  EXPECT_NO_THROW(run_.begin(everyKind(), sdh2(), now()));
 }
 
 TEST_F(SequenceRunTest, ARefusedStepEndsItThere) {

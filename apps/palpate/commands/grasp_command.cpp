@@ -344,7 +344,7 @@ int runSequence(const MotionSequence& sequence,
   SequenceRun run(control);
   run.begin(sequence, session.device().hand(), session.nowUs());
   std::optional<HandCondition> hand = HandCondition::kReady;
-  for (std::string shown; run.running(); run.step(session.nowUs())) {
+  for (std::string shown; run.running();) {
     for (const GraspChange& change : control.takeChanges()) showHand(lines, change.condition, hand);
     if (shown != run.status().text) lines.show("sequence", shown = run.status().text);
     if (interruption.waitForSignal(kGraspLookMs)) control.stop();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -11,9 +12,9 @@
 
 namespace palpate {
 
-// One thread calls step() about ten times a second. All commands go through GraspControl, which
-// checks them; a stop from any source ends the cycle.
-class EmptyHandCycle {
+// Advanced by the control cycle. All commands go through GraspControl, which checks them; a stop
+// from any source ends the cycle. Every function may be called from any thread.
+class EmptyHandCycle final : public ControlTask {
  public:
   struct Options {
     std::string preshape = "pinch-empty";
@@ -31,27 +32,33 @@ class EmptyHandCycle {
   // `control` must outlive the cycle.
   explicit EmptyHandCycle(GraspControl& control) : EmptyHandCycle(control, Options()) {}
   EmptyHandCycle(GraspControl& control, Options options);
+  ~EmptyHandCycle() override { control_.forget(*this); }
+  EmptyHandCycle(const EmptyHandCycle&) = delete;
+  EmptyHandCycle& operator=(const EmptyHandCycle&) = delete;
 
-  // Starts a cycle; one that is running starts again. `hostUs` [us since 1970], here and below: the
-  // present time by the session's clock. Throws as GraspControl::grasp(), and no cycle runs then.
+  // Starts a cycle; one that is running starts again. `hostUs` [us since 1970]: the present time by
+  // the session's clock. Throws as GraspControl::grasp(), and no cycle runs then.
   void begin(std::int64_t hostUs);
-  // Advances the cycle according to the hand's state. Returns, once, why the cycle ended without a
-  // result; otherwise empty.
-  std::optional<std::string> step(std::int64_t hostUs);
+  void step(std::int64_t hostUs) override;
+  // Why the cycle ended without a result, once; otherwise empty.
+  std::optional<std::string> takeProblem();
   // Call this when the pads no longer touch each other. Ends the cycle. Returns why it has no
   // result, or empty when it was completed and its measurement is valid.
   std::optional<std::string> onPadsReleased();
   // Ends the cycle without a command: no further motion begins, but a motion that is running
   // continues unless it is stopped.
-  void cancel() noexcept { state_ = State::kIdle; }
+  void cancel();
 
-  State state() const noexcept { return state_; }
-  bool active() const noexcept { return state_ != State::kIdle; }
+  State state() const;
+  bool active() const { return state() != State::kIdle; }
 
  private:
-  std::string ended(std::string why);
+  // Requires mutex_.
+  void end(std::string why);
 
   GraspControl& control_;
+  mutable std::mutex mutex_;
+  std::optional<std::string> problem_;
   Options options_;
   State state_ = State::kIdle;
   std::int64_t sinceUs_ = 0;  // begin of the state [us since 1970]

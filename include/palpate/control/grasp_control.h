@@ -55,6 +55,9 @@ struct GraspStatus {
   bool motorsOff = false;
   // Whether the motion port was away since `lastMotion` ended: what the hand holds is not known.
   bool wasAway = false;
+  // The temperature sensors above their limit (HealthOptions::maxTemperatureDegC) at the last
+  // reading, "motor 3 71.5 °C"; empty: none.
+  std::string tooHot;
   // Number of calls of stop() and relax() so far, whether or not something was moving.
   std::uint64_t stopsAsked = 0;
   // Joint angles as last read [deg]; empty: not known.
@@ -85,6 +88,15 @@ struct GraspChange {
   ExplainedCondition condition = {};  // of the hand, since this change
 };
 
+// Moves the hand in several steps, which the control cycle advances (GraspControl::advance()).
+class ControlTask {
+ public:
+  virtual ~ControlTask() = default;
+  // Called after each control cycle, at least every 100 ms. `hostUs`: the present time by the
+  // session's clock [us since 1970]. After an exception the hand is stopped.
+  virtual void step(std::int64_t hostUs) = 0;
+};
+
 // Every function may be called from any thread, and none waits for the hand.
 class GraspControl {
  public:
@@ -100,6 +112,10 @@ class GraspControl {
   // caller runs the cycle by step(), after each frame and every 5 ms during a motion.
   void run();
   void step();
+  // Advances the task from now on, whatever else the program does, until forget() has returned.
+  void advance(ControlTask& task);
+  // Not to be called by a task. Waits for a step that runs.
+  void forget(ControlTask& task) noexcept;
 
   // An exception in a cycle (a defect, no memory) does not end the process: a stop is sent, the
   // grasp ends as failed, an event "alarm" contains the reason, and the control cycle continues.
@@ -145,13 +161,15 @@ class GraspControl {
     bool isStop = false;
   };
   void loop(const std::stop_token& stop);
+  void runTasks() noexcept;
   // The following functions require mutex_.
   void runCycle();
   void runGuardedCycle() noexcept;
   void fault(const char* what) noexcept;
   void note(RecordingEvent event, bool ends = false);
   void processFrames();  // of the tactile stream
-  void pollReplies();    // answers of the hand
+  void onTemperatures(const std::vector<double>& degC);
+  void pollReplies();  // answers of the hand
   void checkLinks();
   void checkReturn(const DeviceStatus& status);
   void send();
@@ -192,6 +210,7 @@ class GraspControl {
   std::optional<std::uint64_t> motionReturns_, tactileReturns_;
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
+  std::string tooHot_;                   // see GraspStatus
   bool motorsOff_ = false;
   bool relaxWhenStopped_ = false;
   std::uint64_t stopsAsked_ = 0;
@@ -209,6 +228,9 @@ class GraspControl {
   // Number of grasp ends that are not yet delivered to the session.
   std::size_t pendingEndEvents_ = 0;
   std::condition_variable_any pendingEventsChanged_;
+  // Never taken while mutex_ is held.
+  std::mutex tasksMutex_;
+  std::vector<ControlTask*> tasks_;
   std::jthread delivery_;
   std::jthread thread_;
 };

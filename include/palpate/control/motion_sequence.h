@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,10 +54,11 @@ std::string sequenceText(const MotionSequence& sequence);
 // checked by validate().
 MotionSequence parseSequence(std::string_view text, const std::filesystem::path& file);
 
-// Runs a sequence. One thread calls step() about ten times a second. Every command goes through
-// GraspControl, which checks it. A stop or relax from any source, a lost port, a motion of somebody
-// else, a step that fails, and end() end the sequence and not only its step; no motion follows.
-class SequenceRun {
+// Runs a sequence, advanced by the control cycle. Every command goes through GraspControl, which
+// checks it. A stop or relax from any source, a lost port, a hand that is too hot, a motion of
+// somebody else, a step that fails, and end() end the sequence and not only its step; no motion
+// follows. Every function may be called from any thread.
+class SequenceRun final : public ControlTask {
  public:
   struct Status {
     bool running = false;
@@ -67,20 +69,27 @@ class SequenceRun {
   };
 
   // `control` must outlive the run.
-  explicit SequenceRun(GraspControl& control) : control_(control) {}
+  explicit SequenceRun(GraspControl& control) : control_(control) { control_.advance(*this); }
+  ~SequenceRun() override { control_.forget(*this); }
+  SequenceRun(const SequenceRun&) = delete;
+  SequenceRun& operator=(const SequenceRun&) = delete;
 
   // Begins with the first step. Throws std::invalid_argument (validate()), DeviceError kRefused (a
-  // sequence runs, or the first motion is refused); nothing runs then. `hostUs` [us since 1970],
-  // here and below: the present time by the session's clock.
+  // sequence runs, the hand is too hot, or the first motion is refused); nothing runs then.
+  // `hostUs` [us since 1970]: the present time by the session's clock.
   void begin(MotionSequence sequence, const HandDescription& hand, std::int64_t hostUs);
-  void step(std::int64_t hostUs);
+  void step(std::int64_t hostUs) override;
   // Ends the sequence for a reason from outside (an alarm), and stops what moves.
   void end(const std::string& why);
 
-  const Status& status() const noexcept { return status_; }
-  bool running() const noexcept { return status_.running; }
+  Status status() const {
+    const std::lock_guard lock(mutex_);
+    return status_;
+  }
+  bool running() const { return status().running; }
 
  private:
+  // The following functions require mutex_.
   void beginStep(std::int64_t hostUs);
   void next(std::int64_t hostUs);
   void finish(const std::string& text, bool failed);
@@ -88,6 +97,7 @@ class SequenceRun {
   bool usesTactile() const;
 
   GraspControl& control_;
+  mutable std::mutex mutex_;
   MotionSequence sequence_;
   Status status_;
   std::int64_t sinceUs_ = 0;  // begin of the step [us since 1970]

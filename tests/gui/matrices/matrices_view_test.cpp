@@ -1,8 +1,10 @@
 #include "gui/matrices/matrices_view.h"
 
 #include <QApplication>
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPaintEvent>
+#include <QSet>
 #include <QSignalSpy>
 
 #include <gtest/gtest.h>
@@ -161,6 +163,45 @@ TEST_F(MatricesViewTest, HoverNamesMaskedTaxels) {
   view_.setFrame(TactileFrame(hand.layout));
   hover(0, 0, 0);
   EXPECT_EQ(view_.hoverText(), "finger 0 proximal · x 0, y 0 · masked: not scanned");
+}
+
+// The SDH-2 has two columns of three matrices; matrix 0 has 14 rows of 6 taxels.
+TEST_F(MatricesViewTest, TaxelsAreChosenByKeyboard) {
+  const auto press = [&](int key, Qt::KeyboardModifiers with = Qt::NoModifier) {
+    QKeyEvent event(QEvent::KeyPress, key, with);
+    QApplication::sendEvent(&view_, &event);
+  };
+  QFocusEvent in(QEvent::FocusIn, Qt::TabFocusReason);
+  QApplication::sendEvent(&view_, &in);
+  EXPECT_TRUE(view_.hoverText().contains("x 0, y 0")) << view_.hoverText().toStdString();
+  press(Qt::Key_Right);
+  press(Qt::Key_Down);
+  EXPECT_TRUE(view_.hoverText().contains("x 1, y 1")) << view_.hoverText().toStdString();
+  EXPECT_EQ(view_.accessibleDescription(), view_.hoverText());
+  press(Qt::Key_Space);
+  EXPECT_EQ(view_.selection().count(), 1u);
+  press(Qt::Key_Right, Qt::ShiftModifier);
+  press(Qt::Key_Right, Qt::ShiftModifier);
+  EXPECT_EQ(view_.selection().count(), 3u);
+  press(Qt::Key_Space);
+  EXPECT_EQ(view_.selection().count(), 2u) << "the last one is deselected";
+  // Every taxel can be reached: to the right through all matrices of the row, and back.
+  const QString from = view_.hoverText();
+  QSet<QString> seen = {from};
+  for (int i = 0; i < 60; ++i)
+    press(Qt::Key_Right), seen.insert(view_.hoverText().section(" · ", 0, 0));
+  EXPECT_GE(seen.size(), 3) << "more than one matrix";
+  const QString end = view_.hoverText();
+  press(Qt::Key_Right);
+  EXPECT_EQ(view_.hoverText(), end) << "nothing is farther to the right";
+  QKeyEvent space(QEvent::ShortcutOverride, Qt::Key_Space, Qt::NoModifier);
+  space.ignore();
+  QApplication::sendEvent(&view_, &space);
+  EXPECT_TRUE(space.isAccepted()) << "it doesn't play";
+  QKeyEvent other(QEvent::ShortcutOverride, Qt::Key_M, Qt::NoModifier);
+  other.ignore();
+  QApplication::sendEvent(&view_, &other);
+  EXPECT_FALSE(other.isAccepted());
 }
 
 TEST_F(MatricesViewTest, WithoutAHandItIsEmpty) {

@@ -3,6 +3,7 @@
 
 #include <QSignalSpy>
 #include <QStringList>
+#include <stdexcept>
 
 #include "gui/window_state/window_state_fixture.h"
 
@@ -42,6 +43,21 @@ TEST_F(DisplayedSourceTest, EachSignalComesOnceAndInOrder) {
   EXPECT_EQ(heard(), QStringList()) << "the same one again";
   displayed_.setFilteredRecording(recording("b filtered"));
   EXPECT_EQ(heard(), QStringList({"seen", "values", "shown"}));
+}
+
+TEST_F(DisplayedSourceTest, AFailureBeforeTheChangeLeavesEverythingAsItWas) {
+  displayed_.show(recording("a"));
+  const OpenedRecordingPtr before = displayed_.recorded();
+  heard();
+  displayed_.filtered = [](const OpenedRecordingPtr&) -> OpenedRecordingPtr {
+    throw std::runtime_error("no filters");
+  };
+  EXPECT_THROW(displayed_.show(recording("b")), std::runtime_error);
+  EXPECT_EQ(displayed_.kind(), Kind::kRecording);
+  EXPECT_EQ(displayed_.recorded(), before);
+  EXPECT_EQ(displayed_.filteredRecording(), before);
+  EXPECT_TRUE(windowState_->playback.hasFrames());
+  EXPECT_EQ(heard(), QStringList());
 }
 
 TEST_F(DisplayedSourceTest, WhoHearsOfItFindsEverythingNew) {

@@ -28,7 +28,6 @@ class WindowStateTest : public ::testing::Test {
             .clock = &clock_,
             .read = [](const std::filesystem::path&, const Progress&) { return twentyFrames(); }},
         &actionsOf_);
-    windowState_->displayed.follow();
     windowState_->menus = {.edit = new QMenu(&actionsOf_),
                            .connections = new QMenu(&actionsOf_),
                            .only = new QMenu(&actionsOf_),

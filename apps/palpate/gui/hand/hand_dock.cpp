@@ -262,8 +262,10 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   tactile_ = new TactileSettingsPanel(settings, content);
   angles_ = new FactsView(content);
   angles_->setObjectName("liveAngles");
+  angles_->setAccessibleName("Joint angles");
   temperatures_ = new FactsView(content);
   temperatures_->setObjectName("liveTemperatures");
+  temperatures_->setAccessibleName("Temperatures");
   const auto section = [content](const char* name, const QString& title, QWidget* view) {
     auto* made = new QWidget(content);
     made->setObjectName(name);
@@ -717,10 +719,7 @@ void HandDock::showSamples() {
   }
   tactile_->showScanned(layout_);
   if (angles) showAngles(*angles);
-  if (temperatures) {
-    const QString hot = showTemperatures(*temperatures);
-    if (!hot.isEmpty() && sequence_->running()) sequence_->end("too hot: " + hot);
-  }
+  if (temperatures) showTemperatures(*temperatures);
   items_.clear();
 }
 
@@ -731,7 +730,7 @@ void HandDock::showAngles(const JointAngles& angles) {
     angles_->setValue(i, shownUnit(axes_[i], units_).text(angles.deg[i], 1));
 }
 
-QString HandDock::showTemperatures(const Temperatures& temperatures) {
+void HandDock::showTemperatures(const Temperatures& temperatures) {
   shownTemperatures_ = temperatures;
   const ShownUnit unit = shownUnit(units_.temperature);
   const double hottest = HealthOptions{}.maxTemperatureDegC;
@@ -747,7 +746,6 @@ QString HandDock::showTemperatures(const Temperatures& temperatures) {
   heat_->setVisible(!hot.isEmpty());
   heat_->setText("Too hot: " + hot + ". Relax the hand and let it cool below " +
                  unit.text(hottest, 0) + ".");
-  return hot;
 }
 
 void HandDock::setUnits(const DisplayUnits& units) {

@@ -143,8 +143,7 @@ class HandDock : public QWidget {
   std::optional<QString> lastGraspText(const GraspReport& report, const GraspStatus& status) const;
   void showSamples();
   void showAngles(const JointAngles& angles);
-  // Returns the motors that are too hot, with their temperatures; empty: none.
-  QString showTemperatures(const Temperatures& temperatures);
+  void showTemperatures(const Temperatures& temperatures);
 
   QScrollArea* body_ = nullptr;
   CaptureSession* session_ = nullptr;

@@ -310,17 +310,13 @@ void SequencePanel::setHand(CaptureSession* session, GraspControl* control, cons
   refresh(control_ ? control_->status() : GraspStatus{});
 }
 
-void SequencePanel::end(const QString& why) {
-  if (run_) run_->end(why.toStdString());
-}
-
 QString SequencePanel::stateText() const {
   return run_ ? QString::fromStdString(run_->status().text) : QString();
 }
 
 void SequencePanel::refresh(const GraspStatus& status) {
-  if (run_ && session_) run_->step(session_->nowUs());
-  const bool runs = running();
+  const SequenceRun::Status run = run_ ? run_->status() : SequenceRun::Status{};
+  const bool runs = run.running;
   // The table that is being read takes the place of this one.
   const bool edits = !runs && !reading_.busy();
   QString why;
@@ -347,8 +343,7 @@ void SequencePanel::refresh(const GraspStatus& status) {
   times_->setEnabled(edits);
   file_->setEnabled(edits);
   steps_->setEnabled(!runs);
-  if (runs && row != static_cast<int>(run_->status().step))
-    steps_->setCurrentRow(static_cast<int>(run_->status().step));
+  if (runs && row != static_cast<int>(run.step)) steps_->setCurrentRow(static_cast<int>(run.step));
   if (runs) said_.clear();
   const QString empty = sequence_.steps.empty() && !runs
                             ? QString(

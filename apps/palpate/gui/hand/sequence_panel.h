@@ -33,13 +33,11 @@ class SequencePanel : public QWidget {
   void setHand(CaptureSession* session,
                GraspControl* control,
                const QString& whyNot = "No hand is connected");
-  // Runs one step of the control and shows its state. Call it several times a second.
+  // Shows the state of the control. Call it several times a second.
   void refresh(const GraspStatus& status);
   bool running() const { return run_ && run_->running(); }
   // The place in the running sequence, one line.
   QString stateText() const;
-  // Ends a running sequence and stops the hand, for a reason from outside.
-  void end(const QString& why);
   const MotionSequence& sequence() const noexcept { return sequence_; }
 
   // The grasp as chosen on the page Grasp.

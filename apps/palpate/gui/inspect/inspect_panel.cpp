@@ -123,13 +123,17 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   matrices_ = new MatrixTable(model_, content);
   facts_ = new FactsView(content);
   facts_->setObjectName("recordingFacts");
+  facts_->setAccessibleName("Recording");
   events_ = new FactsView(content);
   events_->setObjectName("eventFacts");
+  events_->setAccessibleName("Events");
   eventsHeading_ = sectionHeading("Events", content);
   angles_ = new FactsView(content);
   angles_->setObjectName("angleFacts");
+  angles_->setAccessibleName("Joint angles");
   temperatures_ = new FactsView(content);
   temperatures_->setObjectName("temperatureFacts");
+  temperatures_->setAccessibleName("Temperatures");
 
   auto* left = new QVBoxLayout;
   left->setSpacing(4);

@@ -142,8 +142,10 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   connect(sound_, &QCheckBox::toggled, this, [this](bool on) { emit mutedChanged(!on); });
   facts_ = new FactsView(this);
   facts_->setObjectName("linkFacts");
+  facts_->setAccessibleName("Link");
   others_ = new FactsView(this);
   others_->setObjectName("otherPrograms");
+  others_->setAccessibleName("Other programs");
   log_ = new QPlainTextEdit(this);
   log_->setObjectName("linkLog");
   log_->setReadOnly(true);

@@ -1,12 +1,14 @@
 #include "gui/matrices/matrices_view.h"
 
 #include <QEvent>
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPaintEvent>
 #include <QPainter>
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gui/matrices/taxel_text.h"
 
@@ -15,12 +17,29 @@ namespace {
 
 constexpr const char* kBlind = "blind";
 
+// The direction of an arrow key; null: another key.
+QPoint directionOf(int key) {
+  switch (key) {
+    case Qt::Key_Left:
+      return {-1, 0};
+    case Qt::Key_Right:
+      return {1, 0};
+    case Qt::Key_Up:
+      return {0, -1};
+    case Qt::Key_Down:
+      return {0, 1};
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 MatricesView::MatricesView(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setAccessibleName("Matrices");
+  setFocusPolicy(Qt::TabFocus);
 }
 
 void MatricesView::setHand(const HandDescription& hand) {
@@ -231,6 +250,7 @@ void MatricesView::setHover(std::optional<TaxelPlace> place) {
   if (place == hover_) return;
   hover_ = place;
   update();
+  setAccessibleDescription(hoverText());
   emit hovered(hoverText());
 }
 
@@ -254,6 +274,63 @@ void MatricesView::mouseMoveEvent(QMouseEvent* event) {
     QToolTip::showText(event->globalPosition().toPoint() + QPoint(12, 8), hoverText(), this);
   else
     QToolTip::hideText();
+}
+
+std::optional<TaxelPlace> MatricesView::neighbour(const std::optional<TaxelPlace>& from,
+                                                  const QPoint& direction) const {
+  if (!hand_) return std::nullopt;
+  const QPointF begin =
+      from ? geometry_.taxelRect(from->matrix, from->y, from->x).center() : QPointF();
+  std::optional<TaxelPlace> nearest = from;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < geometry_.numMatrices(); ++m) {
+    const MatrixLayout& layout = hand_->layout->matrix(m);
+    for (int y = 0; y < layout.rows; ++y)
+      for (int x = 0; x < layout.columns; ++x) {
+        if (!layout.exists(y, x)) continue;
+        if (!from) return TaxelPlace{m, y, x};
+        const QPointF to = geometry_.taxelRect(m, y, x).center() - begin;
+        const double along = to.x() * direction.x() + to.y() * direction.y();
+        const double aside = std::abs(to.x() * direction.y()) + std::abs(to.y() * direction.x());
+        // What lies more aside than ahead is in another direction.
+        if (along < 1.0 || aside > along || along + 2.0 * aside >= least) continue;
+        least = along + 2.0 * aside;
+        nearest = TaxelPlace{m, y, x};
+      }
+  }
+  return nearest;
+}
+
+void MatricesView::keyPressEvent(QKeyEvent* event) {
+  const QPoint direction = directionOf(event->key());
+  const bool isSpace = event->key() == Qt::Key_Space;
+  if (!hand_ || (direction.isNull() && !isSpace)) return QWidget::keyPressEvent(event);
+  selectedBefore_ = selection_;
+  if (isSpace) {
+    if (hover_) choose(*hover_, *hover_);
+    return;
+  }
+  const std::optional<TaxelPlace> from = hover_;
+  setHover(neighbour(from, direction));
+  if (!(event->modifiers() & Qt::ShiftModifier)) return;
+  for (const auto& place : {from, hover_})
+    if (place) selectedBefore_.add(place->matrix, place->y, place->x, place->y, place->x);
+  select(selectedBefore_);
+}
+
+void MatricesView::focusInEvent(QFocusEvent* event) {
+  if (!hover_) setHover(neighbour({}, {}));
+  QWidget::focusInEvent(event);
+}
+
+bool MatricesView::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const bool isPlain = !(key->modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier));
+    if (isPlain && (!directionOf(key->key()).isNull() || key->key() == Qt::Key_Space))
+      event->accept();
+  }
+  return QWidget::event(event);
 }
 
 void MatricesView::leaveEvent(QEvent*) { setHover(std::nullopt); }

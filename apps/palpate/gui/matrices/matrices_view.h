@@ -53,7 +53,8 @@ class MatricesView : public QWidget {
   QString hoverText() const;
 
   // Click and drag select taxels, Ctrl adds to the selection, a click beside the taxels (or Escape)
-  // clears it.
+  // clears it. With the focus, the arrow keys move to the next taxel in their direction, Space
+  // selects or deselects it, and Shift with an arrow key selects on the way.
   const TaxelSelection& selection() const noexcept { return selection_; }
   void select(const TaxelSelection& selection);
   void clearSelection();
@@ -87,8 +88,16 @@ class MatricesView : public QWidget {
   void contextMenuEvent(QContextMenuEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void changeEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  // Takes its keys before they are shortcuts of the window.
+  bool event(QEvent* event) override;
 
  private:
+  // The nearest taxel in a direction; the same one where there is none. The first one of all for no
+  // `from`.
+  std::optional<TaxelPlace> neighbour(const std::optional<TaxelPlace>& from,
+                                      const QPoint& direction) const;
   MatricesPictureOptions pictureOptions() const;
   void renew();
   void setHover(std::optional<TaxelPlace> place);

@@ -46,10 +46,16 @@ void ConfusionView::setTheme(Theme theme) {
   viewport()->update();
 }
 
+QString ConfusionView::textOf(const Cell& cell) const {
+  return confusionName(*matrix_, cell.first) + " called " + confusionName(*matrix_, cell.second) +
+         ": " + QString::number(matrix_->at(cell.first, cell.second));
+}
+
 void ConfusionView::choose(std::optional<Cell> cell) {
   chosen_ = cell;
   if (cell) reveal(*cell);
   viewport()->update();
+  setAccessibleDescription(cell && matrix_ ? textOf(*cell) : QString());
   if (cell) emit cellChosen(cell->first, cell->second);
 }
 
@@ -235,11 +241,7 @@ bool ConfusionView::viewportEvent(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     if (const auto cell = cellAt(help->pos()))
-      QToolTip::showText(help->globalPos(),
-                         confusionName(*matrix_, cell->first) + " called " +
-                             confusionName(*matrix_, cell->second) + ": " +
-                             QString::number(matrix_->at(cell->first, cell->second)),
-                         this);
+      QToolTip::showText(help->globalPos(), textOf(*cell), this);
     else
       QToolTip::hideText();
     return true;

@@ -57,6 +57,8 @@ class ConfusionView : public QAbstractScrollArea {
 
  private:
   ConfusionGrid gridInSight() const;
+  // "cup called bottle: 3"
+  QString textOf(const Cell& cell) const;
   std::optional<Cell> cellAt(const QPointF& at) const;
   // Updates the scroll bars.
   void layOut();

@@ -311,7 +311,7 @@ void RecogniseFeature::goOnWithZero() {
   if (!source || !zeroRun_) return;
   panel_->today().setZeroPossible(QString::fromStdString(source->control->status().cannotReact),
                                   zeroRun_->active());
-  if (const auto problem = zeroRun_->step(source->session->nowUs())) sayNoZero(*problem);
+  if (const auto problem = zeroRun_->takeProblem()) sayNoZero(*problem);
 }
 
 void RecogniseFeature::showGrasp(const std::filesystem::path& file,

@@ -72,6 +72,7 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   windowState_->activeFilters.restore(environment.recipe);
   auto* strip = new StatusStrip(this);
   strip->setObjectName("statusStrip");
+  strip->setAccessibleName("Status");
   statusBar()->setSizeGripEnabled(false);
   statusBar()->setContentsMargins(0, 0, 0, 0);
   statusBar()->addWidget(strip, 1);
@@ -84,9 +85,6 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   addFeatures();
   const auto* greyed = new GreyedKeys(windowState_->actions.all(), &whyGreyed, this, this);
   connect(greyed, &GreyedKeys::refused, &windowState_->messages, &Messages::flash);
-  // Called after the features exist, so that the dock Hand with its Stop learns of a hand before
-  // the window changes.
-  windowState_->displayed.follow();
   resize(firstSize());
   restorePlace(*this, windowState_->settings, "window/geometry");
   centre_->begin();

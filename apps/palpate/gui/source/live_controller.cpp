@@ -153,6 +153,7 @@ void LiveController::opened(std::shared_ptr<LiveSource> source,
   lookTimer_.start();
   setState(State::kConnected);
   emit sourceOpened();
+  if (source()) emit sourceReady();
   emit staleChanged(true);
   refreshHealth();
 }

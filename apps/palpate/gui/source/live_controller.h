@@ -76,8 +76,10 @@ class LiveController : public QObject {
 
  signals:
   void stateChanged();
-  // source() is not null from now on.
+  // source() is not null from now on: whatever needs it, Stop above all, takes it.
   void sourceOpened();
+  // Everything has taken the new source: it is shown now.
+  void sourceReady();
   // source() is about to become null: drop all references to it now.
   void leaving();
   // Nothing is connected, and nothing is being opened.

@@ -1,5 +1,6 @@
 #include "gui/widgets/facts_view.h"
 
+#include <QAccessible>
 #include <QHelpEvent>
 #include <QPaintEvent>
 #include <QPainter>
@@ -39,13 +40,22 @@ void FactsView::measure() {
   numberWidth_ = 0;
   for (const Fact& fact : facts_)
     if (isNumber(fact.value)) numberWidth_ = std::max(numberWidth_, textWidth(fact.value));
+  describe();
   updateGeometry();
   update();
+}
+
+void FactsView::describe() {
+  if (!QAccessible::isActive()) return;
+  QStringList rows;
+  for (const Fact& fact : facts_) rows << fact.name + ": " + fact.value;
+  setAccessibleDescription(rows.join("\n"));
 }
 
 void FactsView::setValue(std::size_t row, const QString& value) {
   if (row >= facts_.size() || facts_[row].value == value) return;
   facts_[row].value = value;
+  describe();
   if (const int needed = textWidth(value); needed > numberWidth_ && isNumber(value)) {
     numberWidth_ = needed;
     updateGeometry();

@@ -43,6 +43,8 @@ class FactsView : public QWidget {
 
  private:
   void measure();
+  // Tells rows and values to a screen reader.
+  void describe();
   int rowHeight() const;
   int nameWidth() const;
   int textWidth(const QString& text) const;

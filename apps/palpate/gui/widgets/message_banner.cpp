@@ -1,5 +1,6 @@
 #include "gui/widgets/message_banner.h"
 
+#include <QAccessible>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -41,6 +42,8 @@ void MessageBanner::showAbout(const QString& topic, const QString& message) {
   lines_.append({topic, message});
   lines_ = lines_.mid(std::max<qsizetype>(0, lines_.size() - kMessageBannerMostLines));
   showLines();
+  QAccessibleEvent alert(this, QAccessible::Alert);
+  QAccessible::updateAccessibility(&alert);
   emit said(message);
 }
 
@@ -65,6 +68,7 @@ void MessageBanner::showLines() {
   for (const Line& line : lines_) texts.append(line.text);
   text_->setText(texts.join('\n'));
   setVisible(!texts.isEmpty());
+  setAccessibleName(text_->text());
   askForHeight();
 }
 

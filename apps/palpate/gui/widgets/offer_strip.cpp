@@ -25,7 +25,8 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   close_->setObjectName("offerClose");
   close_->setProperty("flat", true);
   close_->setIconSize({12, 12});
-  close_->setFocusPolicy(Qt::NoFocus);
+  close_->setFocusPolicy(Qt::TabFocus);
+  close_->setAccessibleName("Not now");
   close_->setToolTip("Not now");
   connect(accept_, &QPushButton::clicked, this, [this] {
     const auto accept = std::exchange(onAccept_, {});

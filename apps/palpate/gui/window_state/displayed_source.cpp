@@ -1,6 +1,7 @@
 #include "gui/window_state/displayed_source.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace palpate::gui {
 
@@ -10,14 +11,11 @@ DisplayedSource::DisplayedSource(LiveController& live,
                                  QObject* parent)
     : QObject(parent), live_(live), playback_(playback), selection_(selection) {
   connect(&live_, &LiveController::leaving, this, [this] { history_ = nullptr; });
+  connect(&live_, &LiveController::sourceReady, this, &DisplayedSource::showLive);
   connect(&live_, &LiveController::refreshed, this, &DisplayedSource::look);
   connect(&live_, &LiveController::ended, this, [this] {
     if (isLive() && live_.state() == LiveController::State::kNone) show(unfiltered_);
   });
-}
-
-void DisplayedSource::follow() {
-  connect(&live_, &LiveController::sourceOpened, this, &DisplayedSource::showLive);
 }
 
 const HandDescription* DisplayedSource::hand() const {
@@ -37,13 +35,13 @@ void DisplayedSource::show(OpenedRecordingPtr recording) {
     return showLive();
   }
   saveViewPosition();
+  // May throw: nothing has changed yet.
+  OpenedRecordingPtr made = recording && filtered ? filtered(recording) : nullptr;
   // Without a profile, no listener can ask for a frame of the old recording before all have the new
   // one.
   playback_.setProfile(std::nullopt);
   unfiltered_ = recording;
-  filtered_ = recording;
-  if (recording && filtered)
-    if (const OpenedRecordingPtr made = filtered(recording)) filtered_ = made;
+  filtered_ = made ? std::move(made) : recording;
   kind_ = recording ? Kind::kRecording : Kind::kNothing;
   hand_.reset();
   history_ = nullptr;

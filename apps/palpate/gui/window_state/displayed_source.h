@@ -30,10 +30,6 @@ class DisplayedSource : public QObject {
                   Selection& selection,
                   QObject* parent = nullptr);
 
-  // From now on a new connection is shown as soon as it is open. Call it once all other objects
-  // that must learn of a connection first are connected to LiveController::sourceOpened.
-  void follow();
-
   Kind kind() const noexcept { return kind_; }
   bool isLive() const noexcept { return kind_ == Kind::kLive; }
   bool isRecording() const noexcept { return kind_ == Kind::kRecording; }
