@@ -59,11 +59,6 @@ void FactsView::setStale(bool old) {
   update();
 }
 
-void FactsView::setTheme(Theme theme) {
-  theme_ = theme;
-  update();
-}
-
 int FactsView::rowHeight() const { return fontMetrics().height() + kFactsViewPadding; }
 
 int FactsView::nameWidth() const {
@@ -100,7 +95,7 @@ QSize FactsView::minimumSizeHint() const {
 }
 
 void FactsView::paintEvent(QPaintEvent* event) {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   QPainter painter(this);
   const int height = rowHeight();
   for (std::size_t i = 0; i < facts_.size(); ++i) {
