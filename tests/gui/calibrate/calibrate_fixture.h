@@ -56,7 +56,7 @@ class CalibratePanelTest : public ::testing::Test {
  protected:
   CalibratePanelTest() {
     panel_->resize(680, 700);
-    panel_->setTheme(Theme::kDark);
+    applyTheme(*qApp, Theme::kDark);
   }
   OpenedRecordingPtr opened(Profile profile) {
     return makeOpenedRecording(folder_ / "r.dsa", std::move(profile));

@@ -84,8 +84,9 @@ TEST_F(CalibrateForceTest, APressureTableBecomesACalibration) {
   for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
   const QPointF at(surface->xAxis->coordToPixel(made.samples[1].staticResponseCounts),
                    surface->yAxis->coordToPixel(30.0));
-  EXPECT_TRUE(surface->valueAt(at).contains("30.0 °C: 40.")) << surface->valueAt(at).toStdString();
-  EXPECT_EQ(surface->valueAt({-5.0, -5.0}), "");
+  EXPECT_TRUE(surface->readingAt(at).contains("30.0 °C: 40."))
+      << surface->readingAt(at).toStdString();
+  EXPECT_EQ(surface->readingAt({-5.0, -5.0}), "");
   // What was said of the sensor goes with it.
   find<QDoubleSpinBox>("pressureThreshold")->setValue(150.0);
   find<QDoubleSpinBox>("pressureArea")->setValue(50.0);

@@ -316,7 +316,7 @@ TEST_F(CalibratePanelTest, TablesHaveAsManyCellsAsTheirHeaders) {
 TEST_F(CalibratePanelTest, IsSeenInBothThemes) {
   show("Steps", opened(loads(3, {900.0})));
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
-    panel_->setTheme(theme);
+    applyTheme(*qApp, theme);
     QCoreApplication::processEvents();
     EXPECT_EQ(panel_->steps().chart().xAxis->labelColor(), colorsOf(theme).muted);
     EXPECT_EQ(panel_->steps().chart().grab().toImage().pixelColor(2, 2), colorsOf(theme).window);

@@ -15,13 +15,14 @@ namespace {
 class ChartPictureTest : public ::testing::Test {
  protected:
   ChartPictureTest() {
+    applyTheme(*qApp, Theme::kDark);
     plot_.resize(600, 300);
     arrangeChart(plot_);
-    styleChart(plot_, Theme::kDark);
+    styleChart(plot_);
     plot_.xAxis->setLabel("time in s");
     plot_.yAxis->setLabel("mean in counts");
     plot_.addGraph();
-    plot_.graph(0)->setPen(curvePen(1, false, Theme::kDark));
+    plot_.graph(0)->setPen(curvePen(1, false));
     for (int i = 0; i <= 10; ++i) plot_.graph(0)->addData(i, i);
     plot_.xAxis->setRange(4.0, 6.0);
     plot_.yAxis->setRange(4.5, 5.5);
@@ -132,7 +133,7 @@ TEST_F(ChartPictureTest, AxesWithoutRoomAreEnlargedNeverMirrored) {
 
 TEST_F(ChartPictureTest, TheChartIsAsBefore) {
   auto* word = wordAt(plot_, 5.0, "gap", Qt::AlignLeft, colorsOf(Theme::kDark).warning);
-  auto* shade = shadeSpan(plot_, 4.5, 5.0, Theme::kDark);
+  auto* shade = shadeSpan(plot_, 4.5, 5.0);
   plot_.replot();
   const QImage before = plot_.toPixmap().toImage();
   const QPen pen = plot_.graph(0)->pen();

@@ -14,15 +14,16 @@ TEST(PlottedCurve, KindsOfTheSameColourHaveOtherLines) {
   TaxelSelection taxels(*hand.layout);
   taxels.addAll(0);
   for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    applyTheme(*qApp, theme);
     std::vector<PlottedCurve> curves;
     for (std::size_t row = 0; row <= hand.layout->numMatrices(); ++row)
-      curves.push_back(matrixCurve(hand, row, SignalKind::kMean, theme));
+      curves.push_back(matrixCurve(hand, row, SignalKind::kMean));
     for (std::size_t place = 0; place < 5; ++place)
-      curves.push_back(taxelCurve(hand, taxels, "group", place, theme));
+      curves.push_back(taxelCurve(hand, taxels, "group", place));
     for (std::size_t axis = 0; axis < hand.axes.size(); ++axis)
-      curves.push_back(angleCurve(hand, axis, theme));
+      curves.push_back(angleCurve(hand, axis));
     for (std::size_t sensor = 0; sensor < hand.temperatureSensors.size(); ++sensor)
-      curves.push_back(temperatureCurve(hand, sensor, theme));
+      curves.push_back(temperatureCurve(hand, sensor));
     for (const PlottedCurve& a : curves)
       for (const PlottedCurve& b : curves) {
         if (a.choice.kind == b.choice.kind) continue;
@@ -36,20 +37,21 @@ TEST(PlottedCurve, KindsOfTheSameColourHaveOtherLines) {
 TEST(PlottedCurve, AGroupOfTheChosenTaxelsDoesNotCoverThem) {
   TaxelSelection taxels(*sdh2().layout);
   taxels.addAll(0);
-  EXPECT_EQ(taxelCurve(sdh2(), taxels, "chosen", 0, Theme::kDark).pen.style(), Qt::SolidLine);
-  EXPECT_NE(taxelCurve(sdh2(), taxels, "group", 1, Theme::kDark).pen.style(), Qt::SolidLine);
+  EXPECT_EQ(taxelCurve(sdh2(), taxels, "chosen", 0).pen.style(), Qt::SolidLine);
+  EXPECT_NE(taxelCurve(sdh2(), taxels, "group", 1).pen.style(), Qt::SolidLine);
 }
 
 TEST(PlottedCurve, AFormulaLooksLikeNoCurveThatIsShown) {
   const HandDescription& hand = sdh2();
   for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    applyTheme(*qApp, theme);
     std::vector<PlottedCurve> curves;
     for (std::size_t row = 0; row <= hand.layout->numMatrices(); ++row)
-      curves.push_back(matrixCurve(hand, row, SignalKind::kMean, theme));
+      curves.push_back(matrixCurve(hand, row, SignalKind::kMean));
     constexpr std::size_t kFormulas = 12;
     for (std::size_t place = 0; place < kFormulas; ++place) {
-      PlottedCurve formula = formulaCurve({}, "f", "counts", place, theme);
-      distinguish(formula, place, curves, theme);
+      PlottedCurve formula = formulaCurve({}, "f", "counts", place);
+      distinguish(formula, place, curves);
       for (const PlottedCurve& other : curves)
         EXPECT_FALSE(other.pen.color() == formula.pen.color() &&
                      other.pen.style() == formula.pen.style() &&
@@ -59,9 +61,9 @@ TEST(PlottedCurve, AFormulaLooksLikeNoCurveThatIsShown) {
     }
   }
   // Where its colour is free its line is solid.
-  PlottedCurve alone = formulaCurve({}, "f", "counts", 0, Theme::kDark);
-  distinguish(alone, 0, {}, Theme::kDark);
-  EXPECT_EQ(alone.pen, formulaCurve({}, "f", "counts", 0, Theme::kDark).pen);
+  PlottedCurve alone = formulaCurve({}, "f", "counts", 0);
+  distinguish(alone, 0, {});
+  EXPECT_EQ(alone.pen, formulaCurve({}, "f", "counts", 0).pen);
 }
 
 }  // namespace

@@ -44,8 +44,7 @@ class ConnectDialogTest : public ::testing::Test {
     dialog_ = std::make_unique<ConnectDialog>(ConnectChoices{.last = last,
                                                              .scenesFolder = scenesFolder_,
                                                              .handFolders = handFolders_,
-                                                             .recentRecordings = recent,
-                                                             .theme = Theme::kDark},
+                                                             .recentRecordings = recent},
                                               *scan_,
                                               nullptr);
     showRead();
@@ -57,7 +56,6 @@ class ConnectDialogTest : public ::testing::Test {
     dialog_ = std::make_unique<ConnectDialog>(ConnectChoices{.last = last,
                                                              .scenesFolder = scenesFolder_,
                                                              .handFolders = handFolders_,
-                                                             .theme = Theme::kDark,
                                                              .settings = &settings},
                                               *scan_,
                                               nullptr);

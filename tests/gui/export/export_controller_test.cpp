@@ -132,7 +132,7 @@ TEST_F(ExportControllerTest, TheTimelineIsCurvesAndTextNotPixels) {
   EXPECT_EQ(svg.find("<image"), std::string::npos);
   for (const char* part : {"time from the first frame in s", "counts", ">finger 0 distal<"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
-  const std::string ink = curvePen(1, false, Theme::kLight).color().name().toStdString();
+  const std::string ink = curvePen(1, false).color().name().toStdString();
   EXPECT_NE(svg.find("stroke=\"" + ink), std::string::npos) << "the curve, in ink";
 }
 

@@ -262,7 +262,7 @@ TEST_F(KeptLimitTest, WhatIsToBeExpectedIsSaidBefore) {
   EXPECT_TRUE(await([&] { return forecast().startsWith("Expect up to 3020 counts, 15.1 times"); }))
       << forecast().toStdString();
   EXPECT_EQ(shownColor(), colorsOf(Theme::kDark).warning);
-  dock_->setTheme(Theme::kLight);
+  applyTheme(*qApp, Theme::kLight);
   EXPECT_EQ(shownColor(), colorsOf(Theme::kLight).warning);
   type("limit", "2000");
   EXPECT_TRUE(await([&] { return forecast().contains("1.5 times the limit"); }))

@@ -80,7 +80,7 @@ const Door kDoors[] = {
      }},
     {"scene",
      [](StopInTheWindow& bench, const fs::path& file) {
-       auto* page = new ScenePage(bench.folder() / "none", Theme::kDark, &bench.window());
+       auto* page = new ScenePage(bench.folder() / "none", &bench.window());
        page->setScene(textOf(file));
      }},
     {"hand_folder",
@@ -89,7 +89,7 @@ const Door kDoors[] = {
        fs::copy_file(
            file, bench.folder() / "hand" / "hand.json", fs::copy_options::overwrite_existing);
        auto* scan = new PortScan(&bench.window());
-       auto* page = new StreamPage({}, *scan, Theme::kDark, &bench.window());
+       auto* page = new StreamPage({}, *scan, &bench.window());
        page->setStream({.source = "udp:9871", .hand = textOf(bench.folder() / "hand")});
      }},
     {"meshes",

@@ -15,8 +15,7 @@ namespace {
 class ManualWindowTest : public WindowTest {
  protected:
   ManualWindowTest()
-      : folder_(ManualPages::folderFor(testing::dataFolder())),
-        manual_(folder_, Theme::kDark, nullptr) {
+      : folder_(ManualPages::folderFor(testing::dataFolder())), manual_(folder_, nullptr) {
     manual_.QWidget::show();
     QCoreApplication::processEvents();
   }
@@ -127,7 +126,7 @@ TEST_F(ManualWindowTest, ItsTitleBarIsOnTheScreen) {
   QWidget corner;
   corner.setGeometry(0, 0, 300, 200);
   corner.show();
-  ManualWindow manual(folder_, Theme::kDark, &corner);
+  ManualWindow manual(folder_, &corner);
   manual.QWidget::show();
   QCoreApplication::processEvents();
   const QRect available = manual.screen()->availableGeometry();
@@ -164,7 +163,6 @@ TEST_F(ManualWindowTest, SearchGoesThroughAllPages) {
 TEST_F(ManualWindowTest, IsReadableInBothThemes) {
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
     applyTheme(*qApp, theme);
-    manual_.setTheme(theme);
     EXPECT_EQ(browser().palette().color(QPalette::Base), colorsOf(theme).window);
     manual_.follow("docks.md");
     for (QTextBlock block = browser().document()->begin(); block.isValid(); block = block.next())
@@ -178,7 +176,7 @@ TEST_F(ManualWindowTest, IsReadableInBothThemes) {
 }
 
 TEST_F(ManualWindowTest, SaysWhereItsPagesShouldBe) {
-  ManualWindow none("/nowhere/docs", Theme::kDark, nullptr);
+  ManualWindow none("/nowhere/docs", nullptr);
   EXPECT_TRUE(
       none.findChild<ManualBrowser*>()->toPlainText().contains("there is none in /nowhere/docs"));
 }

@@ -91,7 +91,7 @@ TEST(LinkPanel, LogsWhatHappenedAndListsAlarms) {
   EXPECT_EQ(alarms->text(), "none");
   panel.showAlarms({"no frame for 2 s", "disk full"});
   EXPECT_EQ(alarms->text(), "no frame for 2 s\ndisk full");
-  panel.setTheme(Theme::kLight);
+  applyTheme(*qApp, Theme::kLight);
   EXPECT_EQ(alarms->text(), "no frame for 2 s\ndisk full");
 }
 

@@ -29,7 +29,7 @@ ConfusionMatrix matrixOf(int classes) {
 class ConfusionViewTest : public ::testing::Test {
  protected:
   void showClasses(int classes, int width = 430, int height = 340) {
-    view_.setTheme(Theme::kDark);
+    applyTheme(*qApp, Theme::kDark);
     view_.resize(width, height);
     view_.show();
     view_.setMatrix(matrixOf(classes));

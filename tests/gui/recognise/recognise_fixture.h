@@ -33,7 +33,7 @@ class RecognisePanelTest : public ::testing::Test {
   RecognisePanelTest()
       : panel_(std::make_unique<RecognisePanel>(settings_, testing::dataFolder())) {
     panel_->resize(460, 640);
-    panel_->setTheme(Theme::kDark);
+    applyTheme(*qApp, Theme::kDark);
   }
   // A folder with so many grasps of some objects.
   std::filesystem::path teach(const std::vector<std::string>& objects, int grasps) {

@@ -41,7 +41,7 @@ class SlipPanelTest : public ::testing::Test {
                                             QSettings::IniFormat);
     panel_ = std::make_unique<SlipPanel>(*settings_);
     panel_->resize(640, 700);
-    panel_->setTheme(Theme::kDark);
+    applyTheme(*qApp, Theme::kDark);
     panel_->show();
   }
   void show(const OpenedRecordingPtr& recording) {

@@ -72,7 +72,7 @@ TEST(OpenedRecording, WithoutASummaryTheLargestValueIsBeingCounted) {
   MatricesPanel matrices(&interpolated, &values);
   ViewSettings settings;
   settings.range = RangeMode::kRecording;
-  matrices.setSettings(settings, Theme::kDark);
+  matrices.setSettings(settings);
   matrices.setRecording(recording);
   EXPECT_EQ(matrices.view().look().range.maximum, 1.0);
 

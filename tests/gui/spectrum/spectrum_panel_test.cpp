@@ -47,7 +47,7 @@ class SpectrumPanelTest : public ::testing::Test {
  protected:
   SpectrumPanelTest() {
     panel_->resize(900, 320);
-    panel_->setTheme(Theme::kDark);
+    applyTheme(*qApp, Theme::kDark);
   }
   void show(const OpenedRecordingPtr& recording) {
     panel_->show();
@@ -312,11 +312,11 @@ TEST_F(SpectrumPanelTest, TellsValuesUnderTheMouse) {
   SpectrumChart& chart = panel_->chart();
   auto* map = qobject_cast<QCPColorMap*>(chart.plottable(1));
   const QPointF at(map->keyAxis()->coordToPixel(4.0), map->valueAxis()->coordToPixel(6.3));
-  EXPECT_EQ(chart.valuesAt(at), "4.00 s · 6.25 Hz\nPSD 45.3 dB\nmagnitude 400.00 counts");
+  EXPECT_EQ(chart.readingAt(at), "4.00 s · 6.25 Hz\nPSD 45.3 dB\nmagnitude 400.00 counts");
   const QPointF early(map->keyAxis()->coordToPixel(0.1), at.y());
-  EXPECT_TRUE(chart.valuesAt(early).contains("no whole window"));
+  EXPECT_TRUE(chart.readingAt(early).contains("no whole window"));
   const QPointF above(chart.xAxis->coordToPixel(4.01), chart.axisRect()->rect().center().y());
-  EXPECT_EQ(chart.valuesAt(above), "4.01 s\n1400 counts") << "frame 200 came at 4 s";
+  EXPECT_EQ(chart.readingAt(above), "4.01 s\n1400 counts") << "frame 200 came at 4 s";
 }
 
 TEST_F(SpectrumPanelTest, TablesAreThoseOfTheCommand) {
@@ -351,7 +351,7 @@ TEST_F(SpectrumPanelTest, NotesAreShortenedToTheRoom) {
 TEST_F(SpectrumPanelTest, IsSeenInBothThemes) {
   show(tones(400));
   for (const Theme theme : {Theme::kDark, Theme::kLight}) {
-    panel_->setTheme(theme);
+    applyTheme(*qApp, theme);
     QCoreApplication::processEvents();
     const QImage image = panel_->chart().grab().toImage();
     EXPECT_EQ(image.pixelColor(2, 2), colorsOf(theme).window);

@@ -23,13 +23,12 @@ class LiveChartTest : public ::testing::Test {
     chart_.resize(900, 220);
     chart_.setHistory(&history_, &sdh2());
     plot({0, 1, 2, 3, 4, 5});
-    chart_.setTheme(Theme::kDark);
+    applyTheme(*qApp, Theme::kDark);
     chart_.show();
   }
   void plot(const std::vector<std::size_t>& rows, SignalKind signal = SignalKind::kMean) {
     std::vector<PlottedCurve> curves;
-    for (const std::size_t row : rows)
-      curves.push_back(matrixCurve(sdh2(), row, signal, Theme::kDark));
+    for (const std::size_t row : rows) curves.push_back(matrixCurve(sdh2(), row, signal));
     chart_.setCurves(curves);
   }
   // A frame in which matrix 2 has this mean.
@@ -218,8 +217,7 @@ TEST_F(LiveChartTest, PlotsWhatIsTickedInTheChosenSignal) {
 
 TEST_F(LiveChartTest, JointAnglesHaveAnAxisOfTheirOwn) {
   framesTo(5.0);
-  chart_.setCurves({matrixCurve(sdh2(), 2, SignalKind::kMean, Theme::kDark),
-                    angleCurve(sdh2(), 1, Theme::kDark)});
+  chart_.setCurves({matrixCurve(sdh2(), 2, SignalKind::kMean), angleCurve(sdh2(), 1)});
   ASSERT_EQ(chart_.numGraphs(), 2);
   EXPECT_DOUBLE_EQ(lastDrawn(1), 25.0) << "with all that came before it was chosen";
   EXPECT_NE(chart_.graph(0)->valueAxis(), chart_.graph(1)->valueAxis());
@@ -229,8 +227,7 @@ TEST_F(LiveChartTest, JointAnglesHaveAnAxisOfTheirOwn) {
 
 TEST_F(LiveChartTest, TellsTheValuesUnderTheMouse) {
   framesTo(10.0);
-  chart_.setCurves({matrixCurve(sdh2(), 2, SignalKind::kMean, Theme::kDark),
-                    angleCurve(sdh2(), 1, Theme::kDark)});
+  chart_.setCurves({matrixCurve(sdh2(), 2, SignalKind::kMean), angleCurve(sdh2(), 1)});
   const QString text = chart_.valuesAt(4.04);
   EXPECT_TRUE(text.startsWith("4.00 s · 6.0 s before the newest frame")) << text.toStdString();
   EXPECT_TRUE(text.contains("finger 1 proximal  4 counts")) << text.toStdString();
@@ -241,7 +238,7 @@ TEST_F(LiveChartTest, TellsTheValuesUnderTheMouse) {
 
 TEST_F(LiveChartTest, ShowsTheChosenUnitAndWritesTheBaseUnit) {
   framesTo(10.0);
-  chart_.setCurves({angleCurve(sdh2(), 1, Theme::kDark, {.angle = AngleUnit::kRadian})});
+  chart_.setCurves({angleCurve(sdh2(), 1, {.angle = AngleUnit::kRadian})});
   EXPECT_EQ(chart_.axes().units(), std::vector<QString>{"rad"});
   EXPECT_NEAR(lastDrawn(0), 0.5235987755982988, 1e-12) << "30 degrees";
   // The range is that of degrees, 10 of them: a small motion stays visible.

@@ -241,7 +241,7 @@ TEST(Legend, TheDotsForFurtherCurvesAlwaysHaveRoom) {
   Legend legend;
   std::vector<Legend::Entry> entries;
   for (int i = 0; i < 6; ++i) entries.push_back({QPen(), "finger " + QString::number(i)});
-  legend.setEntries(entries, Theme::kDark);
+  legend.setEntries(entries);
   for (int width = 60; width < legend.sizeHint().width() / 2 - 30; width += 3) {
     legend.resize(width, 10);
     legend.resize(width, legend.sizeHint().height());

@@ -10,6 +10,6 @@
 namespace palpate::gui {
 
 // A colour each; contrast of at least 4.5:1 on the window and on bars.
-QColor conditionColor(HandCondition condition, Theme theme);
+QColor conditionColor(HandCondition condition, Theme theme = shownTheme());
 
 }  // namespace palpate::gui

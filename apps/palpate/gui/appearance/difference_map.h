@@ -13,7 +13,7 @@ namespace palpate::gui {
 
 enum class CompareSide { kA, kB };
 // Colour of the names and curves of A or B.
-QColor sideColor(CompareSide side, Theme theme);
+QColor sideColor(CompareSide side, Theme theme = shownTheme());
 
 // The colour map from "B is larger" over 0 (the two entries in the middle) to "A is larger". Equal
 // steps look equal (Oklab, Björn Ottosson 2020), and equal differences on both sides are equally

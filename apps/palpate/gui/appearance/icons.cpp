@@ -139,10 +139,10 @@ QPainterPath strokedPart(IconShape shape) {
 
 class PathIconEngine : public QIconEngine {
  public:
-  PathIconEngine(IconShape shape, Theme theme) : shape_(shape), theme_(theme) {}
+  explicit PathIconEngine(IconShape shape) : shape_(shape) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) override {
-    const ThemeColors& colors = colorsOf(theme_);
+    const ThemeColors& colors = colorsOf();
     QColor color = state == QIcon::On ? colors.accent : colors.text;
     if (shape_ == IconShape::kRecord || shape_ == IconShape::kStopRecording) color = colors.danger;
     constexpr float kFaded = 0.45F;
@@ -172,11 +172,10 @@ class PathIconEngine : public QIconEngine {
 
  private:
   IconShape shape_;
-  Theme theme_;
 };
 
 }  // namespace
 
-QIcon makeIcon(IconShape shape, Theme theme) { return QIcon(new PathIconEngine(shape, theme)); }
+QIcon makeIcon(IconShape shape) { return QIcon(new PathIconEngine(shape)); }
 
 }  // namespace palpate::gui

@@ -29,7 +29,8 @@ enum class IconShape {
   kLive
 };
 
-// The icon takes the accent colour when checked, a faded one when disabled.
-QIcon makeIcon(IconShape shape, Theme theme);
+// The icon takes the accent colour when checked, a faded one when disabled; always those of the
+// theme that is shown.
+QIcon makeIcon(IconShape shape);
 
 }  // namespace palpate::gui

@@ -206,6 +206,12 @@ QColor mixed(const QColor& from, const QColor& to, double part) {
 
 QColor wholeColor(Theme theme) { return theme == Theme::kDark ? "#c3c9d3" : "#3d4654"; }
 
+Theme shownTheme() {
+  constexpr int kHalf = 128;
+  return QGuiApplication::palette().color(QPalette::Window).lightness() < kHalf ? Theme::kDark
+                                                                                : Theme::kLight;
+}
+
 Theme systemTheme() {
   constexpr int kHalf = 128;
   static const Theme theme = QApplication::palette().color(QPalette::Window).lightness() < kHalf

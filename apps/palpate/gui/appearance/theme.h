@@ -50,12 +50,15 @@ struct ThemeColors {
   QColor gap;
 };
 
-const ThemeColors& colorsOf(Theme theme);
+// The theme that the program shows, read from its palette: colours are asked for when something is
+// painted, and need not be stored.
+Theme shownTheme();
+const ThemeColors& colorsOf(Theme theme = shownTheme());
 // One colour per matrix, the same in all views; colour-blind people can tell them apart (after
 // Okabe and Ito). Repeats after six.
-QColor matrixColor(std::size_t matrix, Theme theme);
+QColor matrixColor(std::size_t matrix, Theme theme = shownTheme());
 // Colour of the hand as a whole.
-QColor wholeColor(Theme theme);
+QColor wholeColor(Theme theme = shownTheme());
 // Mixes two colours; `part`: share of `to`, 0..1.
 QColor mixed(const QColor& from, const QColor& to, double part);
 

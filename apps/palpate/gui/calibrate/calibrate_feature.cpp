@@ -41,7 +41,6 @@ CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
   pressures_ = std::make_unique<Pressures>(windowState, *calibrations_, panel_->force());
   connect(&windowState.displayed, &DisplayedSource::shown, this, &CalibrateFeature::takeSource);
   connect(&windowState.events, &EventController::changed, this, &CalibrateFeature::takeKept);
-  followTheme(panel_);
   followUnits(&panel_->force());
   connect(&windowState.playback,
           &PlaybackController::positionChanged,

@@ -52,13 +52,6 @@ void CalibratePanel::setSession(CaptureSession* session) {
   tare_->setMeasured(nullptr);
 }
 
-void CalibratePanel::setTheme(Theme theme) {
-  if (theme == theme_) return;
-  theme_ = theme;
-  for (int i = 0; i < pages().count(); ++i)
-    static_cast<ComputedPage*>(pages().widget(i))->setTheme(theme);
-}
-
 void CalibratePanel::setPosition(double seconds) {
   for (int i = 0; i < pages().count(); ++i)
     static_cast<ComputedPage*>(pages().widget(i))->setPosition(seconds);

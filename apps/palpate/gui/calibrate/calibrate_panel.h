@@ -28,7 +28,6 @@ class CalibratePanel : public PagedPanel {
   // Sets the session of the connected hand, which the pages Noise and Tare can measure; null: none,
   // before it is closed. Of another hand than before nothing is measured yet.
   void setSession(CaptureSession* session);
-  void setTheme(Theme theme);
   void setPosition(double seconds);
   bool cancel();
   void settle();
@@ -48,7 +47,6 @@ class CalibratePanel : public PagedPanel {
  private:
   void add(ComputedPage* page, const QString& name, const QString& tip);
 
-  std::optional<Theme> theme_;
   StepPage* steps_;
   PressurePage* pressure_;
   NoisePage* noise_;

@@ -1,8 +1,5 @@
 #include "gui/calibrate/force_chart.h"
 
-#include <QHelpEvent>
-#include <QMouseEvent>
-#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,20 +20,16 @@ constexpr std::size_t kForceChartMostPoints = 20'000;
 
 }  // namespace
 
-ForceChart::ForceChart(QWidget* parent) : QCustomPlot(parent) {
+ForceChart::ForceChart(QWidget* parent) : Chart(parent) {
   setObjectName("forceChart");
   setAccessibleName("Force over time");
-  arrangeChart(*this);
-  setMouseTracking(true);
   for (int i = 0; i <= kBeyond; ++i) addGraph();
   graph(kLow)->setPen(Qt::NoPen);
   graph(kHigh)->setPen(Qt::NoPen);
   graph(kHigh)->setChannelFillGraph(graph(kLow));
   xAxis->setLabel("time from the first frame in s");
-  cursor_ = new QWidget(this);
-  cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  connect(this, &QCustomPlot::afterReplot, this, &ForceChart::placeCursor);
-  style();
+  addCursor();
+  restyle();
 }
 
 void ForceChart::setSeries(const std::shared_ptr<const ForceSeries>& series) {
@@ -87,48 +80,20 @@ void ForceChart::fill() {
   graph(kForce)->data()->set(force, true);
   graph(kBeyond)->data()->set(beyond, true);
   yAxis->setRange(0.0, (most > 0.0 ? most : 1.0) * kForceChartHeadroom);
-  style();
-}
-
-void ForceChart::setTheme(Theme theme) {
-  theme_ = theme;
-  style();
+  restyle();
 }
 
 void ForceChart::style() {
-  const ThemeColors& colors = colorsOf(theme_);
-  styleChart(*this, theme_);
   const bool isLimit = series_ && !series_->areaKnown;
   yAxis->setLabel(isLimit ? fittingName("upper limit of the force in N", "≤ N", *this)
                           : fittingName("force in N", "N", *this));
   const bool whole = !series_ || matrix_ >= series_->numMatrices;
-  const QColor color = whole ? wholeColor(theme_) : matrixColor(matrix_, theme_);
+  const QColor color = whole ? wholeColor() : matrixColor(matrix_);
   QColor shade = color;
   shade.setAlpha(kForceChartBandAlpha);
   graph(kHigh)->setBrush(shade);
   graph(kForce)->setPen(QPen(color, 1.4));
-  graph(kBeyond)->setPen(QPen(colors.warning, 1.8));
-  cursor_->setStyleSheet("background: " + colors.accent.name());
-  replot(QCustomPlot::rpQueuedReplot);
-}
-
-void ForceChart::setVisibleRange(double fromS, double toS) {
-  if (!(toS > fromS)) return;
-  xAxis->setRange(fromS, toS);
-  replot(QCustomPlot::rpQueuedReplot);
-}
-
-void ForceChart::setPosition(double seconds) {
-  positionS_ = seconds;
-  placeCursor();
-}
-
-void ForceChart::placeCursor() {
-  const QRect plot = axisRect()->rect();
-  const int x = static_cast<int>(std::lround(xAxis->coordToPixel(positionS_)));
-  const bool inside = x >= plot.left() && x <= plot.right() + 1;
-  cursor_->setGeometry(x - 1, plot.top(), 2, plot.height());
-  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
+  graph(kBeyond)->setPen(QPen(colorsOf().warning, 1.8));
 }
 
 void ForceChart::paint(QPainter& painter, const PictureLook& look, const QString& title) {
@@ -141,29 +106,12 @@ void ForceChart::paint(QPainter& painter, const PictureLook& look, const QString
                          {"outside the measured range", graph(kBeyond)->pen()}}});
 }
 
-void ForceChart::mousePressEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton)
-    emit seekRequested(xAxis->pixelToCoord(event->position().x()));
-}
-
-void ForceChart::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() & Qt::LeftButton)
-    emit seekRequested(xAxis->pixelToCoord(event->position().x()));
-}
-
-bool ForceChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip && series_ && !series_->timeS.empty()) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    const std::size_t i = series_->frameAt(xAxis->pixelToCoord(help->pos().x()));
-    const bool whole = matrix_ >= series_->numMatrices;
-    const double n =
-        whole ? series_->forceN(i) : static_cast<double>(series_->at(i, matrix_).forceN);
-    QToolTip::showText(
-        help->globalPos(), figure(series_->timeS[i], 2) + " s\n" + figure(n, 2) + " N", this);
-    return true;
-  }
-  if (event->type() == QEvent::FontChange || event->type() == QEvent::Resize) style();
-  return QCustomPlot::event(event);
+QString ForceChart::readingAt(const QPointF& at) const {
+  if (!series_ || series_->timeS.empty()) return {};
+  const std::size_t i = series_->frameAt(secondsAt(at.x()));
+  const bool whole = matrix_ >= series_->numMatrices;
+  const double n = whole ? series_->forceN(i) : static_cast<double>(series_->at(i, matrix_).forceN);
+  return figure(series_->timeS[i], 2) + " s\n" + figure(n, 2) + " N";
 }
 
 }  // namespace palpate::gui

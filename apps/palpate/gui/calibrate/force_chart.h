@@ -7,13 +7,12 @@
 
 #include <palpate/calibration/force_series.h>
 
-#include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/chart.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
 
-class ForceChart : public QCustomPlot {
+class ForceChart : public Chart {
   Q_OBJECT
  public:
   explicit ForceChart(QWidget* parent = nullptr);
@@ -21,34 +20,22 @@ class ForceChart : public QCustomPlot {
   void setSeries(const std::shared_ptr<const ForceSeries>& series);
   // Shows the force of one matrix; the number of matrices as `matrix` means the whole hand.
   void choose(std::size_t matrix, const QString& name);
-  void setVisibleRange(double fromS, double toS);
-  void setPosition(double seconds);
-  void setTheme(Theme theme);
   // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
+  QString readingAt(const QPointF& at) const override;
   QSize sizeHint() const override { return {440, 220}; }
   QSize minimumSizeHint() const override { return {220, 120}; }
 
- signals:
-  void seekRequested(double seconds);
-
  protected:
-  void mousePressEvent(QMouseEvent* event) override;
-  void mouseMoveEvent(QMouseEvent* event) override;
-  bool event(QEvent* event) override;
+  void style() override;
 
  private:
   void fill();
-  void style();
-  void placeCursor();
 
   std::shared_ptr<const ForceSeries> series_;
   std::size_t matrix_ = 0;
   QString name_;
-  Theme theme_ = Theme::kDark;
-  QWidget* cursor_;
-  double positionS_ = 0.0;
 };
 
 }  // namespace palpate::gui

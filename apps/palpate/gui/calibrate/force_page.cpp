@@ -364,11 +364,6 @@ void ForcePage::setUnits(const DisplayUnits& units) {
     showForces(Shown(*shownForces_));
 }
 
-void ForcePage::setTheme(Theme theme) {
-  table_->setTheme(theme);
-  chart_->setTheme(theme);
-}
-
 std::vector<ExportedTable> ForcePage::tables() const {
   if (!shown() || !found_) return {};
   return {{"forces", [found = found_] { return forceTable(found); }},

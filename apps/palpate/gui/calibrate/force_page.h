@@ -26,7 +26,6 @@ class ForcePage : public ComputedPage {
   Q_OBJECT
  public:
   explicit ForcePage(QSettings& settings, QWidget* parent = nullptr);
-  void setTheme(Theme theme) override;
   // The unit in which pressures are shown; tables() are in kPa.
   void setUnits(const DisplayUnits& units);
   void setPosition(double seconds) override;

@@ -1,6 +1,5 @@
 #include "gui/calibrate/noise_chart.h"
 
-#include <QEvent>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,41 +31,35 @@ struct NoiseChartExtent {
 
 }  // namespace
 
-NoiseChart::NoiseChart(QWidget* parent) : QCustomPlot(parent) {
+NoiseChart::NoiseChart(QWidget* parent) : Chart(parent) {
   setObjectName("noiseChart");
   setAccessibleName("Noise over temperature");
-  arrangeChart(*this);
   xAxis->setLabel("temperature of the nearest motor in °C");
+  restyle();
 }
 
 void NoiseChart::setFloor(const NoiseFloor& floor, const QStringList& names) {
   floor_ = floor;
   names_ = names;
   chosen_ = 0;
-  fill();
+  restyle();
 }
 
 void NoiseChart::choose(std::size_t matrix) {
   if (matrix == chosen_ || matrix >= floor_.lines.size()) return;
   chosen_ = matrix;
-  fill();
+  restyle();
 }
 
-void NoiseChart::setTheme(Theme theme) {
-  theme_ = theme;
-  fill();
-}
-
-void NoiseChart::fill() {
+void NoiseChart::style() {
   clearPlottables();
-  styleChart(*this, theme_);
   yAxis->ticker()->setTickCount(6);
   yAxis->setLabel(fittingName("largest reading in counts", "counts", *this));
   NoiseChartExtent degrees, counts;
   for (std::size_t i = 0; i < floor_.lines.size(); ++i) {
     const NoiseLine& line = floor_.lines[i];
     const bool chosen = i == chosen_;
-    const QColor color = matrixColor(line.matrix, theme_);
+    const QColor color = matrixColor(line.matrix);
     const double ends[] = {line.minDegC, line.maxDegC};
     if (line.valid) {
       const auto draw = [&](double offset) {
@@ -113,16 +106,10 @@ void NoiseChart::fill() {
   }
   xAxis->setRange(degrees.range());
   yAxis->setRange(counts.range());
-  replot(QCustomPlot::rpQueuedReplot);
 }
 
 void NoiseChart::paint(QPainter& painter, const PictureLook& look, const QString& title) {
   paintChart(painter, look, *this, {.title = title, .caption = "noise of an unloaded hand"});
-}
-
-bool NoiseChart::event(QEvent* event) {
-  if (event->type() == QEvent::FontChange || event->type() == QEvent::Resize) fill();
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

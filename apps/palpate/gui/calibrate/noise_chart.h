@@ -7,20 +7,18 @@
 
 #include <palpate/calibration/noise_floor.h>
 
-#include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/chart.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
 
-class NoiseChart : public QCustomPlot {
+class NoiseChart : public Chart {
   Q_OBJECT
  public:
   explicit NoiseChart(QWidget* parent = nullptr);
 
   void setFloor(const NoiseFloor& floor, const QStringList& names);
   void choose(std::size_t matrix);
-  void setTheme(Theme theme);
   // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
@@ -28,15 +26,12 @@ class NoiseChart : public QCustomPlot {
   QSize minimumSizeHint() const override { return {220, 150}; }
 
  protected:
-  bool event(QEvent* event) override;
+  void style() override;
 
  private:
-  void fill();
-
   NoiseFloor floor_;
   QStringList names_;
   std::size_t chosen_ = 0;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

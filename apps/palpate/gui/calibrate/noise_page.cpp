@@ -328,11 +328,6 @@ void NoisePage::save(const std::filesystem::path& path) const {
   file.commit();
 }
 
-void NoisePage::setTheme(Theme theme) {
-  table_->setTheme(theme);
-  chart_->setTheme(theme);
-}
-
 std::vector<ExportedTable> NoisePage::tables() const {
   if (!shown()) return {};
   return {{"noise lines", [found = found_] { return lineTable(found); }},

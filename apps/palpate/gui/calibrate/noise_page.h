@@ -37,7 +37,6 @@ class NoisePage : public ComputedPage {
   Q_OBJECT
  public:
   explicit NoisePage(QSettings& settings, QWidget* parent = nullptr);
-  void setTheme(Theme theme) override;
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 

@@ -1,6 +1,5 @@
 #include "gui/calibrate/pressure_chart.h"
 
-#include <QEvent>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,13 +41,13 @@ std::vector<double> sliceTemperatures(const PressureModel& model,
   return {least, (least + most) / 2.0, most};
 }
 
-PressureChart::PressureChart(QWidget* parent) : QCustomPlot(parent) {
+PressureChart::PressureChart(QWidget* parent) : Chart(parent) {
   setObjectName("pressureChart");
   setAccessibleName("Pressure over gain at three temperatures");
-  arrangeChart(*this);
   xAxis->setLabel("gain K in counts");
   legend->setVisible(true);
   axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
+  restyle();
 }
 
 void PressureChart::setModel(const PressureModel& model,
@@ -56,18 +55,13 @@ void PressureChart::setModel(const PressureModel& model,
   model_ = model;
   samples_ = samples;
   chosen_.reset();
-  fill();
+  restyle();
 }
 
 void PressureChart::choose(std::optional<std::size_t> sample) {
   if (sample == chosen_) return;
   chosen_ = sample;
-  fill();
-}
-
-void PressureChart::setTheme(Theme theme) {
-  theme_ = theme;
-  fill();
+  restyle();
 }
 
 void PressureChart::addSlice(
@@ -111,17 +105,11 @@ void PressureChart::addSlice(
   add(outside, QPen(color, 1.0, Qt::DashLine), measured ? QString() : name);
 }
 
-void PressureChart::fill() {
+void PressureChart::style() {
   clearPlottables();
-  const ThemeColors& colors = colorsOf(theme_);
-  styleChart(*this, theme_);
+  const ThemeColors& colors = colorsOf();
   yAxis->ticker()->setTickCount(6);
   yAxis->setLabel(fittingName("pressure in kPa", "kPa", *this));
-  legend->setFont(font());
-  legend->setTextColor(colors.muted);
-  legend->setBrush(Qt::NoBrush);
-  legend->setBorderPen(Qt::NoPen);
-  legend->setRowSpacing(-4);
   double mostK = 0.0, mostKpa = 0.0, leastK = std::numeric_limits<double>::max();
   for (const PressureSample& sample : samples_) {
     mostK = std::max(mostK, sample.staticResponseCounts);
@@ -137,8 +125,7 @@ void PressureChart::fill() {
   const double fromK = std::max(0.0, leastK - 0.15 * (mostK - leastK)), toK = mostK * 1.06;
   const std::vector<double> slices = sliceTemperatures(model_, samples_);
   const auto colorAt = [&](std::size_t i) {
-    return slices.size() == 1 || i == 1 ? wholeColor(theme_)
-                                        : matrixColor(i == 0 ? kCold : kWarm, theme_);
+    return slices.size() == 1 || i == 1 ? wholeColor() : matrixColor(i == 0 ? kCold : kWarm);
   };
   if (model_.valid())
     for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -176,7 +163,6 @@ void PressureChart::fill() {
   }
   xAxis->setRange(fromK, toK);
   yAxis->setRange(0.0, (mostKpa > 0.0 ? mostKpa : 1.0) * kPressureChartHeadroom);
-  replot(QCustomPlot::rpQueuedReplot);
 }
 
 void PressureChart::paint(QPainter& painter, const PictureLook& look, const QString& title) {
@@ -184,11 +170,6 @@ void PressureChart::paint(QPainter& painter, const PictureLook& look, const QStr
   legend->setVisible(false);
   paintChart(painter, look, *this, {.title = title, .caption = "P(K, T)"});
   legend->setVisible(true);
-}
-
-bool PressureChart::event(QEvent* event) {
-  if (event->type() == QEvent::FontChange || event->type() == QEvent::Resize) fill();
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

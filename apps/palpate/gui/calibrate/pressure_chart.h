@@ -8,8 +8,7 @@
 
 #include <palpate/calibration/pressure_model.h>
 
-#include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/chart.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
@@ -20,7 +19,7 @@ double temperatureOf(const PressureSample& sample, const PressureModelOptions& o
 std::vector<double> sliceTemperatures(const PressureModel& model,
                                       const std::vector<PressureSample>& samples);
 
-class PressureChart : public QCustomPlot {
+class PressureChart : public Chart {
   Q_OBJECT
  public:
   explicit PressureChart(QWidget* parent = nullptr);
@@ -28,7 +27,6 @@ class PressureChart : public QCustomPlot {
   void setModel(const PressureModel& model, const std::vector<PressureSample>& samples);
   // Draws that sample larger.
   void choose(std::optional<std::size_t> sample);
-  void setTheme(Theme theme);
   // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
@@ -36,16 +34,14 @@ class PressureChart : public QCustomPlot {
   QSize minimumSizeHint() const override { return {220, 150}; }
 
  protected:
-  bool event(QEvent* event) override;
+  void style() override;
 
  private:
-  void fill();
   void addSlice(double degC, const QColor& color, double fromK, double toK, bool band);
 
   PressureModel model_;
   std::vector<PressureSample> samples_;
   std::optional<std::size_t> chosen_;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

@@ -350,13 +350,6 @@ QStringList PressurePage::facts() const {
   return lines;
 }
 
-void PressurePage::setTheme(Theme theme) {
-  chart_->setTheme(theme);
-  surface_->setTheme(theme);
-  samples_->setTheme(theme);
-  facts_->setTheme(theme);
-}
-
 std::vector<ExportedTable> PressurePage::tables() const {
   if (!shown()) return {};
   return {{"samples", [now = now_] { return sampleTable(now); }},

@@ -29,7 +29,6 @@ class PressurePage : public ComputedPage {
   Q_OBJECT
  public:
   explicit PressurePage(QWidget* parent = nullptr);
-  void setTheme(Theme theme) override;
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 

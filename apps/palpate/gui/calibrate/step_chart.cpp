@@ -1,6 +1,5 @@
 #include "gui/calibrate/step_chart.h"
 
-#include <QHelpEvent>
 #include <QMouseEvent>
 #include <QToolTip>
 #include <algorithm>
@@ -23,24 +22,14 @@ QPen dashed(const QColor& color) { return {color, 1.2, Qt::DashLine}; }
 
 }  // namespace
 
-StepChart::StepChart(QWidget* parent) : QCustomPlot(parent) {
+StepChart::StepChart(QWidget* parent) : Chart(parent) {
   setObjectName("stepChart");
   setAccessibleName("Step response with its fit, residuals below");
-  arrangeChart(*this);
-  setMouseTracking(true);
-  xAxis->setTickLabels(false);
   axisRect()->setMinimumMargins(QMargins(52, 8, 12, 4));
-  below_ = new QCPAxisRect(this);
-  plotLayout()->addElement(1, 0, below_);
-  plotLayout()->setRowStretchFactor(1, kResidualShare);
-  plotLayout()->setRowSpacing(0);
-  time_ = below_->axis(QCPAxis::atBottom);
-  residual_ = below_->axis(QCPAxis::atLeft);
-  for (QCPAxis* axis : {time_, residual_}) axis->setLayer("axes");
-  below_->setMinimumMargins(QMargins(52, 6, 12, 10));
-  auto* sides = new QCPMarginGroup(this);
-  axisRect()->setMarginGroup(QCP::msLeft | QCP::msRight, sides);
-  below_->setMarginGroup(QCP::msLeft | QCP::msRight, sides);
+  QCPAxisRect* below = addBelow(kResidualShare);
+  time_ = below->axis(QCPAxis::atBottom);
+  residual_ = below->axis(QCPAxis::atLeft);
+  below->setMinimumMargins(QMargins(52, 6, 12, 10));
   for (const char* name : {"signal", "fit", "tangent", "inflection"}) addGraph()->setName(name);
   addGraph(time_, residual_)->setName("residual");
   graph(kData)->setLineStyle(QCPGraph::lsNone);
@@ -53,9 +42,8 @@ StepChart::StepChart(QWidget* parent) : QCustomPlot(parent) {
   // No legend for the residuals: their axis has a title.
   legend->removeItem(legend->itemCount() - 1);
   axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignBottom | Qt::AlignRight);
-  cursor_ = new QWidget(this);
-  cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  connect(this, &QCustomPlot::afterReplot, this, &StepChart::placeCursor);
+  addCursor();
+  restyle();
 }
 
 void StepChart::setStep(const FittedStep& step,
@@ -64,12 +52,11 @@ void StepChart::setStep(const FittedStep& step,
                         std::size_t matrix,
                         PlottedSignal signal) {
   step_ = step;
-  beginS_ = beginS;
+  setOrigin(beginS);
   matrix_ = matrix;
   signal_ = signal;
   fill(samples);
-  style();
-  replot(QCustomPlot::rpQueuedReplot);
+  restyle();
 }
 
 void StepChart::fill(const StepSignal& samples) {
@@ -119,21 +106,13 @@ void StepChart::fill(const StepSignal& samples) {
   gainName_->setVisible(step_.fit.converged);
 }
 
-void StepChart::setTheme(Theme theme) {
-  theme_ = theme;
-  style();
-  replot(QCustomPlot::rpQueuedReplot);
-}
-
 void StepChart::style() {
-  const ThemeColors& colors = colorsOf(theme_);
-  styleChart(*this, theme_);
-  for (QCPAxis* axis : below_->axes()) styleExtraAxis(*axis, *this, theme_);
+  const ThemeColors& colors = colorsOf();
   residual_->grid()->setVisible(true);
   residual_->ticker()->setTickCount(2);
   time_->ticker()->setTickCount(8);
   yAxis->ticker()->setTickCount(5);
-  const QColor curve = matrixColor(matrix_, theme_);
+  const QColor curve = matrixColor(matrix_);
   graph(kData)->setPen(QPen(curve, 1.0));
   graph(kData)->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, curve, curve, kDotSize));
   graph(kFit)->setPen(QPen(colors.text, 1.4));
@@ -146,12 +125,6 @@ void StepChart::style() {
   gain_->setPen(QPen(colors.muted, 1.0, Qt::DotLine));
   gainName_->setColor(colors.muted);
   gainName_->setFont(font());
-  legend->setFont(font());
-  legend->setTextColor(colors.muted);
-  legend->setBrush(Qt::NoBrush);
-  legend->setBorderPen(Qt::NoPen);
-  legend->setRowSpacing(-4);
-  cursor_->setStyleSheet("background: " + colors.accent.name());
   nameAxes();
 }
 
@@ -162,21 +135,8 @@ void StepChart::nameAxes() {
   time_->setLabel("time from the begin of the step in s");
 }
 
-void StepChart::setPosition(double seconds) {
-  positionS_ = seconds;
-  placeCursor();
-}
-
-void StepChart::placeCursor() {
-  const QRect plot = axisRect()->rect();
-  const int x = static_cast<int>(std::lround(xAxis->coordToPixel(positionS_ - beginS_)));
-  const bool inside = x >= plot.left() && x <= plot.right() + 1;
-  cursor_->setGeometry(x - 1, plot.top(), 2, below_->rect().bottom() - plot.top());
-  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
-}
-
-QString StepChart::valuesAt(const QPointF& at) const {
-  const double seconds = xAxis->pixelToCoord(at.x());
+QString StepChart::readingAt(const QPointF& at) const {
+  const double seconds = secondsAt(at.x());
   auto found = graph(kData)->data()->findEnd(seconds, false);
   if (found == graph(kData)->data()->constBegin()) return {};
   --found;
@@ -197,31 +157,6 @@ void StepChart::paint(QPainter& painter,
   legend->setVisible(false);
   paintChart(painter, look, *this, {.title = title, .caption = name});
   legend->setVisible(true);
-}
-
-void StepChart::mousePressEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton)
-    emit seekRequested(beginS_ + xAxis->pixelToCoord(event->position().x()));
-}
-
-void StepChart::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() & Qt::LeftButton)
-    emit seekRequested(beginS_ + xAxis->pixelToCoord(event->position().x()));
-}
-
-void StepChart::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
-  nameAxes();
-}
-
-bool StepChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    QToolTip::showText(help->globalPos(), valuesAt(help->pos()), this);
-    return true;
-  }
-  if (event->type() == QEvent::FontChange) style();
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

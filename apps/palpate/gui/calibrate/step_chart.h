@@ -7,13 +7,12 @@
 #include <palpate/calibration/step_report.h>
 
 #include "gui/appearance/plotted_signal.h"
-#include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/chart.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
 
-class StepChart : public QCustomPlot {
+class StepChart : public Chart {
   Q_OBJECT
  public:
   explicit StepChart(QWidget* parent = nullptr);
@@ -25,46 +24,30 @@ class StepChart : public QCustomPlot {
                double beginS,
                std::size_t matrix,
                PlottedSignal signal);
-  void setTheme(Theme theme);
-  // [s] in the recording
-  void setPosition(double seconds);
-  QString valuesAt(const QPointF& at) const;
   // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title, const QString& name);
 
+  QString readingAt(const QPointF& at) const override;
   QSize sizeHint() const override { return {440, 300}; }
   QSize minimumSizeHint() const override { return {220, 170}; }
 
- signals:
-  // [s] in the recording
-  void seekRequested(double seconds);
-
  protected:
-  void mousePressEvent(QMouseEvent* event) override;
-  void mouseMoveEvent(QMouseEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  bool event(QEvent* event) override;
+  void style() override;
+  void resized() override { nameAxes(); }
 
  private:
   enum Graph { kData, kFit, kTangent, kInflection, kResidual };
   void fill(const StepSignal& samples);
-  void style();
   void nameAxes();
-  void placeCursor();
 
   FittedStep step_;
-  double beginS_ = 0.0;
   std::size_t matrix_ = 0;
   PlottedSignal signal_ = PlottedSignal::kFilteredMean;
-  Theme theme_ = Theme::kDark;
-  QCPAxisRect* below_;
   // Axes of the residuals.
   QCPAxis* time_;
   QCPAxis* residual_;
   QCPItemLine* gain_;
   QCPItemText* gainName_;
-  QWidget* cursor_;
-  double positionS_ = 0.0;
 };
 
 }  // namespace palpate::gui

@@ -303,11 +303,6 @@ QString StepPage::stepName(std::size_t step) const {
          QString::number(found_->report.steps.size());
 }
 
-void StepPage::setTheme(Theme theme) {
-  table_->setTheme(theme);
-  chart_->setTheme(theme);
-}
-
 void StepPage::setPosition(double seconds) { chart_->setPosition(seconds); }
 
 std::vector<ExportedTable> StepPage::tables() const {

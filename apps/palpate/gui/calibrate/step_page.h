@@ -31,7 +31,6 @@ class StepPage : public ComputedPage {
   Q_OBJECT
  public:
   explicit StepPage(QWidget* parent = nullptr);
-  void setTheme(Theme theme) override;
   void setPosition(double seconds) override;
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;

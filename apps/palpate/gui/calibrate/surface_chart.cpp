@@ -1,8 +1,5 @@
 #include "gui/calibrate/surface_chart.h"
 
-#include <QEvent>
-#include <QHelpEvent>
-#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
@@ -36,10 +33,9 @@ QCPColorGradient gradient() {
 
 }  // namespace
 
-SurfaceChart::SurfaceChart(QWidget* parent) : QCustomPlot(parent) {
+SurfaceChart::SurfaceChart(QWidget* parent) : Chart(parent) {
   setObjectName("surfaceChart");
   setAccessibleName("Pressure over gain and temperature");
-  arrangeChart(*this);
   scale_ = new QCPColorScale(this);
   plotLayout()->addElement(0, 1, scale_);
   scale_->setType(QCPAxis::atRight);
@@ -47,6 +43,7 @@ SurfaceChart::SurfaceChart(QWidget* parent) : QCustomPlot(parent) {
   auto* margins = new QCPMarginGroup(this);
   for (QCPLayoutElement* each : std::initializer_list<QCPLayoutElement*>{axisRect(), scale_})
     each->setMarginGroup(QCP::msTop | QCP::msBottom, margins);
+  restyle();
 }
 
 void SurfaceChart::setModel(const PressureModel& model,
@@ -54,30 +51,24 @@ void SurfaceChart::setModel(const PressureModel& model,
   model_ = model;
   samples_ = samples;
   chosen_.reset();
-  fill();
+  restyle();
 }
 
 void SurfaceChart::choose(std::optional<std::size_t> sample) {
   if (sample == chosen_) return;
   chosen_ = sample;
-  fill();
+  restyle();
 }
 
-void SurfaceChart::setTheme(Theme theme) {
-  theme_ = theme;
-  fill();
-}
-
-void SurfaceChart::fill() {
+void SurfaceChart::style() {
   clearPlottables();
-  const ThemeColors& colors = colorsOf(theme_);
-  styleChart(*this, theme_);
+  const ThemeColors& colors = colorsOf();
   xAxis->setLabel("gain K in counts");
   yAxis->setLabel(fittingName("temperature in °C", "°C", *this));
   yAxis->ticker()->setTickCount(5);
   QCPAxis& bar = *scale_->axis();
   bar.setLabel("kPa");
-  styleExtraAxis(bar, *this, theme_);
+  styleExtraAxis(bar, *this);
   double leastK = 0.0, mostK = 1.0, leastT = 30.0, mostT = 30.0;
   bool any = false;
   for (const PressureSample& sample : samples_) {
@@ -125,11 +116,10 @@ void SurfaceChart::fill() {
     }
   }
   addPoints();
-  replot(QCustomPlot::rpQueuedReplot);
 }
 
 void SurfaceChart::addPoints() {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   const auto scatter = [&](const QCPScatterStyle& style) {
     QCPGraph* made = addGraph();
     made->setLineStyle(QCPGraph::lsNone);
@@ -154,7 +144,7 @@ void SurfaceChart::addPoints() {
   }
 }
 
-QString SurfaceChart::valueAt(const QPointF& at) const {
+QString SurfaceChart::readingAt(const QPointF& at) const {
   if (!model_.valid() || !axisRect()->rect().contains(at.toPoint())) return {};
   const double k = xAxis->pixelToCoord(at.x()), degC = yAxis->pixelToCoord(at.y());
   const PressureEstimate estimate = model_.pressureAt(k, degC);
@@ -167,16 +157,6 @@ QString SurfaceChart::valueAt(const QPointF& at) const {
 
 void SurfaceChart::paint(QPainter& painter, const PictureLook& look, const QString& title) {
   paintChart(painter, look, *this, {.title = title, .caption = "P(K, T)"});
-}
-
-bool SurfaceChart::event(QEvent* event) {
-  if (event->type() == QEvent::FontChange) fill();
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    QToolTip::showText(help->globalPos(), valueAt(help->pos()), this);
-    return true;
-  }
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

@@ -8,13 +8,12 @@
 
 #include <palpate/calibration/pressure_model.h>
 
-#include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/chart.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
 
-class SurfaceChart : public QCustomPlot {
+class SurfaceChart : public Chart {
   Q_OBJECT
  public:
   explicit SurfaceChart(QWidget* parent = nullptr);
@@ -22,26 +21,24 @@ class SurfaceChart : public QCustomPlot {
   void setModel(const PressureModel& model, const std::vector<PressureSample>& samples);
   // Draws that sample larger.
   void choose(std::optional<std::size_t> sample);
-  void setTheme(Theme theme);
-  // The tool tip at a point: "K 512 counts, 31.2 °C: 48.3 ± 4.1 kPa"; empty outside the axes.
-  QString valueAt(const QPointF& at) const;
   // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
+  // "K 512 counts, 31.2 °C: 48.3 ± 4.1 kPa"; empty outside the axes.
+  QString readingAt(const QPointF& at) const override;
   QSize sizeHint() const override { return {440, 280}; }
   QSize minimumSizeHint() const override { return {220, 150}; }
 
  protected:
-  bool event(QEvent* event) override;
+  void style() override;
+  void resized() override {}
 
  private:
-  void fill();
   void addPoints();
 
   PressureModel model_;
   std::vector<PressureSample> samples_;
   std::optional<std::size_t> chosen_;
-  Theme theme_ = Theme::kDark;
   QCPColorScale* scale_;
 };
 

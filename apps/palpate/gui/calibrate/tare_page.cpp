@@ -262,11 +262,6 @@ void TarePage::showState() {
   remove_->setVisible(kept);
 }
 
-void TarePage::setTheme(Theme theme) {
-  theme_ = theme;
-  table_->setTheme(theme);
-}
-
 std::vector<ExportedTable> TarePage::tables() const {
   if (!shown()) return {};
   return {
@@ -287,7 +282,7 @@ void TarePage::paint(QPainter& painter, const PictureLook& look, const QString& 
                             tare.valid ? figure(tare.largestZero, 1) : "–",
                             QString::number(tare.raisedTaxels)});
   }
-  paintTable(painter, look, picture, font(), theme_);
+  paintTable(painter, look, picture, font(), shownTheme());
 }
 
 }  // namespace palpate::gui

@@ -29,7 +29,6 @@ class TarePage : public ComputedPage {
   Q_OBJECT
  public:
   explicit TarePage(QSettings& settings, QWidget* parent = nullptr);
-  void setTheme(Theme theme) override;
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
@@ -65,7 +64,6 @@ class TarePage : public ComputedPage {
   bool kept_ = false;
   bool recordingRuns_ = false;
   bool added_ = false;
-  Theme theme_ = Theme::kDark;
   MeasureRow* measure_;
   QLabel* state_;
   QPushButton* keep_;

@@ -87,15 +87,15 @@ int timeAxisLeft(const QWidget& plot) {
   return metrics.horizontalAdvance("00000") + metrics.lineSpacing() + kAround;
 }
 
-void styleChart(QCustomPlot& plot, Theme theme) {
-  const ThemeColors& colors = colorsOf(theme);
+void styleChart(QCustomPlot& plot) {
+  const ThemeColors& colors = colorsOf();
   plot.setBackground(QBrush(colors.window));
   styleAxis(*plot.xAxis, colors, plot.font());
   styleAxis(*plot.yAxis, colors, plot.font());
 }
 
-QPen curvePen(std::size_t matrix, bool whole, Theme theme) {
-  QPen pen(whole ? wholeColor(theme) : matrixColor(matrix, theme), 1.4);
+QPen curvePen(std::size_t matrix, bool whole) {
+  QPen pen(whole ? wholeColor() : matrixColor(matrix), 1.4);
   if (whole) pen.setStyle(Qt::DashLine);
   return pen;
 }
@@ -115,10 +115,7 @@ bool isLow(const QWidget& plot) {
   return plot.height() < kLines * plot.fontMetrics().lineSpacing();
 }
 
-QCPItemText* unitInCorner(QCustomPlot& plot,
-                          const QString& unit,
-                          Qt::Alignment corner,
-                          Theme theme) {
+QCPItemText* unitInCorner(QCustomPlot& plot, const QString& unit, Qt::Alignment corner) {
   constexpr int kAround = 3;  // [px]
   auto* word = new QCPItemText(&plot);
   word->position->setType(QCPItemPosition::ptAxisRectRatio);
@@ -128,8 +125,8 @@ QCPItemText* unitInCorner(QCustomPlot& plot,
   word->setPadding(QMargins(kAround, 0, kAround, 0));
   word->setText(unit);
   word->setFont(plot.font());
-  word->setColor(colorsOf(theme).muted);
-  QColor behind = colorsOf(theme).window;
+  word->setColor(colorsOf().muted);
+  QColor behind = colorsOf().window;
   behind.setAlphaF(0.7F);
   word->setBrush(behind);
   return word;
@@ -145,8 +142,8 @@ QString signalAxisName(PlottedSignal signal,
   return fittingName(whole, unit, plot);
 }
 
-void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme) {
-  styleAxis(axis, colorsOf(theme), plot.font());
+void styleExtraAxis(QCPAxis& axis, const QWidget& plot) {
+  styleAxis(axis, colorsOf(), plot.font());
   axis.grid()->setVisible(false);
   axis.ticker()->setTickCount(4);
   axis.setNumberFormat("gb");
@@ -154,14 +151,14 @@ void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme) {
   axis.setTickLengthOut(4);
 }
 
-QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS, Theme theme) {
+QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS) {
   auto* shade = new QCPItemRect(&plot);
   anchor(*shade->topLeft);
   anchor(*shade->bottomRight);
   shade->topLeft->setCoords(beginS, 0.0);
   shade->bottomRight->setCoords(endS, 1.0);
   shade->setPen(Qt::NoPen);
-  shade->setBrush(colorsOf(theme).gap);
+  shade->setBrush(colorsOf().gap);
   shade->setLayer("background");
   return shade;
 }

@@ -30,10 +30,10 @@ void arrangeChart(QCustomPlot& plot);
 // The space left of a chart over time [px]: the same in each chart, so that their time axes begin
 // at the same place.
 int timeAxisLeft(const QWidget& plot);
-// Gives background and axes the colours of a theme.
-void styleChart(QCustomPlot& plot, Theme theme);
+// Gives background and axes the colours of the theme that is shown.
+void styleChart(QCustomPlot& plot);
 // The pen of a matrix; that of all matrices together (`whole`) is dashed.
-QPen curvePen(std::size_t matrix, bool whole, Theme theme);
+QPen curvePen(std::size_t matrix, bool whole);
 // "mean in counts"; in a low chart only the unit.
 QString signalAxisName(PlottedSignal signal,
                        const QString& handUnit,
@@ -47,14 +47,11 @@ QString fittingName(const QString& name, const QString& shortName, const QWidget
 // Whether the chart is too low for a title below its horizontal axis.
 bool isLow(const QWidget& plot);
 // Adds a unit in a corner of the plot, where the title of its axis has no room.
-QCPItemText* unitInCorner(QCustomPlot& plot,
-                          const QString& unit,
-                          Qt::Alignment corner,
-                          Theme theme);
+QCPItemText* unitInCorner(QCustomPlot& plot, const QString& unit, Qt::Alignment corner);
 // Styles an additional vertical axis.
-void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme);
+void styleExtraAxis(QCPAxis& axis, const QWidget& plot);
 // Adds a shade over a span of time [s], behind the curves.
-QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS, Theme theme);
+QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS);
 // Adds a text at the top of the chart, at the time `atS` [s].
 QCPItemText* wordAt(
     QCustomPlot& plot, double atS, const QString& text, Qt::Alignment side, const QColor& color);

@@ -92,13 +92,12 @@ QString axisNameOf(const SeriesChoice& choice,
 PlottedCurve matrixCurve(const HandDescription& hand,
                          std::size_t row,
                          SignalKind signal,
-                         Theme theme,
                          const DisplayUnits& units) {
   const bool whole = row == hand.layout->numMatrices();
   return curve(hand,
                {.kind = PlottedCurveKind::kMatrix, .index = row, .signal = signal},
                whole ? QString("all") : QString::fromStdString(hand.matrixName(row)),
-               whole ? wholeColor(theme) : matrixColor(row, theme),
+               whole ? wholeColor() : matrixColor(row),
                whole ? Qt::DashLine : Qt::SolidLine,
                units);
 }
@@ -106,8 +105,7 @@ PlottedCurve matrixCurve(const HandDescription& hand,
 PlottedCurve taxelCurve(const HandDescription& hand,
                         const TaxelSelection& taxels,
                         const QString& name,
-                        std::size_t place,
-                        Theme theme) {
+                        std::size_t place) {
   // The first curve has the accent colour, which marks selections in all views.
   // The others have colours of matrices, but not their solid line; through its gaps the curve of
   // the same taxels, when they are chosen, stays visible.
@@ -115,45 +113,41 @@ PlottedCurve taxelCurve(const HandDescription& hand,
   return curve(hand,
                {.kind = PlottedCurveKind::kTaxels, .taxels = taxels},
                name,
-               first ? colorsOf(theme).accent : matrixColor(place + 1, theme),
+               first ? colorsOf().accent : matrixColor(place + 1),
                first ? Qt::SolidLine : Qt::DashDotDotLine,
                {});
 }
 
-PlottedCurve angleCurve(const HandDescription& hand,
-                        std::size_t axis,
-                        Theme theme,
-                        const DisplayUnits& units) {
+PlottedCurve angleCurve(const HandDescription& hand, std::size_t axis, const DisplayUnits& units) {
   return curve(hand,
                {.kind = PlottedCurveKind::kAngle, .index = axis},
                axis < hand.axes.size() ? QString::fromStdString(hand.axes[axis].name) + " joint"
                                        : "joint " + QString::number(axis),
-               matrixColor(axis + 3, theme),
+               matrixColor(axis + 3),
                Qt::DashLine,
                units);
 }
 
 PlottedCurve temperatureCurve(const HandDescription& hand,
                               std::size_t sensor,
-                              Theme theme,
                               const DisplayUnits& units) {
   const auto& sensors = hand.temperatureSensors;
   return curve(hand,
                {.kind = PlottedCurveKind::kTemperature, .index = sensor},
                sensor < sensors.size() ? QString::fromStdString(sensors[sensor].name)
                                        : "sensor " + QString::number(sensor),
-               matrixColor(sensor + 1, theme),
+               matrixColor(sensor + 1),
                Qt::DashDotLine,
                units);
 }
 
-PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme theme) {
+PlottedCurve forceCurve(const HandDescription& hand, std::size_t row) {
   const bool whole = row == hand.layout->numMatrices();
   PlottedCurve made = curve(
       hand,
       {.kind = PlottedCurveKind::kForce, .index = row},
       (whole ? QString("whole hand") : QString::fromStdString(hand.matrixName(row))) + " force",
-      whole ? wholeColor(theme) : matrixColor(row, theme),
+      whole ? wholeColor() : matrixColor(row),
       Qt::DotLine,
       {});
   made.pen.setWidthF(kForceCurveWidth);
@@ -163,27 +157,23 @@ PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme them
 PlottedCurve formulaCurve(const SeriesChoice& choice,
                           const QString& name,
                           const QString& unit,
-                          std::size_t place,
-                          Theme theme) {
+                          std::size_t place) {
   constexpr double kFormulaCurveWidth = 1.8;
   return {choice,
           name,
           unit,
           unit.isEmpty() ? QString("formulas") : "formulas in " + unit,
-          QPen(matrixColor(place + 2, theme), kFormulaCurveWidth),
+          QPen(matrixColor(place + 2), kFormulaCurveWidth),
           unit};
 }
 
-void distinguish(PlottedCurve& formula,
-                 std::size_t place,
-                 const std::vector<PlottedCurve>& shown,
-                 Theme theme) {
+void distinguish(PlottedCurve& formula, std::size_t place, const std::vector<PlottedCurve>& shown) {
   constexpr std::size_t kMatrixColors = 6;
   // Lengths of lines and gaps, in widths of the pen; the first is a solid line.
   const QList<QList<qreal>> patterns = {{}, {10, 2}, {10, 2, 2, 2}, {10, 2, 2, 2, 2, 2}, {3, 1}};
   for (const QList<qreal>& pattern : patterns)
     for (std::size_t i = 0; i < kMatrixColors; ++i) {
-      QPen pen(matrixColor(place + 2 + i, theme), formula.pen.widthF());
+      QPen pen(matrixColor(place + 2 + i), formula.pen.widthF());
       if (!pattern.isEmpty()) pen.setDashPattern(pattern);
       const bool taken = std::any_of(shown.begin(), shown.end(), [&](const PlottedCurve& each) {
         return each.pen.color() == pen.color() && each.pen.style() == pen.style() &&

@@ -44,38 +44,30 @@ QString axisNameOf(const SeriesChoice& choice,
 PlottedCurve matrixCurve(const HandDescription& hand,
                          std::size_t row,
                          SignalKind signal,
-                         Theme theme,
                          const DisplayUnits& units = {});
 // `place`: index among the taxel curves, which decides the colour and, for all but the first, which
 // is that of the chosen taxels, a broken line.
 PlottedCurve taxelCurve(const HandDescription& hand,
                         const TaxelSelection& taxels,
                         const QString& name,
-                        std::size_t place,
-                        Theme theme);
+                        std::size_t place);
 PlottedCurve angleCurve(const HandDescription& hand,
                         std::size_t axis,
-                        Theme theme,
                         const DisplayUnits& units = {});
 PlottedCurve temperatureCurve(const HandDescription& hand,
                               std::size_t sensor,
-                              Theme theme,
                               const DisplayUnits& units = {});
 // `row`: a matrix, or the number of matrices for the whole hand.
-PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme theme);
+PlottedCurve forceCurve(const HandDescription& hand, std::size_t row);
 
 // A curve by a formula, which computes with base units; `place`: index among these curves, which
 // decides the colour.
 PlottedCurve formulaCurve(const SeriesChoice& choice,
                           const QString& name,
                           const QString& unit,
-                          std::size_t place,
-                          Theme theme);
+                          std::size_t place);
 // Gives the curve of a formula a colour or a broken line that none of the shown curves has.
-void distinguish(PlottedCurve& formula,
-                 std::size_t place,
-                 const std::vector<PlottedCurve>& shown,
-                 Theme theme);
+void distinguish(PlottedCurve& formula, std::size_t place, const std::vector<PlottedCurve>& shown);
 
 // "812 counts", "31.4 °", "0.52 N"; "–" for no value. `value` is in the base unit.
 QString readingOf(const PlottedCurve& curve, std::optional<double> value);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/appearance/theme.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -28,8 +30,8 @@ SpanOverlay::SpanOverlay(QWidget* chart)
     : shade_(overlayOn(chart, "selectionShade")),
       handles_{overlayOn(chart, "selectionHandle"), overlayOn(chart, "selectionHandle")} {}
 
-void SpanOverlay::setTheme(Theme theme) {
-  const ThemeColors& colors = colorsOf(theme);
+void SpanOverlay::restyle() {
+  const ThemeColors& colors = colorsOf();
   QColor soft = colors.accent;
   soft.setAlphaF(kShadeAlpha);
   shade_->setStyleSheet("background: " + soft.name(QColor::HexArgb));

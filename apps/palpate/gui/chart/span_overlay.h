@@ -6,8 +6,6 @@
 #include <array>
 #include <optional>
 
-#include "gui/appearance/theme.h"
-
 class QWidget;
 
 namespace palpate::gui {
@@ -22,7 +20,8 @@ class SpanOverlay {
  public:
   // The widgets belong to the chart.
   explicit SpanOverlay(QWidget* chart);
-  void setTheme(Theme theme);
+  // Takes the colours of the theme that is shown.
+  void restyle();
   // Shows both ends, at these positions [px of the chart], in any order; nothing: no such end.
   // Parts outside of `plot` are hidden; the shade needs both ends.
   void place(const QRect& plot, std::optional<double> first, std::optional<double> second);

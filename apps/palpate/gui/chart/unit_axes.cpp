@@ -17,8 +17,7 @@ const UnitAxes::Axis* UnitAxes::find(const QString& unit) const {
   return found == axes_.end() ? nullptr : &*found;
 }
 
-void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
-  theme_ = theme;
+void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves) {
   QCPAxisRect& rect = *plot_.axisRect();
   while (rect.axisCount(QCPAxis::atRight) > 1) rect.removeAxis(rect.axis(QCPAxis::atRight, 1));
   plot_.yAxis2->setVisible(false);
@@ -39,7 +38,7 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
                                         : rect.addAxis(QCPAxis::atRight);
     axis->setVisible(true);
     axis->setTickLabels(true);
-    if (axis != plot_.yAxis) styleExtraAxis(*axis, plot_, theme);
+    if (axis != plot_.yAxis) styleExtraAxis(*axis, plot_);
     axes_.push_back({curve.unit, curve.axis, fromZero, axis, curve.conversion});
     // The axis may have been that of another unit.
     scale(axes_.back(), {axis->range().lower, axis->range().upper});
@@ -70,7 +69,7 @@ void UnitAxes::showInCorner(QPointer<QCPItemText>& word,
                             const QString& text,
                             Qt::Alignment corner) {
   if (word) plot_.removeItem(word);
-  if (!text.isEmpty()) word = unitInCorner(plot_, text, corner, theme_);
+  if (!text.isEmpty()) word = unitInCorner(plot_, text, corner);
 }
 
 QCPAxis* UnitAxes::of(const QString& unit) const {

@@ -34,7 +34,7 @@ class UnitAxes : public QObject {
   explicit UnitAxes(QCustomPlot& plot);
 
   // Makes the axes of these curves; the chart must have no graph. Ranges by hand stay.
-  void rebuild(const std::vector<PlottedCurve>& curves, Theme theme);
+  void rebuild(const std::vector<PlottedCurve>& curves);
   // Names the axes, as the height of the chart permits: in a low one the units stand in the corners
   // of the plot. An axis that was set by hand says so.
   void nameAxes();
@@ -93,7 +93,6 @@ class UnitAxes : public QObject {
   void showInCorner(QPointer<QCPItemText>& word, const QString& text, Qt::Alignment corner);
 
   QCustomPlot& plot_;
-  Theme theme_ = Theme::kDark;
   QPointer<QCPItemText> atLeft_, atRight_;
   std::vector<Axis> axes_;
   RangesByHand byHand_;

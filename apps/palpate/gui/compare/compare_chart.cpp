@@ -16,8 +16,6 @@ namespace {
 constexpr double kCompareChartShortestSeenS = 0.05;
 constexpr double kLongestSeenS = 1e9;
 constexpr double kCompareChartHeadroom = 1.06;  // the highest curve stays below the upper edge
-constexpr double kCompareChartPageRest = 0.1;   // part of the old page that the new page repeats
-constexpr int kCompareChartCursorWidth = 2;     // [px]
 
 double compareChartLargestOf(const std::shared_ptr<const Series>& series) {
   double largest = 0.0;
@@ -33,10 +31,10 @@ constexpr int kOverlaidOpacity = 150;  // of 255
 constexpr int kBandOpacity = 45;       // of 255
 constexpr std::size_t kMostInTip = 12;
 
-QPen overlaidPen(std::size_t recording, Theme theme) {
-  QColor color = recording == 0   ? sideColor(CompareSide::kA, theme)
-                 : recording == 1 ? sideColor(CompareSide::kB, theme)
-                                  : matrixColor(recording, theme);
+QPen overlaidPen(std::size_t recording) {
+  QColor color = recording == 0   ? sideColor(CompareSide::kA)
+                 : recording == 1 ? sideColor(CompareSide::kB)
+                                  : matrixColor(recording);
   color.setAlpha(kOverlaidOpacity);
   return QPen(color, kOverlaidWidth);
 }
@@ -50,18 +48,12 @@ std::vector<std::size_t> gapFramesOf(const std::shared_ptr<const TimedProfile>& 
 
 }  // namespace
 
-CompareChart::CompareChart(QWidget* parent) : ReadingChart(parent) {
-  arrangeChart(*this);
+CompareChart::CompareChart(QWidget* parent) : Chart(parent) {
   setAccessibleName("Curves of A and B");
-  setMouseTracking(true);
   xAxis->setLabel("time from A's first frame in s");
-  cursor_ = new QWidget(this);
-  cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  cursor_->setAutoFillBackground(true);
-  connect(this, &QCustomPlot::afterReplot, this, [this] {
-    placeCursor();
-    emit rangeChanged();
-  });
+  addCursor();
+  connect(this, &QCustomPlot::afterReplot, this, [this] { emit rangeChanged(); });
+  restyle();
 }
 
 TimeSpan CompareChart::whole() const {
@@ -92,13 +84,6 @@ void CompareChart::settle() {
   if (fitted_) fit();
 }
 
-void CompareChart::setTheme(Theme theme) {
-  theme_ = theme;
-  styleChart(*this, theme);
-  cursor_->setStyleSheet("background: " + colorsOf(theme).accent.name());
-  rebuild();
-}
-
 void CompareChart::rebuild() {
   clearGraphs();
   clearItems();
@@ -106,7 +91,7 @@ void CompareChart::rebuild() {
   yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this, curves_.units));
   for (const CompareSide side : {CompareSide::kA, CompareSide::kB}) {
     QCPGraph* graph = addGraph();
-    QPen pen(sideColor(side, theme_), 1.6);
+    QPen pen(sideColor(side), 1.6);
     if (side == CompareSide::kB) pen.setStyle(Qt::DashLine);
     graph->setPen(pen);
     graph->setName(side == CompareSide::kA ? "A" : "B");
@@ -125,11 +110,11 @@ void CompareChart::rebuild() {
   yAxis->setRange(0.0, to.of(largest > 0.0 ? largest * kCompareChartHeadroom : 1.0));
   if (curves_.a && curves_.a->contact) {
     contact_ = new QCPItemStraightLine(this);
-    contact_->setPen(QPen(colorsOf(theme_).muted, 1.0, Qt::DotLine));
+    contact_->setPen(QPen(colorsOf().muted, 1.0, Qt::DotLine));
     const double at = curves_.a->timeS(*curves_.a->contact);
     contact_->point1->setCoords(at, 0.0);
     contact_->point2->setCoords(at, 1.0);
-    wordAt(*this, at, " first contact in A", Qt::AlignLeft, colorsOf(theme_).muted);
+    wordAt(*this, at, " first contact in A", Qt::AlignLeft, colorsOf().muted);
   }
   refill();
 }
@@ -141,7 +126,7 @@ void CompareChart::addOverlaid() {
   for (std::size_t i = 0; i < overlaid.curves.size(); ++i) {
     if (!overlaid.curves[i].drawn) continue;
     QCPGraph* graph = addGraph();
-    graph->setPen(overlaidPen(overlaid.curves[i].recording, theme_));
+    graph->setPen(overlaidPen(overlaid.curves[i].recording));
     graph->setAdaptiveSampling(false);
     overlaidGraphs_.emplace_back(i, graph);
   }
@@ -150,8 +135,8 @@ void CompareChart::addOverlaid() {
 
 void CompareChart::addAverage(const OverlaidAverage& of) {
   // Averages of several recordings have the colours of their curves.
-  QColor ink = colorsOf(theme_).text;
-  if (curves_.overlaid.averages.size() > 1) ink = overlaidPen(of.recording, theme_).color();
+  QColor ink = colorsOf().text;
+  if (curves_.overlaid.averages.size() > 1) ink = overlaidPen(of.recording).color();
   ink.setAlpha(255);
   QColor shade = ink;
   shade.setAlpha(kBandOpacity);
@@ -251,25 +236,9 @@ void CompareChart::refill() {
 }
 
 void CompareChart::setPosition(double seconds) {
-  positionS_ = seconds;
-  const QCPRange range = xAxis->range();
-  if (!fitted_ && drag_ == Drag::kNone && (seconds < range.lower || seconds > range.upper)) {
-    const double span = range.size();
-    const double from = seconds > range.upper ? seconds - kCompareChartPageRest * span
-                                              : seconds - (1.0 - kCompareChartPageRest) * span;
-    setVisibleRange(from, from + span);
-  }
-  placeCursor();
-}
-
-void CompareChart::placeCursor() {
-  const QRect plot = axisRect()->rect();
-  const int x = static_cast<int>(std::lround(pixelOf(positionS_)));
-  const bool inside = x >= plot.left() - 1 && x <= plot.right() + 2;
-  const QRect place(
-      x - kCompareChartCursorWidth / 2, plot.top(), kCompareChartCursorWidth, plot.height());
-  if (cursor_->geometry() != place) cursor_->setGeometry(place);
-  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
+  const auto page = pageWith(seconds);
+  if (!fitted_ && drag_ == Drag::kNone && page) setVisibleRange(page->lower, page->upper);
+  Chart::setPosition(seconds);
 }
 
 void CompareChart::setVisibleRange(double from, double to) {
@@ -288,11 +257,8 @@ void CompareChart::fit() {
 }
 
 void CompareChart::zoomAbout(double seconds, double factor) {
-  const QCPRange range = xAxis->range();
-  const double span =
-      std::clamp(range.size() / factor, kCompareChartShortestSeenS, whole().lengthS());
-  const double share = (seconds - range.lower) / range.size();
-  setVisibleRange(seconds - share * span, seconds + (1.0 - share) * span);
+  const QCPRange range = zoomed(seconds, factor, kCompareChartShortestSeenS, whole().lengthS());
+  setVisibleRange(range.lower, range.upper);
 }
 
 void CompareChart::mousePressEvent(QMouseEvent* event) {
@@ -341,25 +307,15 @@ void CompareChart::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() == Qt::LeftButton) fit();
 }
 
-void CompareChart::wheelEvent(QWheelEvent* event) {
-  const double notches = event->angleDelta().y() / kWheelNotch;
-  const double sideways = event->angleDelta().x() / kWheelNotch;
-  if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
-    const QCPRange range = xAxis->range();
-    const double moved =
-        -(sideways != 0.0 ? sideways : notches) * kCompareChartPageRest * range.size();
-    setVisibleRange(range.lower + moved, range.upper + moved);
-  } else {
-    zoomAbout(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
-  }
-  event->accept();
+void CompareChart::panBy(double seconds) {
+  const QCPRange range = xAxis->range();
+  setVisibleRange(range.lower + seconds, range.upper + seconds);
 }
 
-void CompareChart::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
+void CompareChart::resized() {
   yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this, curves_.units));
   constexpr int kLow = 130;  // [px]; lower: fewer ticks
-  yAxis->ticker()->setTickCount(event->size().height() < kLow ? 2 : 4);
+  yAxis->ticker()->setTickCount(height() < kLow ? 2 : 4);
   refill();
 }
 

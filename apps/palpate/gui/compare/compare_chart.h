@@ -13,9 +13,8 @@
 #include <palpate/signals/profile_series.h>
 
 #include "gui/appearance/plotted_signal.h"
-#include "gui/appearance/theme.h"
+#include "gui/chart/chart.h"
 #include "gui/chart/chart_picture.h"
-#include "gui/chart/reading_chart.h"
 #include "gui/compare/compare_overlay.h"
 
 namespace palpate::gui {
@@ -35,7 +34,7 @@ struct CompareCurves {
   ComparedCurves overlaid = {};
 };
 
-class CompareChart : public ReadingChart {
+class CompareChart : public Chart {
   Q_OBJECT
  public:
   explicit CompareChart(QWidget* parent = nullptr);
@@ -46,26 +45,24 @@ class CompareChart : public ReadingChart {
   // again if everything was visible before.
   void setOffset(double offsetS);
   void settle();
-  void setTheme(Theme theme);
-  void setPosition(double seconds);
-  double positionS() const noexcept { return positionS_; }
+  void setPosition(double seconds) override;
+  double positionS() const noexcept { return position(); }
 
   void fit();
   void zoom(double factor) { zoomAbout(xAxis->range().center(), factor); }
-  void zoomAbout(double seconds, double factor);
-  double secondsAt(double pixel) const { return xAxis->pixelToCoord(pixel); }
-  double pixelOf(double seconds) const { return xAxis->coordToPixel(seconds); }
-  int cursorPixel() const { return cursor_->x() + cursor_->width() / 2; }
+  void zoomAbout(double seconds, double factor) override;
+  // Limited to what there is.
+  void setVisibleRange(double from, double to) override;
   TimeSpan whole() const;
   // A legend for pictures: A and B, the others, and the average.
   std::vector<ChartLegendEntry> legendOf(const QString& nameA, const QString& nameB) const;
 
   // The least height, as that of CompareView.
+  QString readingAt(const QPointF& at) const override { return valuesAt(secondsAt(at.x())); }
   QSize sizeHint() const override { return {900, 90}; }
   QSize minimumSizeHint() const override { return {240, 90}; }
 
  signals:
-  void seekRequested(double seconds);
   // The mouse shifted B.
   void shifted(double offsetS);
   void shiftEnded();
@@ -77,10 +74,9 @@ class CompareChart : public ReadingChart {
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
-  void wheelEvent(QWheelEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  QString readingAt(const QPoint& at) const override { return valuesAt(secondsAt(at.x())); }
-  void restyle() override { setTheme(theme_); }
+  void style() override { rebuild(); }
+  void resized() override;
+  void panBy(double seconds) override;
 
  private:
   enum class Drag { kNone, kSeek, kPan, kShift };
@@ -89,16 +85,11 @@ class CompareChart : public ReadingChart {
   void addAverage(const OverlaidAverage& of);
   void fillOverlaid();
   void refill();
-  void setVisibleRange(double from, double to);
-  void placeCursor();
   QString valuesAt(double seconds) const;
   ShownUnit shown() const { return shownUnit(curves_.signal, curves_.handUnit, curves_.units); }
 
   CompareCurves curves_;
-  Theme theme_ = Theme::kDark;
-  QWidget* cursor_;
   QCPItemStraightLine* contact_ = nullptr;
-  double positionS_ = 0.0;
   // The graphs of the overlaid curves that are drawn, and of the average: its low and high end, and
   // its middle.
   std::vector<std::pair<std::size_t, QCPGraph*>> overlaidGraphs_;

@@ -95,7 +95,7 @@ void CompareFeature::connectBench() {
   connect(&windowState.recordings, &OpenRecordings::arrived, this, list);
   connect(&windowState.displayed, &DisplayedSource::changed, this, list);
   connect(&windowState.appearance, &ViewAppearance::changed, this, [this, &windowState] {
-    panel_->setSettings(windowState.appearance.view(), windowState.appearance.theme());
+    panel_->setSettings(windowState.appearance.view());
   });
   windowState.escapeHandler.add(EscapeHandler::Order::kCompare, [&windowState] {
     if (!windowState.comparison.on()) return false;

@@ -171,6 +171,14 @@ CompareHeader::CompareHeader(QAction* leave,
   });
   connect(offset_, &QDoubleSpinBox::valueChanged, this, &CompareHeader::offsetTyped);
   setOffset(std::nullopt);
+  swatchA_->setText("A");
+  swatchB_->setText("B");
+  fitToTheme(*this, [this] {
+    for (const auto& [label, side] :
+         {std::pair(swatchA_, CompareSide::kA), {swatchB_, CompareSide::kB}})
+      label->setStyleSheet("font-weight: bold; padding: 2px 7px; border-radius: 4px; color: " +
+                           colorsOf().window.name() + "; background: " + sideColor(side).name());
+  });
 }
 
 void CompareHeader::choose(QComboBox* box, int index, bool isA) {
@@ -225,17 +233,6 @@ void CompareHeader::setOffset(std::optional<double> offsetS) {
   const QSignalBlocker blocked(offset_);
   offset_->setEnabled(offsetS.has_value());
   offset_->setValue(offsetS.value_or(0.0));
-}
-
-void CompareHeader::setTheme(Theme theme) {
-  const auto badge = [&](QLabel* label, const char* text, CompareSide side) {
-    label->setText(text);
-    label->setStyleSheet("font-weight: bold; padding: 2px 7px; border-radius: 4px; color: " +
-                         colorsOf(theme).window.name() +
-                         "; background: " + sideColor(side, theme).name() + ";");
-  };
-  badge(swatchA_, "A", CompareSide::kA);
-  badge(swatchB_, "B", CompareSide::kB);
 }
 
 void CompareHeader::resizeEvent(QResizeEvent* event) {

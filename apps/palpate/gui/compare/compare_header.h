@@ -32,7 +32,6 @@ class CompareHeader : public QWidget {
   // Which grasp of A is aligned with which of B, and how many each has (0: none); shown only for
   // Alignment::kGrasp.
   void setGrasps(std::size_t countA, std::size_t countB, std::size_t chosenA, std::size_t chosenB);
-  void setTheme(Theme theme);
 
  signals:
   void aChosen(int index);

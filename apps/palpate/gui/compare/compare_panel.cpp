@@ -492,18 +492,11 @@ void ComparePanel::setTime(double seconds) {
   if (active_) showFrames();
 }
 
-void ComparePanel::setSettings(const ViewSettings& settings, Theme theme) {
+void ComparePanel::setSettings(const ViewSettings& settings) {
   const bool otherSignal = settings.signal != settings_.signal;
-  const bool otherTheme = theme != theme_;
   const bool otherUnits = settings.units != settings_.units;
   settings_ = settings;
-  theme_ = theme;
   signal_->setCurrentText(gui::nameOf(settings.signal));
-  if (otherTheme || chart_->graphCount() == 0) {
-    header_->setTheme(theme);
-    chart_->setTheme(theme);
-    strip_->setTheme(theme);
-  }
   if (otherSignal) {
     asked_ = false;
     ask();
@@ -616,7 +609,7 @@ ComparePictureOptions ComparePanel::pictureOptions() const {
   options.look.map = settings_.map;
   options.look.interpolated = settings_.interpolated;
   options.look.values = settings_.values;
-  options.look.theme = theme_;
+  options.look.theme = shownTheme();
   options.look.font = font();
   const auto& [inA, inB, between] = view_->frames();
   double& maximum = options.look.rangeMax;
@@ -754,7 +747,7 @@ void ComparePanel::showNotice() {
   const QString text = notice();
   notice_->setVisible(!text.isEmpty());
   if (notice_->text() != text) notice_->setText(text);
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   const QString style =
       "color: " + colors.warning.name() + "; background: " + colors.panel.name() + ";";
   if (notice_->styleSheet() != style) notice_->setStyleSheet(style);

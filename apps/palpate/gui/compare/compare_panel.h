@@ -45,7 +45,7 @@ class ComparePanel : public QWidget {
   // Sets B; it may be the same recording as A.
   void setB(const OpenedRecordingPtr& b);
   // Sets appearance, colour range and plotted signal.
-  void setSettings(const ViewSettings& settings, Theme theme);
+  void setSettings(const ViewSettings& settings);
   // Switches computing on or off; the panel computes only while it is visible.
   void setActive(bool on);
 
@@ -159,7 +159,6 @@ class ComparePanel : public QWidget {
   // B is the same as A because the user chose so.
   bool withItself_ = false;
   ViewSettings settings_;
-  Theme theme_ = Theme::kDark;
 
   CompareHeader* header_ = nullptr;
   QStackedWidget* stack_ = nullptr;

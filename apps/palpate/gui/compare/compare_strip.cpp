@@ -32,11 +32,6 @@ QSize CompareStrip::sizeHint() const {
   return {300, 2 * kBar + kCompareStripBetween + 2 * kCompareStripAround};
 }
 
-void CompareStrip::setTheme(Theme theme) {
-  theme_ = theme;
-  update();
-}
-
 QRectF CompareStrip::barRect(bool ofB) const {
   const CompareCurves& curves = chart_.curves();
   const auto& timed = ofB ? curves.b : curves.a;
@@ -54,13 +49,13 @@ void CompareStrip::paintBar(QPainter& painter, bool ofB) const {
   const CompareCurves& curves = chart_.curves();
   const TimedProfile& timed = ofB ? *curves.b : *curves.a;
   const double beginS = ofB ? curves.offsetS : 0.0;
-  const QColor color = sideColor(ofB ? CompareSide::kB : CompareSide::kA, theme_);
+  const QColor color = sideColor(ofB ? CompareSide::kB : CompareSide::kA);
   QColor fill = color;
   fill.setAlpha(70);
   painter.setPen(QPen(color, 1.0, ofB ? Qt::DashLine : Qt::SolidLine));
   painter.setBrush(fill);
   painter.drawRoundedRect(bar.adjusted(0.5, 0.5, -0.5, -0.5), 3, 3);
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   for (const Gap& gap : timed.timing.gaps) {
     const double from = chart_.pixelOf(beginS + timed.timeS(gap.frame));
     const double to = chart_.pixelOf(beginS + timed.timeS(gap.frame) + gap.seconds);
@@ -75,9 +70,9 @@ void CompareStrip::paintBar(QPainter& painter, bool ofB) const {
 
 void CompareStrip::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  painter.fillRect(rect(), colorsOf(theme_).window);
+  painter.fillRect(rect(), colorsOf().window);
   const QRect plot = chart_.axisRect()->rect();
-  painter.setPen(colorsOf(theme_).muted);
+  painter.setPen(colorsOf().muted);
   for (const bool ofB : {false, true}) {
     const QRectF name(0,
                       kCompareStripAround + (ofB ? kBar + kCompareStripBetween : 0) - 3,

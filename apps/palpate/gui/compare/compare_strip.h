@@ -15,7 +15,6 @@ class CompareStrip : public QWidget {
  public:
   // The strip is as wide as the chart and shares its axis; `chart` must outlive this.
   explicit CompareStrip(const CompareChart& chart, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   // The bar of A or B in the widget [px]; empty while its times are unknown.
   QRectF barRect(bool ofB) const;
 
@@ -36,7 +35,6 @@ class CompareStrip : public QWidget {
   void paintBar(QPainter& painter, bool ofB) const;
 
   const CompareChart& chart_;
-  Theme theme_ = Theme::kDark;
   bool dragging_ = false;
   double dragFromPixel_ = 0.0;
   double dragFromOffsetS_ = 0.0;

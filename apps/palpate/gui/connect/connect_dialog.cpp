@@ -62,14 +62,13 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
     : QDialog(parent),
       scan_(scan),
       last_(choices.last),
-      theme_(choices.theme),
       settings_(choices.settings),
       kind_(choices.last.kind) {
   setWindowTitle("Connect");
-  ports_ = new PortsPage(scan, theme_, this);
-  stream_ = new StreamPage(choices.handFolders, scan, theme_, this);
-  scenes_ = new ScenePage(choices.scenesFolder, theme_, this);
-  replay_ = new ReplayPage(choices.recentRecordings, theme_, this);
+  ports_ = new PortsPage(scan, this);
+  stream_ = new StreamPage(choices.handFolders, scan, this);
+  scenes_ = new ScenePage(choices.scenesFolder, this);
+  replay_ = new ReplayPage(choices.recentRecordings, this);
   pages_ = new QStackedWidget(this);
   for (const Connection::Kind kind : kAllConnectionKinds)
     pages_->addWidget(kind == Connection::Kind::kPorts      ? static_cast<QWidget*>(ports_)
@@ -115,7 +114,7 @@ ConnectDialog::~ConnectDialog() {
 QWidget* ConnectDialog::makeKinds() {
   auto* side = new QFrame(this);
   side->setObjectName("connectKinds");
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   side->setStyleSheet(QString("#connectKinds { background: %1; border-right: 1px solid %2; }")
                           .arg(colors.window.name(), colors.border.name()));
   auto* column = new QVBoxLayout(side);
@@ -223,8 +222,8 @@ QWidget* ConnectDialog::makeFoot() {
   auto* foot = new QFrame(this);
   foot->setObjectName("connectFoot");
   foot->setStyleSheet(
-      QString("#connectFoot { border-top: 1px solid %1; }").arg(colorsOf(theme_).border.name()));
-  mark_ = new StateMark(theme_, foot);
+      QString("#connectFoot { border-top: 1px solid %1; }").arg(colorsOf().border.name()));
+  mark_ = new StateMark(foot);
   problem_ = new QLabel(foot);
   problem_->setObjectName("connectProblem");
   problem_->setTextFormat(Qt::PlainText);

@@ -38,7 +38,6 @@ struct ConnectChoices {
   std::vector<std::filesystem::path> handFolders = {};
   // Paths, newest first.
   QStringList recentRecordings = {};
-  Theme theme = Theme::kDark;
   // Stores connections that are saved under a name; null: none can be saved. It must outlive the
   // dialog.
   QSettings* settings = nullptr;
@@ -77,7 +76,6 @@ class ConnectDialog : public QDialog {
 
   PortScan& scan_;
   Connection last_;
-  Theme theme_;
   QSettings* settings_;
   Connection::Kind kind_;
   bool looked_ = false;

@@ -27,8 +27,8 @@ ConnectActions::ConnectActions(ActionRegistry& book) {
   hold = book.make("hold", "Hand", "&Hold the live picture", {key("P")}, true);
   live->setIconText(" Live");
   connectHand->setIconText(" " + plainText(*connectHand));
-  book.setIcon(connectHand, IconShape::kConnect);
-  book.setIcon(live, IconShape::kLive);
+  connectHand->setIcon(makeIcon(IconShape::kConnect));
+  live->setIcon(makeIcon(IconShape::kLive));
 }
 
 Connection emulatedBallConnection(bool runsScript) {
@@ -93,7 +93,6 @@ void ConnectFeature::addQuestions() {
                           .scenesFolder = scenesFolder(),
                           .handFolders = handFolders(windowState.environment.dataFolder),
                           .recentRecordings = windowState.recent.paths(),
-                          .theme = windowState.appearance.theme(),
                           .settings = &windowState.settings},
                          scan,
                          window());

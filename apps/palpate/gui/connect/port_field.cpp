@@ -18,7 +18,6 @@ constexpr int kTypingPauseMs = 800;
 PortField::PortField(const QString& title,
                      const QString& whenEmpty,
                      const QString& name,
-                     Theme theme,
                      QWidget* parent)
     : QWidget(parent), whenEmpty_(whenEmpty) {
   auto* label = new QLabel(title, this);
@@ -28,7 +27,7 @@ PortField::PortField(const QString& title,
   box_->setInsertPolicy(QComboBox::NoInsert);
   // A completer would turn ttyUSB1 into ttyUSB10.
   box_->setCompleter(nullptr);
-  box_->setItemDelegate(new TwoLineDelegate(theme, box_));
+  box_->setItemDelegate(new TwoLineDelegate(box_));
   box_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box_->setMinimumContentsLength(30);
   box_->lineEdit()->setPlaceholderText("none");
@@ -36,7 +35,7 @@ PortField::PortField(const QString& title,
       "A port of the list, another device such as /dev/pts/3, or a network name as "
       "tcp:192.168.1.42:13000");
   label->setBuddy(box_);
-  mark_ = new StateMark(theme, this);
+  mark_ = new StateMark(this);
   answer_ = new QLabel(this);
   answer_->setObjectName(name + "Answer");
   answer_->setTextFormat(Qt::PlainText);

@@ -25,11 +25,7 @@ class PortField : public QWidget {
   // `title` contains the mnemonic of the field; `whenEmpty` tells what works without this
   // controller. `name` gives the object names for tests: the combo box is NAMEPort, the line of
   // text NAMEAnswer.
-  PortField(const QString& title,
-            const QString& whenEmpty,
-            const QString& name,
-            Theme theme,
-            QWidget* parent);
+  PortField(const QString& title, const QString& whenEmpty, const QString& name, QWidget* parent);
 
   ~PortField() override;
 

@@ -26,17 +26,12 @@ QString sentence(const std::string& text) {
 
 }  // namespace
 
-PortsPage::PortsPage(PortScan& scan, Theme theme, QWidget* parent)
-    : QWidget(parent), scan_(scan), theme_(theme) {
-  tactile_ = new PortField("&Tactile controller",
-                           "None: the hand can move, but no pressure is shown.",
-                           "tactile",
-                           theme,
-                           this);
+PortsPage::PortsPage(PortScan& scan, QWidget* parent) : QWidget(parent), scan_(scan) {
+  tactile_ = new PortField(
+      "&Tactile controller", "None: the hand can move, but no pressure is shown.", "tactile", this);
   motion_ = new PortField("&Motion controller",
                           "None: pressure is shown and recorded, but the hand can't be moved.",
                           "motion",
-                          theme,
                           this);
   help_ = new QLabel(this);
   help_->setObjectName("portsHelp");
@@ -72,7 +67,7 @@ PortsPage::~PortsPage() {
 QWidget* PortsPage::makeSwapRow() {
   swapRow_ = new QFrame(this);
   swapRow_->setObjectName("swapRow");
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   swapRow_->setStyleSheet(QString("#swapRow { background: %1; border: 1px solid %2; "
                                   "border-radius: 6px; }")
                               .arg(colors.dangerSoft.name(), colors.danger.name()));

@@ -23,7 +23,7 @@ class PortsPage : public QWidget {
   Q_OBJECT
  public:
   // `scan` must outlive this.
-  PortsPage(PortScan& scan, Theme theme, QWidget* parent);
+  PortsPage(PortScan& scan, QWidget* parent);
 
   ~PortsPage() override;
 
@@ -57,7 +57,6 @@ class PortsPage : public QWidget {
   QString helpText() const;
 
   PortScan& scan_;
-  Theme theme_;
   QList<ScannedPort> ports_;
   // By keyOf().
   QHash<QString, PortProbe> answers_;

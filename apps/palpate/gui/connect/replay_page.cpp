@@ -15,14 +15,14 @@
 
 namespace palpate::gui {
 
-ReplayPage::ReplayPage(const QStringList& recent, Theme theme, QWidget* parent) : QWidget(parent) {
+ReplayPage::ReplayPage(const QStringList& recent, QWidget* parent) : QWidget(parent) {
   auto* label = new QLabel("Recordin&g", this);
   path_ = new QComboBox(this);
   path_->setObjectName("recording");
   path_->setEditable(true);
   path_->setInsertPolicy(QComboBox::NoInsert);
   path_->setCompleter(nullptr);
-  path_->setItemDelegate(new TwoLineDelegate(theme, path_));
+  path_->setItemDelegate(new TwoLineDelegate(path_));
   path_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   path_->setMinimumContentsLength(30);
   path_->lineEdit()->setPlaceholderText("a recording (.palpate, .dsa)");
@@ -38,7 +38,7 @@ ReplayPage::ReplayPage(const QStringList& recent, Theme theme, QWidget* parent) 
   auto* browse = new QPushButton("Bro&wse…", this);
   browse->setObjectName("browseRecording");
   browse->setAutoDefault(false);
-  mark_ = new StateMark(theme, this);
+  mark_ = new StateMark(this);
   state_ = new QLabel(this);
   state_->setObjectName("recordingState");
   state_->setTextFormat(Qt::PlainText);

@@ -20,7 +20,7 @@ class ReplayPage : public QWidget {
   Q_OBJECT
  public:
   // `recent`: paths, newest first.
-  ReplayPage(const QStringList& recent, Theme theme, QWidget* parent);
+  ReplayPage(const QStringList& recent, QWidget* parent);
 
   ~ReplayPage() override;
 

@@ -35,15 +35,15 @@ bool movesObjects(const Scene& scene) {
 
 }  // namespace
 
-ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* parent)
+ScenePage::ScenePage(const std::filesystem::path& folder, QWidget* parent)
     : QWidget(parent), folder_(folder) {
   auto* label = new QLabel("What is around the &hand", this);
   list_ = new QListWidget(this);
   list_->setObjectName("scenes");
-  list_->setItemDelegate(new TwoLineDelegate(theme, list_));
+  list_->setItemDelegate(new TwoLineDelegate(list_));
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setStyleSheet(QString("#scenes { border: 1px solid %1; border-radius: 4px; }")
-                           .arg(colorsOf(theme).border.name()));
+                           .arg(colorsOf().border.name()));
   label->setBuddy(list_);
   none_ = new QLabel(this);
   none_->setObjectName("noScenes");

@@ -18,7 +18,7 @@ namespace palpate::gui {
 class ScenePage : public QWidget {
   Q_OBJECT
  public:
-  ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* parent);
+  ScenePage(const std::filesystem::path& folder, QWidget* parent);
 
   ~ScenePage() override;
 

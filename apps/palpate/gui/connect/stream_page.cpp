@@ -51,9 +51,9 @@ QString handSummaryOf(const HandDescription& hand) {
 }
 
 // A line of text with a mark in front of it.
-QWidget* markedLine(StateMark*& mark, QLabel*& label, const char* name, Theme theme) {
+QWidget* markedLine(StateMark*& mark, QLabel*& label, const char* name) {
   auto* line = new QWidget;
-  mark = new StateMark(theme, line);
+  mark = new StateMark(line);
   label = new QLabel(line);
   label->setObjectName(name);
   label->setTextFormat(Qt::PlainText);
@@ -90,7 +90,6 @@ QSpinBox* portBox(const char* name, int least) {
 
 StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
                        PortScan& scan,
-                       Theme theme,
                        QWidget* parent)
     : QWidget(parent), folders_(handFolders), scan_(scan) {
   form_ = new QFormLayout;
@@ -105,8 +104,8 @@ StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
                     "TCP: wait for a sender",
                     "UDP: wait for datagrams"});
   form_->addRow("&Source", place_);
-  form_->addRow("", makePlace(theme));
-  form_->addRow("&Hand", makeHand(theme));
+  form_->addRow("", makePlace());
+  form_->addRow("&Hand", makeHand());
   makeForm();
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -143,10 +142,10 @@ StreamPage::~StreamPage() {
   for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
 }
 
-QWidget* StreamPage::makePlace(Theme theme) {
+QWidget* StreamPage::makePlace() {
   fields_ = new QStackedWidget(this);
   port_ = new PortField(
-      "&Port", "Choose a port, or type the path of a device or of a pty.", "stream", theme, this);
+      "&Port", "Choose a port, or type the path of a device or of a pty.", "stream", this);
   port_->box()->setToolTip("A port of the list, or another device such as /dev/pts/3");
   auto* connection = new QWidget(this);
   auto* row = new QHBoxLayout(connection);
@@ -183,15 +182,15 @@ QWidget* StreamPage::makePlace(Theme theme) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
   column->addWidget(fields_);
-  column->addWidget(markedLine(placeMark_, placeText_, "streamPlaceText", theme));
+  column->addWidget(markedLine(placeMark_, placeText_, "streamPlaceText"));
   return whole;
 }
 
-QWidget* StreamPage::makeHand(Theme theme) {
+QWidget* StreamPage::makeHand() {
   auto* whole = new QWidget(this);
   hand_ = new QComboBox;
   hand_->setObjectName("streamHand");
-  hand_->setItemDelegate(new TwoLineDelegate(theme, hand_));
+  hand_->setItemDelegate(new TwoLineDelegate(hand_));
   hand_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   for (const KnownHand& each : knownHands(folders_)) handIndex(streamPageText(each.key));
   hand_->setCurrentIndex(-1);
@@ -214,7 +213,7 @@ QWidget* StreamPage::makeHand(Theme theme) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
   column->addLayout(row);
-  column->addWidget(markedLine(handMark_, handText_, "streamHandText", theme));
+  column->addWidget(markedLine(handMark_, handText_, "streamHandText"));
   whole->setFocusProxy(hand_);
   return whole;
 }

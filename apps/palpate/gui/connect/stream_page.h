@@ -35,7 +35,6 @@ class StreamPage : public QWidget {
   // outlive this.
   StreamPage(const std::vector<std::filesystem::path>& handFolders,
              PortScan& scan,
-             Theme theme,
              QWidget* parent);
   ~StreamPage() override;
 
@@ -66,8 +65,8 @@ class StreamPage : public QWidget {
     bool beingRead = false;
   };
 
-  QWidget* makePlace(Theme theme);
-  QWidget* makeHand(Theme theme);
+  QWidget* makePlace();
+  QWidget* makeHand();
   void makeForm();
   Place place() const;
   QString source() const;

@@ -12,7 +12,7 @@ ExportActions::ExportActions(ActionRegistry& book) {
   copyPicture->setToolTip("Copy the view that was clicked last (Ctrl+C)");
   copyTable = book.make("copyTable", "File", "Copy &table", {key("Ctrl+Alt+C")});
   exportPicture->setIconText(" Export");
-  book.setIcon(exportPicture, IconShape::kExport);
+  exportPicture->setIcon(makeIcon(IconShape::kExport));
 }
 
 ExportFeature::ExportFeature(WindowState& windowState, QWidget* window)

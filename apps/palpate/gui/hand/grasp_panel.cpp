@@ -190,6 +190,7 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
   connect(options_, &GraspOptions::limitsChanged, this, &GraspPanel::showLimit);
   showLimit();
   showStatus({});
+  fitToTheme(*this, [this] { showForecast(); });
 }
 
 void GraspPanel::makeForecast(QFormLayout& form) {
@@ -220,22 +221,17 @@ void GraspPanel::showForecast() {
   if (!isVisible()) return;
   forecastDeg_ = shown_.anglesDeg;
   QString text;
-  QColor color = colorsOf(theme_).text;
+  QColor color = colorsOf().text;
   if (control_) {
     const GraspRequest request = this->request(GraspMode::kReactive);
     const GraspForecast forecast = control_->forecast(request);
     text = QString::fromStdString(describe(forecast, request));
     text[0] = text[0].toUpper();
-    if (isWarned(forecast)) color = colorsOf(theme_).warning;
+    if (isWarned(forecast)) color = colorsOf().warning;
   }
   forecast_->setText(text);
   const QString style = "color: " + color.name() + ";";
   if (forecast_->label().styleSheet() != style) forecast_->label().setStyleSheet(style);
-}
-
-void GraspPanel::setTheme(Theme theme) {
-  theme_ = theme;
-  showForecast();
 }
 
 void GraspPanel::setHand(const HandDescription& hand) {

@@ -34,7 +34,6 @@ class GraspPanel : public QWidget {
   void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
   // The connected hand is another one.
   void setHand(const HandDescription& hand);
-  void setTheme(Theme theme);
   // A grasp with a limit in newtons must wait for the calibration.
   void setCalibrationBeingRead(bool beingRead);
   // Enables the motions that are possible now; the tool tips tell why others are not.
@@ -83,7 +82,6 @@ class GraspPanel : public QWidget {
   QTimer forecastTimer_;
   // The angles of which the forecast is [deg].
   std::vector<double> forecastDeg_;
-  Theme theme_ = Theme::kDark;
   GraspOptions* options_;
   QPushButton* open_;
   QPushButton* grasp_;

@@ -146,6 +146,11 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   timer_.setInterval(kHandDockRefreshMs);
   connect(&timer_, &QTimer::timeout, this, &HandDock::refresh);
   setHand(nullptr, nullptr);
+  fitToTheme(*this, [this] {
+    heat_->setStyleSheet("color: " + colorsOf().warning.name() + "; font-weight: bold;");
+    state_->label().setStyleSheet({});
+    refresh();
+  });
 }
 
 HandDock::~HandDock() = default;
@@ -570,7 +575,7 @@ void HandDock::say(const QString& what, bool bad, const QString& more) {
   lines.insert(bad ? 0 : lines.size(), what);
   const QString text = lines.join('\n');
   state_->setText(text, more.isEmpty() ? QString() : text + "\n" + more);
-  const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
+  const QColor color = bad ? colorsOf().danger : colorsOf().text;
   const QString style = "color: " + color.name() + ";";
   if (state_->label().styleSheet() != style) state_->label().setStyleSheet(style);
   emit stateShown(text, bad);
@@ -752,17 +757,6 @@ void HandDock::setUnits(const DisplayUnits& units) {
   units_ = units;
   if (shownAngles_) showAngles(JointAngles(*shownAngles_));
   if (shownTemperatures_) showTemperatures(Temperatures(*shownTemperatures_));
-}
-
-void HandDock::setTheme(Theme theme) {
-  theme_ = theme;
-  grasp_->setTheme(theme);
-  tactile_->setTheme(theme);
-  angles_->setTheme(theme);
-  temperatures_->setTheme(theme);
-  heat_->setStyleSheet("color: " + colorsOf(theme).warning.name() + "; font-weight: bold;");
-  state_->label().setStyleSheet({});
-  refresh();
 }
 
 }  // namespace palpate::gui

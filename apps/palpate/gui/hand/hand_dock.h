@@ -59,7 +59,6 @@ class HandDock : public QWidget {
   // Connects menu entries and keys with the buttons: they do the same and are enabled together.
   // Call it once.
   void bind(const HandActions& actions);
-  void setTheme(Theme theme);
   // The units of the present angles and temperatures; targets and velocities stay in degrees.
   void setUnits(const DisplayUnits& units);
   TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
@@ -215,7 +214,6 @@ class HandDock : public QWidget {
   std::optional<Judged> judged_;
   // The layout with the masks of the newest frame; null before the first frame.
   std::shared_ptr<const SensorLayout> layout_;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

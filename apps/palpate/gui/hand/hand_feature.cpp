@@ -84,7 +84,6 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &HandDock::stopPressed, &windowState.handCommands, &HandCommands::asked);
   connect(panel_, &HandDock::stopPressed, &windowState.handCommands, &HandCommands::stopped);
   connect(panel_, &HandDock::asked, &windowState.handCommands, &HandCommands::asked);
-  followTheme(panel_);
   followUnits(panel_);
   const auto confirmed = [&windowState](const QString& text, const QString& button) {
     return windowState.prompts.confirmed && windowState.prompts.confirmed(text, button);

@@ -94,7 +94,6 @@ void TactileSettingsPanel::setMatrices(const HandDescription& hand) {
     setTabOrder(before, each);
     before = each;
   }
-  setTheme(theme_);
 }
 
 void TactileSettingsPanel::makeRow(int row, const QString& name) {
@@ -102,6 +101,10 @@ void TactileSettingsPanel::makeRow(int row, const QString& name) {
   Row made{};
   made.square = new QLabel(table_);
   made.square->setFixedSize(10, 10);
+  fitToTheme(*made.square, [square = made.square, row] {
+    const QColor color = row == 0 ? wholeColor() : matrixColor(static_cast<std::size_t>(row - 1));
+    square->setStyleSheet("background: " + color.name() + "; border-radius: 2px;");
+  });
   made.sensitivity =
       new ValueSlider("Sensitivity of " + name, {0.0, 1.0, 1.0, 0.05, 2, {}}, table_);
   const double fullScale = fullScale_;
@@ -365,7 +368,7 @@ void TactileSettingsPanel::showUnmeasurable(const std::vector<QString>& why, int
     if (name->toolTip() != reason) name->setToolTip(reason);
     const QString style = reason.isEmpty()
                               ? QString()
-                              : "color: " + colorsOf(theme_).danger.name() + "; font-weight: bold;";
+                              : "color: " + colorsOf().danger.name() + "; font-weight: bold;";
     if (name->styleSheet() != style) name->setStyleSheet(style);
   }
   unmeasurableText_ = unmeasurable == 0
@@ -373,14 +376,6 @@ void TactileSettingsPanel::showUnmeasurable(const std::vector<QString>& why, int
                           : "A limit of " + QString::number(limitCounts) +
                                 " counts is never reached by " + QString::number(unmeasurable) +
                                 (unmeasurable == 1 ? " matrix (red)." : " matrices (red).");
-}
-
-void TactileSettingsPanel::setTheme(Theme theme) {
-  theme_ = theme;
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const QColor color = row == 0 ? wholeColor(theme) : matrixColor(row - 1, theme);
-    rows_[row].square->setStyleSheet("background: " + color.name() + "; border-radius: 2px;");
-  }
 }
 
 }  // namespace palpate::gui

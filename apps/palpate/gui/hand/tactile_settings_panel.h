@@ -38,7 +38,6 @@ class TactileSettingsPanel : public QWidget {
   void showScanned(const std::shared_ptr<const SensorLayout>& layout);
   // Keeps the present settings, to which Undo goes back: something is about to change them.
   void keepForUndo();
-  void setTheme(Theme theme);
   // Marks the matrices that cannot detect a limit [counts] with their settings: one reason for each
   // matrix; empty when it can.
   void showUnmeasurable(const std::vector<QString>& why, int limitCounts);
@@ -96,7 +95,6 @@ class TactileSettingsPanel : public QWidget {
   TactileSettingsHistory history_;
   bool restoring_ = false;                      // what is sent comes from the history
   std::shared_ptr<const SensorLayout> layout_;  // as shown
-  Theme theme_ = Theme::kDark;
   std::vector<std::shared_future<CommandAnswer>> pending_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "gui/appearance/icons.h"
 #include "gui/chart/plot.h"
 #include "gui/help/keys_dialog.h"
 #include "gui/help/manual_window.h"
@@ -48,7 +49,7 @@ HelpFeature::HelpFeature(WindowState& windowState, QWidget* window) : Feature(wi
   QAction* manual = windowState.actions.make("manual", "Help", "&Manual", {key("Ctrl+F1")});
   QAction* what = windowState.actions.make("whatsThis", "Help", "&What's this?", {key("Shift+F1")});
   QAction* about = windowState.actions.make("about", "Help", "&About Palpate");
-  windowState.actions.setIcon(keys, IconShape::kHelp);
+  keys->setIcon(makeIcon(IconShape::kHelp));
   on(keys, [window] {
     auto* dialog = new KeysDialog(window->actions(), window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -77,11 +78,8 @@ HelpFeature::HelpFeature(WindowState& windowState, QWidget* window) : Feature(wi
 
 void HelpFeature::showManual() {
   if (!manual_) {
-    manual_ = new ManualWindow(ManualPages::folderFor(state().environment.dataFolder),
-                               state().appearance.theme(),
-                               window());
+    manual_ = new ManualWindow(ManualPages::folderFor(state().environment.dataFolder), window());
     manual_->setAttribute(Qt::WA_DeleteOnClose);
-    followTheme(manual_.data());
   }
   manual_->QWidget::show();
   manual_->raise();

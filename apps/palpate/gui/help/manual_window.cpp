@@ -15,6 +15,8 @@
 
 #include <palpate/core/number_text.h>
 
+#include "gui/widgets/text_fit.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -27,8 +29,8 @@ constexpr int kPageRole = Qt::UserRole;
 constexpr int kAnchorRole = Qt::UserRole + 1;
 
 // Lines around tables and a background of code, which Qt's Markdown has none of.
-void styleBlocks(QTextDocument& document, Theme theme) {
-  const ThemeColors& colors = colorsOf(theme);
+void styleBlocks(QTextDocument& document) {
+  const ThemeColors& colors = colorsOf();
   for (QTextFrame* frame : document.rootFrame()->childFrames())
     if (auto* table = qobject_cast<QTextTable*>(frame)) {
       QTextTableFormat format = table->format();
@@ -67,11 +69,11 @@ ManualBrowser::ManualBrowser(const ManualPages& pages, QWidget* parent)
   document()->setDocumentMargin(kPageMargin);
 }
 
-void ManualBrowser::showPage(const QString& name, Theme theme) {
+void ManualBrowser::showPage(const QString& name) {
   document()->setDefaultFont(font());
   pages_.fill(*document(), name);
   document()->setDocumentMargin(kPageMargin);
-  styleBlocks(*document(), theme);
+  styleBlocks(*document());
   moveCursor(QTextCursor::Start);
 }
 
@@ -95,10 +97,9 @@ QVariant ManualBrowser::loadResource(int type, const QUrl& name) {
   return picture.scaledToWidth(widest, Qt::SmoothTransformation);
 }
 
-ManualWindow::ManualWindow(const std::filesystem::path& folder, Theme theme, QWidget* parent)
+ManualWindow::ManualWindow(const std::filesystem::path& folder, QWidget* parent)
     : QDialog(parent, Qt::Window),
       pages_(folder),
-      theme_(theme),
       browser_(new ManualBrowser(pages_, this)),
       contents_(new QTreeWidget(this)),
       results_(new QListWidget(this)),
@@ -150,6 +151,9 @@ ManualWindow::ManualWindow(const std::filesystem::path& folder, Theme theme, QWi
   else
     show(pages_.names().front());
   browser_->setFocus();
+  fitToTheme(*this, [this] {
+    if (!page_.isEmpty()) goBackTo(here());
+  });
 }
 
 QWidget* ManualWindow::makeTop() {
@@ -206,18 +210,13 @@ void ManualWindow::buildContents() {
   }
 }
 
-void ManualWindow::setTheme(Theme theme) {
-  theme_ = theme;
-  if (!page_.isEmpty()) goBackTo(here());
-}
-
 ManualWindow::Place ManualWindow::here() const {
   return {page_, browser_->verticalScrollBar()->value()};
 }
 
 void ManualWindow::show(const QString& page) {
   page_ = page;
-  browser_->showPage(page, theme_);
+  browser_->showPage(page);
   setWindowTitle(pages_.title(page) + " – Manual of Palpate");
   for (int i = 0; i < contents_->topLevelItemCount(); ++i) {
     QTreeWidgetItem* entry = contents_->topLevelItem(i);
@@ -313,8 +312,8 @@ void ManualWindow::markHits() {
     mark.cursor.setPosition(hits_[i].position + hits_[i].length, QTextCursor::KeepAnchor);
     const int row = results_->currentRow();
     const bool chosen = row >= 0 && rowHits_[static_cast<std::size_t>(row)] == i;
-    mark.format.setBackground(chosen ? colorsOf(theme_).accent : colorsOf(theme_).accentSoft);
-    mark.format.setForeground(chosen ? colorsOf(theme_).window : colorsOf(theme_).text);
+    mark.format.setBackground(chosen ? colorsOf().accent : colorsOf().accentSoft);
+    mark.format.setForeground(chosen ? colorsOf().window : colorsOf().text);
     marks.append(mark);
   }
   browser_->setExtraSelections(marks);

@@ -23,7 +23,7 @@ class ManualBrowser : public QTextBrowser {
   Q_OBJECT
  public:
   ManualBrowser(const ManualPages& pages, QWidget* parent);
-  void showPage(const QString& name, Theme theme);
+  void showPage(const QString& name);
   // Scrolls so that a place of the page is at the top; `position` [characters].
   void scrollTo(int position);
 
@@ -38,9 +38,8 @@ class ManualWindow : public QDialog {
   Q_OBJECT
  public:
   // `folder`: where the pages are.
-  ManualWindow(const std::filesystem::path& folder, Theme theme, QWidget* parent);
+  ManualWindow(const std::filesystem::path& folder, QWidget* parent);
 
-  void setTheme(Theme theme);
   // Follows a link as the pages write it: "docks.md#hand", "#hand", "https://..".
   void follow(const QString& link);
   // The page that is shown: "docks.md".
@@ -72,7 +71,6 @@ class ManualWindow : public QDialog {
   void say(const QString& text);
 
   ManualPages pages_;
-  Theme theme_;
   QString page_;
   std::vector<Place> before_;
   std::vector<Place> after_;

@@ -86,7 +86,6 @@ InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
     showLinkFacts();
     showStale();
   });
-  followTheme(panel_);
   followUnits(panel_);
   connect(&table, &MatrixTableModel::plottedChanged, this, &InspectFeature::showPlotted);
   makeActions();
@@ -190,7 +189,7 @@ std::vector<ExportedView> InspectFeature::views() {
         look,
         shownTable(panel_->table(), windowState.pictureTitle(), windowState.pictureCaption()),
         panel_->font(),
-        windowState.appearance.theme());
+        shownTheme());
   };
   view.tables = [&windowState] {
     return std::vector<ExportedTable>{

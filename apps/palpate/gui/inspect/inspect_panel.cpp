@@ -301,12 +301,6 @@ void InspectPanel::setStale(bool matrices, bool angles) {
   for (FactsView* facts : {angles_, temperatures_}) facts->setStale(angles);
 }
 
-void InspectPanel::setTheme(Theme theme) {
-  model_->setTheme(theme);
-  matrices_->setTheme(theme);
-  for (FactsView* facts : {facts_, events_, angles_, temperatures_}) facts->setTheme(theme);
-}
-
 void InspectPanel::arrange() {
   const QMargins around = widget()->layout()->contentsMargins();
   const int needed = around.left() + facts_->minimumSizeHint().width() + columns_->spacing() +

@@ -44,7 +44,6 @@ class InspectPanel : public QScrollArea {
   void showLive(const LiveResults& results);
   // To be called when no results follow for now: shows the newest ones.
   void showLatest();
-  void setTheme(Theme theme);
   // The units of areas, joint angles and temperatures.
   void setUnits(const DisplayUnits& units);
   MatrixTableModel& table() noexcept { return *model_; }

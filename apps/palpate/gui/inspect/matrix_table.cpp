@@ -36,7 +36,6 @@ QString forceNumber(const MatrixTableModel::Force& force, int decimals) {
 class TickDelegate : public QItemDelegate {
  public:
   using QItemDelegate::QItemDelegate;
-  void setTheme(Theme theme) { theme_ = theme; }
 
  protected:
   void drawCheck(QPainter* painter,
@@ -44,7 +43,7 @@ class TickDelegate : public QItemDelegate {
                  const QRect& rect,
                  Qt::CheckState state) const override {
     if (!rect.isValid()) return;
-    const ThemeColors& colors = colorsOf(theme_);
+    const ThemeColors& colors = colorsOf();
     constexpr double kSide = 13.0;
     QRectF box(0, 0, kSide, kSide);
     box.moveCenter(QRectF(rect).center());
@@ -65,7 +64,6 @@ class TickDelegate : public QItemDelegate {
   void drawFocus(QPainter*, const QStyleOptionViewItem&, const QRect&) const override {}
 
  private:
-  Theme theme_ = Theme::kDark;
 };
 
 void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
@@ -138,11 +136,6 @@ void MatrixTableModel::setStale(bool old) {
   stale_ = old;
   if (rowCount() > 0)
     emit dataChanged(index(0, kActive), index(rowCount() - 1, kArea), {Qt::ForegroundRole});
-}
-
-void MatrixTableModel::setTheme(Theme theme) {
-  theme_ = theme;
-  if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, kNumColumns - 1));
 }
 
 void MatrixTableModel::setUnits(const DisplayUnits& units) {
@@ -219,14 +212,13 @@ QVariant MatrixTableModel::data(const QModelIndex& index, int role) const {
       if (index.column() == kName) return plotted_[row] ? Qt::Checked : Qt::Unchecked;
       return {};
     case Qt::DecorationRole:
-      if (index.column() == kName) return whole ? wholeColor(theme_) : matrixColor(row, theme_);
+      if (index.column() == kName) return whole ? wholeColor() : matrixColor(row);
       return {};
     case Qt::ForegroundRole:
       if (index.column() == kForce && row < forces_.size() && !forces_[row].inRange && !stale_)
-        return colorsOf(theme_).warning;
-      return (shown_[row].active > 0 && !stale_) || index.column() == kName
-                 ? colorsOf(theme_).text
-                 : colorsOf(theme_).muted;
+        return colorsOf().warning;
+      return (shown_[row].active > 0 && !stale_) || index.column() == kName ? colorsOf().text
+                                                                            : colorsOf().muted;
     case Qt::ToolTipRole:
       if (index.column() == kName) return "Ticked rows are plotted in the timeline";
       if (index.column() == kForce) return forceText(row);
@@ -339,11 +331,6 @@ QSize MatrixTable::sizeHint() const {
   return {
       360,
       horizontalHeader()->sizeHint().height() + 2 + rows * verticalHeader()->defaultSectionSize()};
-}
-
-void MatrixTable::setTheme(Theme theme) {
-  ticks_->setTheme(theme);
-  viewport()->update();
 }
 
 int MatrixTable::nameWidth() const {

@@ -46,7 +46,6 @@ class MatrixTableModel : public QAbstractTableModel {
   void setStale(bool old);
   std::size_t numMatrices() const noexcept { return shown_.empty() ? 0 : shown_.size() - 1; }
   const HandDescription& hand() const noexcept { return hand_; }
-  void setTheme(Theme theme);
   // The unit of areas.
   void setUnits(const DisplayUnits& units);
   // Which rows are plotted; the last one is the whole hand.
@@ -81,7 +80,6 @@ class MatrixTableModel : public QAbstractTableModel {
   QString forceTip_;
   std::vector<bool> plotted_;
   bool stale_ = false;
-  Theme theme_ = Theme::kDark;
 };
 
 class TickDelegate;
@@ -91,7 +89,6 @@ class MatrixTable : public QTableView {
   Q_OBJECT
  public:
   explicit MatrixTable(MatrixTableModel* model, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
 

@@ -61,7 +61,6 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
     if (recording && !recording->damage.empty())
       panel_->setDamaged(recording->path, recording->damage);
   });
-  followTheme(panel_);
 }
 
 // The shown recording stays A.

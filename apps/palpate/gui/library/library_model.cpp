@@ -150,12 +150,6 @@ bool LibraryModel::applyDamage(LibraryEntry& entry) {
   return true;
 }
 
-void LibraryModel::setTheme(Theme theme) {
-  theme_ = theme;
-  if (!rows_.empty())
-    emit dataChanged(index(0, 0), index(rowCount() - 1, kNumColumns - 1), {Qt::ForegroundRole});
-}
-
 QString LibraryModel::path(int row) const {
   return libraryModelWide(entry(row).details.path.string());
 }
@@ -233,10 +227,10 @@ QVariant LibraryModel::data(const QModelIndex& index, int role) const {
       return QVariant::fromValue(Qt::Alignment(
           Qt::AlignVCenter | (index.column() == kLength ? Qt::AlignRight : Qt::AlignLeft)));
     case Qt::ForegroundRole:
-      if (isBad(details)) return colorsOf(theme_).danger;
-      if (details.state != LibraryModelState::kFinished) return colorsOf(theme_).warning;
-      return index.column() == kName || index.column() == kLength ? colorsOf(theme_).text
-                                                                  : colorsOf(theme_).muted;
+      if (isBad(details)) return colorsOf().danger;
+      if (details.state != LibraryModelState::kFinished) return colorsOf().warning;
+      return index.column() == kName || index.column() == kLength ? colorsOf().text
+                                                                  : colorsOf().muted;
     default:
       return {};
   }

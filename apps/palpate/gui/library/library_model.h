@@ -42,7 +42,6 @@ class LibraryModel : public QAbstractTableModel {
   // Marks a recording as damaged: a scan doesn't read its frames, but they were read since. It
   // counts as long as the file isn't changed.
   void setDamaged(const std::filesystem::path& path, const std::string& message);
-  void setTheme(Theme theme);
 
   std::size_t numRecordings() const noexcept { return rows_.size(); }
   const LibraryEntry& entry(int row) const { return rows_.at(static_cast<std::size_t>(row)).entry; }
@@ -80,7 +79,6 @@ class LibraryModel : public QAbstractTableModel {
   std::map<std::filesystem::path, Damage> damaged_;
   std::map<std::filesystem::path, int> rowOf_;
   std::string folder_;
-  Theme theme_ = Theme::kDark;
 };
 
 // The rows of the model that match the search, in the chosen order.

@@ -90,6 +90,7 @@ void LibraryPanel::buildTop() {
   folderButton_ = new QToolButton(this);
   folderButton_->setObjectName("libraryFolder");
   folderButton_->setProperty("flat", true);
+  folderButton_->setIcon(makeIcon(IconShape::kOpen));
   folderButton_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   folderButton_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   // Paths are shortened, the words that stand there without a folder are not.
@@ -367,11 +368,6 @@ void LibraryPanel::chooseFolder() {
 
 void LibraryPanel::setDamaged(const std::filesystem::path& path, const std::string& message) {
   model_->setDamaged(path, message);
-}
-
-void LibraryPanel::setTheme(Theme theme) {
-  model_->setTheme(theme);
-  folderButton_->setIcon(makeIcon(IconShape::kOpen, theme));
 }
 
 void LibraryPanel::startSearch() {

@@ -38,7 +38,6 @@ class LibraryPanel : public QWidget {
   const QString& folder() const noexcept { return folder_; }
   // As LibraryModel::setDamaged().
   void setDamaged(const std::filesystem::path& path, const std::string& message);
-  void setTheme(Theme theme);
   // Scans the folder again.
   void refresh();
   void startSearch();

@@ -34,7 +34,6 @@ LogFeature::LogFeature(WindowState& windowState, QWidget* window)
     windowState.messages.flash("written: " + path);
   });
   connect(panel_, &LogPanel::failed, &windowState.messages, &Messages::fail);
-  followTheme(panel_);
 }
 
 std::vector<DockSpec> LogFeature::docks() {

@@ -270,6 +270,4 @@ void LogPanel::save() {
   }
 }
 
-void LogPanel::setTheme(Theme theme) { log_.setTheme(theme); }
-
 }  // namespace palpate::gui

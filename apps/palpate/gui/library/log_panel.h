@@ -66,7 +66,6 @@ class LogPanel : public QWidget {
  public:
   // `log` must outlive this.
   explicit LogPanel(ActivityLog& log, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   // The chosen lines, else all shown lines, one below the other.
   QString text() const;
 

@@ -53,8 +53,6 @@ LinkFeature::LinkFeature(WindowState& windowState, QWidget* window)
           [this](const std::vector<RecordingEvent>& events) {
             for (const RecordingEvent& event : events) panel_->addEvent(event);
           });
-  followTheme(panel_);
-  followTheme(alarms_);
 }
 
 // Called after connectLog(), so that the log reports the connection before its streams.

@@ -188,6 +188,11 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   column->addWidget(area);
   showOtherPrograms({});
   clear();
+  fitToTheme(*this, [this] {
+    const QString alarms = alarms_->text();
+    showAlarms(alarms == "none" ? QStringList() : alarms.split('\n'));
+    showCheck();
+  });
 }
 
 void LinkPanel::clear() {
@@ -229,7 +234,7 @@ void LinkPanel::showHealth(const LinkHealth& health,
 }
 
 void LinkPanel::showCheck() {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   QString text = "Connect a hand, the emulated hand or a replay first (Ctrl+K).";
   QColor color = colors.muted;
   if (connected_ && lastCheck_) {
@@ -246,7 +251,7 @@ void LinkPanel::showCheck() {
 }
 
 void LinkPanel::showAlarms(const QStringList& alarms) {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   alarms_->setText(alarms.isEmpty() ? "none" : alarms.join('\n'));
   alarms_->setStyleSheet("color: " + (alarms.isEmpty() ? colors.muted : colors.danger).name() +
                          ";");
@@ -276,14 +281,5 @@ void LinkPanel::log(const QString& line) {
 }
 
 void LinkPanel::setMuted(bool muted) { sound_->setChecked(!muted); }
-
-void LinkPanel::setTheme(Theme theme) {
-  theme_ = theme;
-  facts_->setTheme(theme);
-  others_->setTheme(theme);
-  const QString alarms = alarms_->text();
-  showAlarms(alarms == "none" ? QStringList() : alarms.split('\n'));
-  showCheck();
-}
 
 }  // namespace palpate::gui

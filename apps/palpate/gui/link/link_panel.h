@@ -44,7 +44,6 @@ class LinkPanel : public QWidget {
   // Adds a message of the window itself: "connected to ..".
   void log(const QString& line);
   void setMuted(bool muted);
-  void setTheme(Theme theme);
   QSize sizeHint() const override { return {455, 420}; }
 
  signals:
@@ -64,7 +63,6 @@ class LinkPanel : public QWidget {
   std::optional<PreflightCheck> lastCheck_;
   bool recording_ = false;
   bool connected_ = false;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

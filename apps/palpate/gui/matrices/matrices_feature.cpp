@@ -39,8 +39,8 @@ MatricesActions::MatricesActions(ActionRegistry& book) {
   ranges = book.choices("ranges", names);
   interpolated->setIconText(" " + plainText(*interpolated));
   values->setIconText(" " + plainText(*values));
-  book.setIcon(interpolated, IconShape::kInterpolated);
-  book.setIcon(values, IconShape::kValues);
+  interpolated->setIcon(makeIcon(IconShape::kInterpolated));
+  values->setIcon(makeIcon(IconShape::kValues));
 }
 
 MatricesFeature::MatricesFeature(WindowState& windowState, QWidget* window)
@@ -92,7 +92,7 @@ void MatricesFeature::connectLook() {
   ViewAppearance& look = state().appearance;
   MatricesActions& actions = actions_;
   connect(&look, &ViewAppearance::changed, this, [this, &look, &actions] {
-    panel_->setSettings(look.view(), look.theme());
+    panel_->setSettings(look.view());
     actions.interpolated->setChecked(look.view().interpolated);
     actions.values->setChecked(look.view().values);
     checkChoice(actions.maps, kAllColorMaps, look.view().map);

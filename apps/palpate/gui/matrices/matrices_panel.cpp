@@ -189,9 +189,8 @@ void MatricesPanel::show(const TactileFrame& frame) {
   view_->setFrame(frame_);
 }
 
-void MatricesPanel::setSettings(const ViewSettings& settings, Theme theme) {
+void MatricesPanel::setSettings(const ViewSettings& settings) {
   settings_ = settings;
-  theme_ = theme;
   const QSignalBlocker blockedMin(minimum_), blockedMax(maximum_);
   map_->setCurrentText(nameOf(settings.map));
   range_->setCurrentIndex(
@@ -238,7 +237,7 @@ void MatricesPanel::applyLook() {
                   .interpolated = settings_.interpolated,
                   .values = settings_.values,
                   .range = rangeNow(),
-                  .theme = theme_});
+                  .theme = shownTheme()});
   emit lookChanged(view_->look());
 }
 
@@ -250,7 +249,7 @@ MatricesPictureOptions MatricesPanel::pictureOptions() const {
   const ValueRange range = rangeNow();
   options.rangeMin = range.minimum;
   options.rangeMax = range.maximum;
-  options.theme = theme_;
+  options.theme = shownTheme();
   options.font = font();
   return options;
 }

@@ -35,8 +35,8 @@ class MatricesPanel : public QWidget {
   void setHand(const HandDescription& hand);
   // The hand of the displayed frames; null: none.
   const HandDescription* hand() const noexcept { return hand_ ? &*hand_ : nullptr; }
-  // Takes colour map, look and range; `theme` is the resolved theme.
-  void setSettings(const ViewSettings& settings, Theme theme);
+  // Takes colour map, look and range.
+  void setSettings(const ViewSettings& settings);
   MatricesView& view() noexcept { return *view_; }
   const TactileFrame& frame() const noexcept { return frame_; }
   // Options for an exported picture that looks like the view.
@@ -71,7 +71,6 @@ class MatricesPanel : public QWidget {
   double largestLive_ = 0.0;
   TactileFrame frame_;
   ViewSettings settings_;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

@@ -24,7 +24,7 @@ OpenActions::OpenActions(ActionRegistry& book) {
       book.make("previousRecording", "File", "&Previous open recording", {key("Ctrl+Shift+Tab")});
   closeRecording = book.make("closeRecording", "File", "&Close recording", {key("Ctrl+W")});
   open->setIconText(" " + plainText(*open));
-  book.setIcon(open, IconShape::kOpen);
+  open->setIcon(makeIcon(IconShape::kOpen));
 }
 
 namespace {
@@ -54,7 +54,6 @@ OpenFeature::OpenFeature(WindowState& windowState, QWidget* window)
       actions_(windowState.actions),
       startPage_(new StartPage(windowState.recent, hasDemo(windowState), window)),
       strip_(new OpeningStrip(window)) {
-  followTheme(startPage_);
   actions_.openDemo->setVisible(hasDemo(windowState));
   actions_.openDemo->setEnabled(hasDemo(windowState));
   windowState.prompts.recordings = [&windowState, window] {

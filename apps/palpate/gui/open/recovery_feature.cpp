@@ -38,7 +38,6 @@ RecoveryFeature::RecoveryFeature(WindowState& windowState, QWidget* window)
       "Saves what can be read of a damaged or unfinished recording as a new recording");
   offer_->findChild<QPushButton*>("offerAccept")->setObjectName("recoverAccept");
   offer_->findChild<QToolButton*>("offerClose")->setObjectName("recoverClose");
-  followTheme(offer_);
   on(recover_, [this] { recoverChosen(); });
   connect(&windowState.displayed, &DisplayedSource::shown, this, &RecoveryFeature::offer);
   connect(&windowState.displayed, &DisplayedSource::moreKnown, this, &RecoveryFeature::offer);

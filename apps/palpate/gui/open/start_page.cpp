@@ -153,11 +153,6 @@ void StartPage::setDragging(bool on) {
   style()->polish(dropHint_);
 }
 
-void StartPage::setTheme(Theme theme) {
-  theme_ = theme;
-  listRecent();
-}
-
 void StartPage::showEvent(QShowEvent* event) {
   // Files may have been created or deleted meanwhile.
   listRecent();
@@ -178,7 +173,7 @@ void StartPage::listRecent() {
     auto* remove = new QToolButton(list_);
     remove->setObjectName("removeRecent");
     remove->setProperty("flat", true);
-    remove->setIcon(makeIcon(IconShape::kClose, theme_));
+    remove->setIcon(makeIcon(IconShape::kClose));
     remove->setIconSize({10, 10});
     remove->setToolTip("Remove from this list (the file is kept)");
     // The row deletes itself, which must not happen before the click is processed (queued

@@ -19,7 +19,6 @@ class StartPage : public QWidget {
   StartPage(RecentFiles& recent, bool withDemo, QWidget* parent = nullptr);
   // A file is being dragged over the window.
   void setDragging(bool on);
-  void setTheme(Theme theme);
 
  signals:
   void openRequested();
@@ -37,7 +36,6 @@ class StartPage : public QWidget {
   void listRecent();
 
   RecentFiles& recent_;
-  Theme theme_ = Theme::kDark;
   QWidget* list_ = nullptr;
   QVBoxLayout* column_;
   QLabel* recentHeading_;

@@ -23,6 +23,9 @@ struct StaleNotice {
 };
 
 // Paints over the picture; without a notice, paints nothing.
-void paintStaleNotice(QPainter& painter, const QRectF& area, const StaleNotice& old, Theme theme);
+void paintStaleNotice(QPainter& painter,
+                      const QRectF& area,
+                      const StaleNotice& old,
+                      Theme theme = shownTheme());
 
 }  // namespace palpate::gui

@@ -85,8 +85,6 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   takeRecording();
 }
 
-void PlaybackBar::setTheme(Theme theme) { seekBar_->setTheme(theme); }
-
 void PlaybackBar::editFrame() {
   frame_->setFocus(Qt::ShortcutFocusReason);
   frame_->selectAll();

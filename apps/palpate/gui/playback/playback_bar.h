@@ -20,7 +20,6 @@ class PlaybackBar : public QWidget {
  public:
   // `playback` must outlive this.
   explicit PlaybackBar(PlaybackController& playback, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   // Moves the keyboard focus to the frame field.
   void editFrame();
 

@@ -29,11 +29,11 @@ PlaybackActions::PlaybackActions(ActionRegistry& book) {
   speeds = book.choices("speeds", names);
   loop->setIconText(" " + plainText(*loop));
   skipGaps->setIconText(" " + plainText(*skipGaps));
-  book.setIcon(toStart, IconShape::kToStart);
-  book.setIcon(stepBack, IconShape::kStepBack);
-  book.setIcon(stepForward, IconShape::kStepForward);
-  book.setIcon(loop, IconShape::kLoop);
-  book.setIcon(skipGaps, IconShape::kSkipGaps);
+  toStart->setIcon(makeIcon(IconShape::kToStart));
+  stepBack->setIcon(makeIcon(IconShape::kStepBack));
+  stepForward->setIcon(makeIcon(IconShape::kStepForward));
+  loop->setIcon(makeIcon(IconShape::kLoop));
+  skipGaps->setIcon(makeIcon(IconShape::kSkipGaps));
 }
 
 namespace {
@@ -49,9 +49,6 @@ PlaybackFeature::PlaybackFeature(WindowState& windowState, QWidget* window)
   connectActions();
   connect(
       &windowState.playback, &PlaybackController::stateChanged, this, &PlaybackFeature::showState);
-  followTheme(bar_);
-  connect(
-      &windowState.appearance, &ViewAppearance::themeChanged, this, &PlaybackFeature::showState);
 }
 
 void PlaybackFeature::connectActions() {
@@ -109,10 +106,9 @@ void PlaybackFeature::remember() {
 void PlaybackFeature::showState() {
   PlaybackActions& actions = actions_;
   const PlaybackController& playback = state().playback;
-  const Theme theme = state().appearance.theme();
   const bool playing = playback.playing();
   actions.play->setIconText(playing ? " Pause" : " Play");
-  actions.play->setIcon(makeIcon(playing ? IconShape::kPause : IconShape::kPlay, theme));
+  actions.play->setIcon(makeIcon(playing ? IconShape::kPause : IconShape::kPlay));
   actions.play->setToolTip(playing ? "Pause (Space)" : "Play at the recorded times (Space)");
   actions.loop->setChecked(playback.loop());
   actions.skipGaps->setChecked(playback.skipGaps());

@@ -26,11 +26,6 @@ SeekBar::SeekBar(QWidget* parent) : QSlider(Qt::Horizontal, parent) {
   setAccessibleName("Frame");
 }
 
-void SeekBar::setTheme(Theme theme) {
-  theme_ = theme;
-  update();
-}
-
 double SeekBar::pixelOf(int frame) const {
   const double span = width() - 2 * kHandleRadius;
   return kHandleRadius + (maximum() > 0 ? span * frame / maximum() : 0.0);
@@ -68,7 +63,7 @@ void SeekBar::wheelEvent(QWheelEvent* event) {
 }
 
 void SeekBar::paintEvent(QPaintEvent*) {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);

@@ -11,7 +11,6 @@ class SeekBar : public QSlider {
   Q_OBJECT
  public:
   explicit SeekBar(QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   // Convert between a frame and its horizontal position [px].
   double pixelOf(int frame) const;
   int frameAt(double pixel) const;
@@ -29,7 +28,6 @@ class SeekBar : public QSlider {
 
  private:
   void seekTo(double pixel);
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

@@ -43,11 +43,6 @@ void AnswerView::renewAccessibleName() {
   setAccessibleName(stale_.notice.isEmpty() ? answer_.accessibleText() : stale_.notice);
 }
 
-void AnswerView::setTheme(Theme theme) {
-  theme_ = theme;
-  update();
-}
-
 double AnswerView::textHeight() const {
   if (scale_ > 0.0) return scale_ * fontInfo().pixelSize();
   double unit = std::max(kLeastAnswerUnit, std::min(height() / kUnitsHigh, width() / kUnitsWide));
@@ -67,7 +62,7 @@ double AnswerView::neededHeight(double unit) const {
                            QRectF(air, air, width() - 2.0 * air, kAnyHeight),
                            answer_,
                            photo(),
-                           theme_,
+                           shownTheme(),
                            unit);
 }
 
@@ -98,12 +93,12 @@ void AnswerView::paintEvent(QPaintEvent*) {
   const double air = kAirUnits * unit;
   QPainter painter(this);
   paintAnswer(
-      painter, QRectF(rect()).adjusted(air, air, -air, -air), answer_, photo(), theme_, unit);
+      painter, QRectF(rect()).adjusted(air, air, -air, -air), answer_, photo(), shownTheme(), unit);
   if (stale_.notice.isEmpty()) return;
   QFont large = font();
   large.setPixelSize(std::max(1, static_cast<int>(unit)));
   painter.setFont(large);
-  paintStaleNotice(painter, rect(), stale_, theme_);
+  paintStaleNotice(painter, rect(), stale_);
 }
 
 }  // namespace palpate::gui

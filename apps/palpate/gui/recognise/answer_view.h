@@ -19,7 +19,6 @@ class AnswerView : public QWidget {
   // Greys the answer, with the reason why it isn't of now; empty: it is current.
   void setStale(const QString& reason);
   const QString& stale() const noexcept { return stale_.notice; }
-  void setTheme(Theme theme);
   // Height of plain text [px] with which the answer is painted now.
   double textHeight() const;
   QSize sizeHint() const override { return {380, 300}; }
@@ -42,7 +41,6 @@ class AnswerView : public QWidget {
   const double scale_;
   RecognitionAnswer answer_;
   StaleNotice stale_;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

@@ -172,6 +172,4 @@ void AskPage::showTelling() {
                                           : classes_->findText(answer.best.front().name));
 }
 
-void AskPage::setTheme(Theme theme) { view_->setTheme(theme); }
-
 }  // namespace palpate::gui

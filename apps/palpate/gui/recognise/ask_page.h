@@ -23,7 +23,6 @@ class AskPage : public QWidget {
   Q_OBJECT
  public:
   explicit AskPage(RecognitionController& controller, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   // `live`: a connected hand is shown, which can be asked repeatedly. `silence`: why nothing
   // arrives from it, so that it can't be asked; empty: frames arrive.
   void setLive(bool live, const QString& silence = {});

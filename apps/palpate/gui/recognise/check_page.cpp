@@ -255,13 +255,6 @@ void CheckPage::listCell(int truth, int called) {
   lists_->setCurrentWidget(grasps_);
 }
 
-void CheckPage::setTheme(Theme theme) {
-  theme_ = theme;
-  confusion_->setTheme(theme);
-  objects_->setTheme(theme);
-  grasps_->setTheme(theme);
-}
-
 std::vector<ExportedTable> CheckPage::tables() const {
   if (!shown()) return {};
   const auto check = controller_.checked();
@@ -270,7 +263,7 @@ std::vector<ExportedTable> CheckPage::tables() const {
 }
 
 void CheckPage::paint(QPainter& painter, const PictureLook& look) {
-  const Theme theme = look.forPrint ? Theme::kLight : theme_;
+  const Theme theme = look.forPrint ? Theme::kLight : shownTheme();
   const QRectF area(QPointF(0, 0), look.size);
   painter.fillRect(area, colorsOf(theme).window);
   QFont plain = font();

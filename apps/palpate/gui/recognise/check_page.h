@@ -25,7 +25,6 @@ class CheckPage : public QWidget {
   Q_OBJECT
  public:
   explicit CheckPage(TrainingController& controller, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   // The listed grasps as rows of the feature table.
   const std::vector<std::size_t>& listed() const noexcept { return listed_; }
   ConfusionView& confusion() noexcept { return *confusion_; }
@@ -57,7 +56,6 @@ class CheckPage : public QWidget {
   QStackedWidget* pages_;
   EmptyPage* empty_;
   std::vector<std::size_t> listed_;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

@@ -41,11 +41,6 @@ void ConfusionView::setMatrix(std::optional<ConfusionMatrix> matrix) {
   layOut();
 }
 
-void ConfusionView::setTheme(Theme theme) {
-  theme_ = theme;
-  viewport()->update();
-}
-
 QString ConfusionView::textOf(const Cell& cell) const {
   return confusionName(*matrix_, cell.first) + " called " + confusionName(*matrix_, cell.second) +
          ": " + QString::number(matrix_->at(cell.first, cell.second));
@@ -132,7 +127,8 @@ void ConfusionView::paintEvent(QPaintEvent*) {
   painter.setFont(font());
   const QRectF area = areaOf(*viewport());
   const ConfusionGrid grid = gridInSight();
-  paintConfusion(painter, area, grid, *matrix_, theme_, {chosen_, hovered_ ? hovered_ : chosen_});
+  paintConfusion(
+      painter, area, grid, *matrix_, shownTheme(), {chosen_, hovered_ ? hovered_ : chosen_});
 }
 
 void ConfusionView::resizeEvent(QResizeEvent*) { layOut(); }

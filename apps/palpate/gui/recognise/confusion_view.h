@@ -22,7 +22,6 @@ class ConfusionView : public QAbstractScrollArea {
   explicit ConfusionView(QWidget* parent = nullptr);
   void setMatrix(std::optional<ConfusionMatrix> matrix);
   const std::optional<ConfusionMatrix>& matrix() const noexcept { return matrix_; }
-  void setTheme(Theme theme);
   void choose(std::optional<Cell> cell);
   const std::optional<Cell>& chosen() const noexcept { return chosen_; }
   // Side of a cell [px]: the zoomed one, else one with legible names. setSide() limits the value;
@@ -68,7 +67,6 @@ class ConfusionView : public QAbstractScrollArea {
   std::optional<ConfusionMatrix> matrix_;
   std::optional<Cell> chosen_, hovered_;
   std::optional<double> side_;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

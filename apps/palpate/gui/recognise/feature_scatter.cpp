@@ -15,6 +15,7 @@
 #include "gui/chart/chart_style.h"
 #include "gui/chart/plot.h"
 #include "gui/recognise/grasp_table_model.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -102,7 +103,11 @@ FeatureScatter::FeatureScatter(QWidget* parent)
     item->setData(Qt::UserRole, !again);
     if (again) names_->setCurrentItem(nullptr);
   });
-  connect(names_, &QListWidget::itemSelectionChanged, this, &FeatureScatter::rebuild);
+  connect(names_, &QListWidget::itemSelectionChanged, this, [this] { rebuild(); });
+  fitToTheme(*this, [this] {
+    styleChart(*plot_);
+    rebuild();
+  });
 }
 
 void FeatureScatter::setTable(const std::shared_ptr<const FeatureTable>& table,
@@ -133,26 +138,20 @@ void FeatureScatter::setAxes(std::size_t x, std::size_t y) {
   fit();
 }
 
-void FeatureScatter::setTheme(Theme theme) {
-  theme_ = theme;
-  styleChart(*plot_, theme);
-  rebuild();
-}
-
 void FeatureScatter::choose(int row) {
   chosen_ = row;
   showChosen();
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
-void FeatureScatter::rebuild() {
+void FeatureScatter::rebuild(Theme theme) {
   plot_->clearGraphs();
   const int count = names_->count();
   const QListWidgetItem* alone =
       names_->selectedItems().isEmpty() ? nullptr : names_->selectedItems().front();
   const bool drawn = table_ && x_ < table_->names.size() && y_ < table_->names.size();
   for (int object = 0; object < count; ++object) {
-    const QColor full = objectColor(object, count, theme_);
+    const QColor full = objectColor(object, count, theme);
     names_->item(object)->setIcon(scatterIcon(object, full));
     if (!drawn) continue;
     QColor color = full;
@@ -188,7 +187,7 @@ void FeatureScatter::showChosen() {
   mark->position->setCoords(row.values[x_], row.values[y_]);
   mark->setStyle(QCPItemTracer::tsCircle);
   mark->setSize(2.0 * kScatterPoint);
-  mark->setPen(QPen(colorsOf(theme_).text, 2.0));
+  mark->setPen(QPen(colorsOf().text, 2.0));
 }
 
 void FeatureScatter::fit() {
@@ -236,20 +235,20 @@ QString FeatureScatter::tipOf(int row) const {
 }
 
 void FeatureScatter::paintPicture(QPainter& painter, const PictureLook& look) {
-  const Theme shown = theme_;
-  if (look.forPrint) setTheme(Theme::kLight);
+  const Theme theme = look.forPrint ? Theme::kLight : shownTheme();
+  if (look.forPrint) rebuild(theme);
   ChartPictureOptions options{.title = look.titled ? "grasps" : ""};
   for (int object = 0; object < names_->count(); ++object) {
-    const QColor color = objectColor(object, names_->count(), theme_);
+    const QColor color = objectColor(object, names_->count(), theme);
     options.legend.push_back(
         {names_->item(object)->text(), QPen(color), scatterStyle(object, color, false)});
   }
   if (std::find(leftOut_.begin(), leftOut_.end(), true) != leftOut_.end()) {
-    const QColor color = colorsOf(theme_).text;
+    const QColor color = colorsOf(theme).text;
     options.legend.push_back({"left out", QPen(color), scatterStyle(0, color, true)});
   }
   paintChart(painter, look, *plot_, options);
-  if (look.forPrint) setTheme(shown);
+  if (look.forPrint) rebuild();
 }
 
 void FeatureScatter::hover(QMouseEvent* event) {

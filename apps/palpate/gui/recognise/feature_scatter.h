@@ -21,7 +21,7 @@ class QPainter;
 namespace palpate::gui {
 
 // The colour of one of `count` objects.
-QColor objectColor(int object, int count, Theme theme);
+QColor objectColor(int object, int count, Theme theme = shownTheme());
 
 class FeatureScatter : public QWidget {
   Q_OBJECT
@@ -32,7 +32,6 @@ class FeatureScatter : public QWidget {
   void setLeftOut(std::vector<bool> leftOut);
   // Columns of the table along both axes.
   void setAxes(std::size_t x, std::size_t y);
-  void setTheme(Theme theme);
   // The chosen row of the table; -1: none.
   void choose(int row);
   int chosen() const noexcept { return chosen_; }
@@ -49,7 +48,7 @@ class FeatureScatter : public QWidget {
   void rowChosen(int row);
 
  private:
-  void rebuild();
+  void rebuild(Theme theme = shownTheme());
   void fit();
   void showChosen();
   void hover(QMouseEvent* event);
@@ -59,7 +58,6 @@ class FeatureScatter : public QWidget {
   std::size_t x_ = 0, y_ = 1;
   int chosen_ = -1;
   QPointF pressed_;
-  Theme theme_ = Theme::kDark;
   QCustomPlot* plot_;
   QListWidget* names_;
 };

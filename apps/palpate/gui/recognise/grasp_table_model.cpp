@@ -49,11 +49,6 @@ void GraspTableModel::setLeftOut(std::vector<bool> leftOut) {
   if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
 }
 
-void GraspTableModel::setTheme(Theme theme) {
-  theme_ = theme;
-  if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
-}
-
 int GraspTableModel::rowCount(const QModelIndex& parent) const {
   return parent.isValid() || !table_ ? 0 : static_cast<int>(table_->rows.size());
 }
@@ -101,7 +96,7 @@ QVariant GraspTableModel::data(const QModelIndex& index, int role) const {
     case Qt::TextAlignmentRole:
       return QVariant((isText ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     case Qt::ForegroundRole:
-      return out ? QVariant(colorsOf(theme_).muted) : QVariant();
+      return out ? QVariant(colorsOf().muted) : QVariant();
     case Qt::ToolTipRole:
       return (column == kObject ? text(row, kObject) + "\n" : QString()) + pathText(row.file) +
              ", frames " + QString::number(row.begin) + "–" + QString::number(row.end) +

@@ -29,7 +29,6 @@ class GraspTableModel : public QAbstractTableModel {
   // Null: no table. `leftOut`: for each row, whether it is left out.
   void setTable(const std::shared_ptr<const FeatureTable>& table, std::vector<bool> leftOut);
   void setLeftOut(std::vector<bool> leftOut);
-  void setTheme(Theme theme);
   const std::shared_ptr<const FeatureTable>& table() const noexcept { return table_; }
   bool isLeftOut(int row) const { return leftOut_.at(static_cast<std::size_t>(row)); }
 
@@ -49,7 +48,6 @@ class GraspTableModel : public QAbstractTableModel {
 
   std::shared_ptr<const FeatureTable> table_;
   std::vector<bool> leftOut_;
-  Theme theme_ = Theme::kDark;
 };
 
 // These rows of a feature table with all their columns, times in UTC.

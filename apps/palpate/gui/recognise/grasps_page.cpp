@@ -360,9 +360,4 @@ void GraspsPage::paint(QPainter& painter, const PictureLook& look) {
   scatter_->paintPicture(painter, look);
 }
 
-void GraspsPage::setTheme(Theme theme) {
-  model_->setTheme(theme);
-  scatter_->setTheme(theme);
-}
-
 }  // namespace palpate::gui

@@ -30,7 +30,6 @@ class GraspsPage : public QWidget {
  public:
   // Both must outlive the page.
   GraspsPage(TrainingController& controller, QSettings& settings, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   FeatureScatter& scatter() noexcept { return *scatter_; }
   QTableView& table() noexcept { return *view_; }
   // Chooses one row of the feature table, and no other.

@@ -21,23 +21,20 @@ constexpr int kShowRowMargin = 16;
 
 }  // namespace
 
-PresentationWindow::PresentationWindow(
-    RecognitionController& controller, HandCommands& hand, bool live, Theme theme, QWidget* parent)
-    : QWidget(parent, Qt::Window),
-      controller_(controller),
-      hand_(hand),
-      theme_(theme),
-      live_(live) {
+PresentationWindow::PresentationWindow(RecognitionController& controller,
+                                       HandCommands& hand,
+                                       bool live,
+                                       QWidget* parent)
+    : QWidget(parent, Qt::Window), controller_(controller), hand_(hand), live_(live) {
   setObjectName("showWindow");
   setWindowTitle("What is it? – Palpate");
   setAttribute(Qt::WA_DeleteOnClose);
   QPalette plain = palette();
-  plain.setColor(QPalette::Window, colorsOf(theme).window);
+  plain.setColor(QPalette::Window, colorsOf().window);
   setPalette(plain);
   setAutoFillBackground(true);
   view_ = new AnswerView(controller.photos(), 0.0, this);
   view_->setObjectName("showAnswer");
-  view_->setTheme(theme);
   showAnswer();
   connect(&controller, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
   auto* column = new QVBoxLayout(this);
@@ -109,7 +106,7 @@ QWidget* PresentationWindow::makeHandRow() {
 void PresentationWindow::showHand() {
   // What is wrong with the hand comes first; the dock Hand adds its answer to the key.
   const bool refused = !refused_.isEmpty() && !hand_.handStateBad();
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   handState_->setText(refused ? refused_ : hand_.handState());
   const QColor color = refused                ? colors.warning
                        : hand_.handStateBad() ? colors.danger

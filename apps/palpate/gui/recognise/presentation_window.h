@@ -24,7 +24,6 @@ class PresentationWindow : public QWidget {
   PresentationWindow(RecognitionController& controller,
                      HandCommands& hand,
                      bool live,
-                     Theme theme,
                      QWidget* parent = nullptr);
   AnswerView& view() noexcept { return *view_; }
   // `live`: a connected hand is shown, so that answers about recordings are left out.
@@ -49,7 +48,6 @@ class PresentationWindow : public QWidget {
 
   RecognitionController& controller_;
   HandCommands& hand_;
-  const Theme theme_;
   bool live_;
   AnswerView* view_;
   QWidget* handRow_;

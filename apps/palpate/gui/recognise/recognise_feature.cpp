@@ -81,7 +81,6 @@ void RecogniseFeature::connectAll() {
     renew();
     showWanted();
   });
-  connect(&windowState.appearance, &ViewAppearance::themeChanged, this, &RecogniseFeature::renew);
   connect(&windowState.live, &LiveController::sourceOpened, this, [this] { listen(true); });
   connect(&windowState.live, &LiveController::leaving, this, [this] { listen(false); });
   connect(&liveTimer_, &QTimer::timeout, this, &RecogniseFeature::readLiveGrasps);
@@ -94,7 +93,6 @@ void RecogniseFeature::connectAll() {
 }
 
 void RecogniseFeature::renew() {
-  panel_->setTheme(state().appearance.theme());
   if (!dock_->isVisible() && !full_) return;
   const LiveSource* source = state().live.source();
   const LiveSource* shown = state().displayed.source();
@@ -245,11 +243,8 @@ void RecogniseFeature::showFull() {
   const LiveSource* shown = state().displayed.source();
   panel_->controller().setEmulated(shown && shown->emulated);
   if (!panel_->controller().whyNoModel().isEmpty()) return showWhyNoModel();
-  full_ = new PresentationWindow(panel_->controller(),
-                                 state().handCommands,
-                                 state().displayed.source() != nullptr,
-                                 state().appearance.theme(),
-                                 window());
+  full_ = new PresentationWindow(
+      panel_->controller(), state().handCommands, state().displayed.source() != nullptr, window());
   connect(full_, &PresentationWindow::asked, this, &RecogniseFeature::ask);
   full_->showFullScreen();
   renew();
@@ -378,7 +373,7 @@ std::vector<ExportedView> RecogniseFeature::views() {
                 QRectF(QPointF(0, 0), look.size).adjusted(24, 24, -24, -24),
                 answer,
                 panel_->controller().photos().photo(answer.name()),
-                look.forPrint ? Theme::kLight : state().appearance.theme(),
+                look.forPrint ? Theme::kLight : shownTheme(),
                 look.textUnits > 0 ? look.textUnits : 16);
   };
   return {view};

@@ -59,16 +59,6 @@ RecognisePanel::RecognisePanel(QSettings& settings,
   showLastPage();
 }
 
-void RecognisePanel::setTheme(Theme theme) {
-  if (theme == theme_) return;
-  theme_ = theme;
-  ask_->setTheme(theme);
-  today_->setTheme(theme);
-  teach_->setTheme(theme);
-  grasps_->setTheme(theme);
-  check_->setTheme(theme);
-}
-
 bool RecognisePanel::cancel() { return controller_->cancel() || teaching_->cancel(); }
 
 void RecognisePanel::settle() {

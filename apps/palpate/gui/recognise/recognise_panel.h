@@ -24,7 +24,6 @@ class RecognisePanel : public PagedPanel {
   RecognisePanel(QSettings& settings,
                  const std::filesystem::path& dataFolder,
                  QWidget* parent = nullptr);
-  void setTheme(Theme theme);
 
   RecognitionController& controller() noexcept { return *controller_; }
   TrainingController& teaching() noexcept { return *teaching_; }
@@ -45,7 +44,6 @@ class RecognisePanel : public PagedPanel {
   void showEvent(QShowEvent* event) override;
 
  private:
-  std::optional<Theme> theme_;
   RecognitionController* controller_;
   TrainingController* teaching_;
   OpeningStrip* strip_;

@@ -204,6 +204,4 @@ void TodayPage::showDay() {
   grasps_->setRows(rows);
 }
 
-void TodayPage::setTheme(Theme theme) { grasps_->setTheme(theme); }
-
 }  // namespace palpate::gui

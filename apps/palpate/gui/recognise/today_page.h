@@ -25,7 +25,6 @@ class TodayPage : public QWidget {
   Q_OBJECT
  public:
   explicit TodayPage(RecognitionController& controller, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   // `why`: why the hand cannot be closed now; empty when it can. `closing`: the measurement is
   // running.
   void setZeroPossible(const QString& why, bool closing);

@@ -386,9 +386,4 @@ void TrainingPage::train() {
   controller_.train(out, zeroNow ? zeroNow() : std::nullopt);
 }
 
-void TrainingPage::setTheme(Theme theme) {
-  objects_->setTheme(theme);
-  clips_->setTheme(theme);
-}
-
 }  // namespace palpate::gui

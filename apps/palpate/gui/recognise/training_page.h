@@ -23,7 +23,6 @@ class TrainingPage : public QWidget {
   Q_OBJECT
  public:
   explicit TrainingPage(TrainingController& controller, QWidget* parent = nullptr);
-  void setTheme(Theme theme);
   // `live`: a hand is connected, so that grasps can be captured.
   void setLive(bool live);
   bool capturing() const;

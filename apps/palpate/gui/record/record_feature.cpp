@@ -178,12 +178,6 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     offering_ = false;
     offer_->say(text);
   });
-  followTheme(offer_);
-  connect(&windowState.appearance, &ViewAppearance::themeChanged, this, [this] {
-    // The old icon has the colours of the previous theme.
-    actions_.record->setIcon({});
-    showState();
-  });
   showState();
 }
 
@@ -319,8 +313,6 @@ void RecordFeature::showPlan() {
   if (!planDialog_) {
     planDialog_ = new PlanDialog(state(), plan_, actions_.record, window());
     planDialog_->escape = [this] { return escape(); };
-    planDialog_->question().setTheme(state().appearance.theme());
-    followTheme(&planDialog_->question());
     addKeysToPlan();
   }
   // Asked again where the user has closed the line.
@@ -625,8 +617,7 @@ void RecordFeature::showState() {
   const bool on = counting || (state().live.source() && state().live.recording());
   if (on != action->property(kRecordingProperty).toBool() || action->icon().isNull()) {
     action->setProperty(kRecordingProperty, on);
-    action->setIcon(
-        makeIcon(on ? IconShape::kStopRecording : IconShape::kRecord, state().appearance.theme()));
+    action->setIcon(makeIcon(on ? IconShape::kStopRecording : IconShape::kRecord));
     action->setText(on ? "Stop &recording" : "&Record");
   }
   const QString planned = on ? QString() : plannedText(plan_);

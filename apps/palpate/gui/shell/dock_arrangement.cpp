@@ -276,10 +276,6 @@ void DockArrangement::remember() {
   settings_.setValue("window/live_layout", layouts_[Kind::kLive]);
 }
 
-void DockArrangement::setTheme(Theme theme) {
-  for (const DockSpec& offer : offers_) offer.dock->setTheme(theme);
-}
-
 QStringList DockArrangement::names() const {
   QStringList names;
   for (const DockSpec& offer : offers_) names.append(offer.dock->objectName());

@@ -41,7 +41,6 @@ class DockArrangement : public QObject {
   void hideAll();
   void bringBack();
   void remember();
-  void setTheme(Theme theme);
 
   QStringList names() const;
   // Shows one of names() and makes it large enough to be read.

@@ -32,6 +32,7 @@ HandChip::HandChip(QAction& acknowledge, QWidget* parent)
     acknowledge_.trigger();
   });
   connect(&acknowledge_, &QAction::changed, this, &HandChip::explain);
+  fitToTheme(*this, [this] { style(); });
 }
 
 void HandChip::fit() {
@@ -50,16 +51,14 @@ void HandChip::setNarrow(bool on) {
   style();
 }
 
-void HandChip::setCondition(const ExplainedCondition& condition, Theme theme) {
+void HandChip::setCondition(const ExplainedCondition& condition) {
   const QString word = conditionWord(condition.condition);
   if (!narrow_ && text() != word) setText(word);
   if (accessibleName() != word) setAccessibleName(word);
   sentence_ = "The hand is " + word + ": " + QString::fromStdString(condition.sentence) + ".";
   explain();
-  if (styled_ && condition_ == condition.condition && theme_ == theme) return;
+  if (condition_ == condition.condition) return;
   condition_ = condition.condition;
-  theme_ = theme;
-  styled_ = true;
   style();
 }
 
@@ -71,10 +70,10 @@ void HandChip::explain() {
 
 // What needs attention is filled, and what has no word.
 void HandChip::style() {
-  const QColor color = conditionColor(condition_, theme_);
+  const QColor color = conditionColor(condition_);
   const bool filled =
       narrow_ || condition_ == HandCondition::kNotProtected || condition_ == HandCondition::kGone;
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   setStyleSheet(QString("#handChip { color: %1; background: %2; border: 1px solid %3; "
                         "border-radius: 10px; padding: 2px %4px; }")
                     .arg((filled ? colors.window : color).name(),

@@ -18,7 +18,7 @@ class HandChip : public QPushButton {
   // `acknowledge`: enabled while there is something to acknowledge; must outlive this.
   HandChip(QAction& acknowledge, QWidget* parent);
   // The width stays the same: no button beside it moves.
-  void setCondition(const ExplainedCondition& condition, Theme theme);
+  void setCondition(const ExplainedCondition& condition);
   // Where there is no room for the word: its colour alone.
   void setNarrow(bool on);
 
@@ -30,8 +30,6 @@ class HandChip : public QPushButton {
   QAction& acknowledge_;
   HandCondition condition_ = HandCondition::kReady;
   QString sentence_;
-  Theme theme_ = Theme::kDark;
-  bool styled_ = false;
   bool narrow_ = false;
 };
 

@@ -224,20 +224,14 @@ void MainWindow::showTitle() {
 }
 
 void MainWindow::showTheme() {
-  const Theme theme = windowState_->appearance.theme();
-  applyTheme(*qApp, theme);
-  windowState_->actions.setTheme(theme);
-  banner_->setTheme(theme);
-  docks_->setTheme(theme);
+  applyTheme(*qApp, windowState_->appearance.theme());
   showBorder();
 }
 
 void MainWindow::showBorder() {
   fitMenus();
   const auto& condition = windowState_->handCommands.condition();
-  centre_->setBorder(condition
-                         ? conditionColor(condition->condition, windowState_->appearance.theme())
-                         : QColor());
+  centre_->setBorder(condition ? conditionColor(condition->condition) : QColor());
 }
 
 void MainWindow::setFullScreen(bool on) {

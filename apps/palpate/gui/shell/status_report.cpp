@@ -42,10 +42,6 @@ StatusReport::StatusReport(WindowState& windowState, StatusStrip& strip, WindowM
   });
   connect(
       &windowState.handCommands, &HandCommands::conditionChanged, this, &StatusReport::reportHand);
-  connect(&windowState.appearance, &ViewAppearance::themeChanged, this, [this] {
-    reportHand();
-    strip_.setTheme(windowState_.appearance.theme());
-  });
 }
 
 void StatusReport::reportLink() {
@@ -61,9 +57,7 @@ void StatusReport::reportLink() {
   menus_.showLink(describe(source->connection) + how, !live.stale());
 }
 
-void StatusReport::reportHand() {
-  menus_.showHand(windowState_.handCommands.condition(), windowState_.appearance.theme());
-}
+void StatusReport::reportHand() { menus_.showHand(windowState_.handCommands.condition()); }
 
 void StatusReport::report() {
   if (windowState_.displayed.isLive()) return reportLive();

@@ -348,8 +348,8 @@ void WindowMenus::showLink(const QString& text, bool good) {
   link_->style()->polish(link_);
 }
 
-void WindowMenus::showHand(const std::optional<ExplainedCondition>& condition, Theme theme) {
-  if (condition) chip_->setCondition(*condition, theme);
+void WindowMenus::showHand(const std::optional<ExplainedCondition>& condition) {
+  if (condition) chip_->setCondition(*condition);
   if (chipShown_->isVisible() != condition.has_value())
     chipShown_->setVisible(condition.has_value());
 }

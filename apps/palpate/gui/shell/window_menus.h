@@ -44,7 +44,7 @@ class WindowMenus {
   void showLink(const QString& text, bool good);
   int chipWidth() const;  // [px]; 0: there is no chip of a hand
   // Shows the condition of the connected hand; nothing: no hand is connected that can be moved.
-  void showHand(const std::optional<ExplainedCondition>& condition, Theme theme);
+  void showHand(const std::optional<ExplainedCondition>& condition);
 
  private:
   QMainWindow& window_;

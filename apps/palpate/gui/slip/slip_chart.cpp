@@ -1,8 +1,5 @@
 #include "gui/slip/slip_chart.h"
 
-#include <QHelpEvent>
-#include <QMouseEvent>
-#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,34 +19,15 @@ constexpr double kSlipChartNothing = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-SlipChart::SlipChart(QWidget* parent) : QCustomPlot(parent) {
+SlipChart::SlipChart(QWidget* parent) : Chart(parent) {
   setObjectName("slipChart");
   setAccessibleName("Motion since the reference, and rotation, over time");
-  arrangeChart(*this);
-  setMouseTracking(true);
   shift_ = addGraph();
-  turns_ = new QCPAxisRect(this);
-  plotLayout()->addElement(1, 0, turns_);
-  plotLayout()->setRowSpacing(0);
-  plotLayout()->setRowStretchFactor(1, kTurnShare);
-  auto* sides = new QCPMarginGroup(this);
-  for (QCPAxisRect* each : {axisRect(), turns_})
-    each->setMarginGroup(QCP::msLeft | QCP::msRight, sides);
+  turns_ = addBelow(kTurnShare);
   axisRect()->setMinimumMargins(QMargins(52, 10, 20, 4));
   turns_->setMinimumMargins(QMargins(52, 4, 20, 10));
-  xAxis->setTickLabels(false);
   QCPAxis* time = turns_->axis(QCPAxis::atBottom);
   QCPAxis* degrees = turns_->axis(QCPAxis::atLeft);
-  for (QCPAxis* axis : {time, degrees}) {
-    axis->setNumberFormat("gb");
-    axis->setTickLengthIn(0);
-    axis->setTickLengthOut(4);
-    axis->setLayer("axes");
-    axis->grid()->setLayer("grid");
-  }
-  time->grid()->setVisible(false);
-  time->ticker()->setTickCount(9);
-  degrees->ticker()->setTickCount(4);
   time->setLabel("time from the first frame in s");
   turn_ = addGraph(time, degrees);
   for (int i = 0; i < 3; ++i) {
@@ -64,10 +42,8 @@ SlipChart::SlipChart(QWidget* parent) : QCustomPlot(parent) {
     line->setClipAxisRect(rect);
     limits_.push_back(line);
   }
-  cursor_ = new QWidget(this);
-  cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  connect(this, &QCustomPlot::afterReplot, this, &SlipChart::placeCursor);
-  style();
+  addCursor();
+  restyle();
 }
 
 void SlipChart::setSeries(const SlipSeries* series, std::size_t matrix, const QString& name) {
@@ -102,19 +78,13 @@ void SlipChart::setSeries(const SlipSeries* series, std::size_t matrix, const QS
     }
     for (const SlipSegment& slip : series->slips) {
       if (slip.matrix != matrix) continue;
-      QCPItemRect* shade =
-          shadeSpan(*this, series->timeS[slip.begin], series->timeS[slip.end], theme_);
+      QCPItemRect* shade = shadeSpan(*this, series->timeS[slip.begin], series->timeS[slip.end]);
       shades_.push_back(shade);
     }
   }
   shift_->data()->set(shift, true);
   turn_->data()->set(turn, true);
-  style();
-}
-
-void SlipChart::setTheme(Theme theme) {
-  theme_ = theme;
-  style();
+  restyle();
 }
 
 void SlipChart::placeLimits() {
@@ -130,46 +100,22 @@ void SlipChart::placeLimits() {
 }
 
 void SlipChart::style() {
-  const ThemeColors& colors = colorsOf(theme_);
-  styleChart(*this, theme_);
+  const ThemeColors& colors = colorsOf();
   QCPAxis* degrees = turns_->axis(QCPAxis::atLeft);
-  styleExtraAxis(*turns_->axis(QCPAxis::atBottom), *this, theme_);
   turns_->axis(QCPAxis::atBottom)->ticker()->setTickCount(9);
-  styleExtraAxis(*degrees, *this, theme_);
   degrees->grid()->setVisible(true);
   // Each chart has half of the height.
   const bool low = height() < 2 * 190;
   yAxis->setLabel(low ? "taxels" : "since reference in taxels");
   for (QCPAxis* axis : {yAxis, degrees}) axis->ticker()->setTickCount(low ? 2 : 4);
   degrees->setLabel(low ? "deg" : "rotation in deg");
-  const QColor color = matrixColor(matrix_, theme_);
+  const QColor color = matrixColor(matrix_);
   for (QCPGraph* each : {shift_, turn_}) each->setPen(QPen(color, 1.5));
   for (QCPItemLine* line : limits_) line->setPen(QPen(colors.danger, 1.0, Qt::DashLine));
   QColor shade = colors.danger;
   shade.setAlphaF(0.16F);
   for (QCPItemRect* each : shades_) each->setBrush(shade);
-  cursor_->setStyleSheet("background: " + colors.accent.name());
   placeLimits();
-  replot(QCustomPlot::rpQueuedReplot);
-}
-
-void SlipChart::setVisibleRange(double fromS, double toS) {
-  if (!(toS > fromS)) return;
-  for (QCPAxis* axis : {xAxis, turns_->axis(QCPAxis::atBottom)}) axis->setRange(fromS, toS);
-  replot(QCustomPlot::rpQueuedReplot);
-}
-
-void SlipChart::setPosition(double seconds) {
-  positionS_ = seconds;
-  placeCursor();
-}
-
-void SlipChart::placeCursor() {
-  const QRect plot = axisRect()->rect();
-  const int x = static_cast<int>(std::lround(xAxis->coordToPixel(positionS_)));
-  const bool inside = x >= plot.left() && x <= plot.right() + 1;
-  cursor_->setGeometry(x - 1, plot.top(), 2, turns_->rect().bottom() - plot.top());
-  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
 }
 
 void SlipChart::paint(QPainter& painter, const PictureLook& look, const QString& title) {
@@ -180,31 +126,15 @@ void SlipChart::paint(QPainter& painter, const PictureLook& look, const QString&
       {.title = title, .legend = {{name_, shift_->pen()}, {"threshold", limits_.front()->pen()}}});
 }
 
-void SlipChart::mousePressEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton)
-    emit seekRequested(xAxis->pixelToCoord(event->position().x()));
-}
-
-void SlipChart::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() & Qt::LeftButton)
-    emit seekRequested(xAxis->pixelToCoord(event->position().x()));
-}
-
-bool SlipChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    const double at = xAxis->pixelToCoord(help->pos().x());
-    const auto shift = shift_->data()->findBegin(at);
-    const auto turn = turn_->data()->findBegin(at);
-    if (shift == shift_->data()->constEnd()) return true;
-    QString text = figure(shift->key, 2) + " s";
-    if (std::isfinite(shift->value)) text += "\n" + figure(shift->value, 2) + " taxels";
-    if (std::isfinite(turn->value)) text += "\n" + figure(turn->value, 1) + "°";
-    QToolTip::showText(help->globalPos(), text, this);
-    return true;
-  }
-  if (event->type() == QEvent::FontChange || event->type() == QEvent::Resize) style();
-  return QCustomPlot::event(event);
+QString SlipChart::readingAt(const QPointF& at) const {
+  const double seconds = secondsAt(at.x());
+  const auto shift = shift_->data()->findBegin(seconds);
+  const auto turn = turn_->data()->findBegin(seconds);
+  if (shift == shift_->data()->constEnd()) return {};
+  QString text = figure(shift->key, 2) + " s";
+  if (std::isfinite(shift->value)) text += "\n" + figure(shift->value, 2) + " taxels";
+  if (std::isfinite(turn->value)) text += "\n" + figure(turn->value, 1) + "°";
+  return text;
 }
 
 }  // namespace palpate::gui

@@ -9,40 +9,30 @@
 
 #include <palpate/slip/slip_series.h>
 
-#include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/chart.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
 
-class SlipChart : public QCustomPlot {
+class SlipChart : public Chart {
   Q_OBJECT
  public:
   explicit SlipChart(QWidget* parent = nullptr);
 
   // Null: shows nothing.
   void setSeries(const SlipSeries* series, std::size_t matrix, const QString& name);
-  void setVisibleRange(double fromS, double toS);
-  void setPosition(double seconds);
-  void setTheme(Theme theme);
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
   // The number of shaded time spans, for tests.
   std::size_t numShades() const noexcept { return shades_.size(); }
+  QString readingAt(const QPointF& at) const override;
   QSize sizeHint() const override { return {440, 240}; }
   QSize minimumSizeHint() const override { return {220, 150}; }
 
- signals:
-  void seekRequested(double seconds);
-
  protected:
-  void mousePressEvent(QMouseEvent* event) override;
-  void mouseMoveEvent(QMouseEvent* event) override;
-  bool event(QEvent* event) override;
+  void style() override;
 
  private:
-  void style();
-  void placeCursor();
   void placeLimits();
 
   QCPAxisRect* turns_;
@@ -56,9 +46,6 @@ class SlipChart : public QCustomPlot {
   QString name_;
   SlipSeriesOptions options_;
   double maxTaxels_ = 0.0, minDeg_ = 0.0, maxDeg_ = 0.0;
-  Theme theme_ = Theme::kDark;
-  QWidget* cursor_;
-  double positionS_ = 0.0;
 };
 
 }  // namespace palpate::gui

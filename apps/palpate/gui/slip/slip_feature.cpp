@@ -78,10 +78,7 @@ void SlipFeature::takeSource() {
   panel_->setPosition(state().playback.positionS());
 }
 
-void SlipFeature::takeLook() {
-  panel_->setTheme(state().appearance.theme());
-  panel_->setMap(state().appearance.view().map);
-}
+void SlipFeature::takeLook() { panel_->setMap(state().appearance.view().map); }
 
 void SlipFeature::showLive(const LiveResults& results) {
   const LiveSource* source = state().live.source();

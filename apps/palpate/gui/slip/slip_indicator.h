@@ -18,8 +18,8 @@ enum class IndicatorLook { kOff, kReady, kUnsure, kSlipping };
 // Null: the matrix is not touched.
 IndicatorLook indicatorOf(const SlipSample* sample);
 // Colour and icon of a symbol.
-QColor colorOf(IndicatorLook look, Theme theme);
-QIcon indicatorIcon(IndicatorLook look, Theme theme);
+QColor colorOf(IndicatorLook look, Theme theme = shownTheme());
+QIcon indicatorIcon(IndicatorLook look, Theme theme = shownTheme());
 // "still", "load shift", ..; "no contact"
 QString stateTextOf(const SlipSample* sample);
 // Explains the state in one sentence.

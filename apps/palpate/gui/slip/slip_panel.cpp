@@ -110,6 +110,10 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   connect(chart_, &SlipChart::seekRequested, this, &SlipPanel::seekRequested);
   connect(controls_, &SlipControls::changed, this, &SlipPanel::changed);
   connect(controls_, &SlipControls::referenceRequested, this, &SlipPanel::setReference);
+  // The icons of the rows have colours.
+  fitToTheme(*this, [this] {
+    if (hand() && found()) showRows();
+  });
 }
 
 const HandDescription* SlipPanel::hand() const {
@@ -232,14 +236,6 @@ void SlipPanel::setVisibleRange(double fromS, double toS) {
 
 void SlipPanel::setMap(ColorMapName map) { drawing_->setMap(map); }
 
-void SlipPanel::setTheme(Theme theme) {
-  theme_ = theme;
-  list_->setTheme(theme);
-  drawing_->setTheme(theme);
-  chart_->setTheme(theme);
-  if (hand() && found()) showRows();
-}
-
 void SlipPanel::setPosition(double seconds) {
   positionS_ = seconds;
   if (live()) return;
@@ -275,7 +271,7 @@ void SlipPanel::showRows() {
                              ? QString::fromStdString(hand()->matrices.at(m).shortName)
                              : nameOfMatrix(m);
     std::vector<FigureCell> row = {
-        {.text = name, .tip = nameOfMatrix(m), .icon = indicatorIcon(indicator, theme_)},
+        {.text = name, .tip = nameOfMatrix(m), .icon = indicatorIcon(indicator)},
         {.text = stateTextOf(sample), .tip = meaningOf(sample)}};
     const auto add = [&](bool known, const QString& text, const QString& tip, bool warning) {
       row.push_back({.text = known ? text : QString("–"),
@@ -405,8 +401,9 @@ void SlipPanel::paint(QPainter& painter, const PictureLook& look, const QString&
   const double width = look.size.width() * kPictureDrawing;
   chart.size.setWidth(look.size.width() - width);
   painter.save();
-  drawing_->paint(
-      painter, QRectF(0.0, 0.0, width, look.size.height()), look.forPrint ? Theme::kLight : theme_);
+  drawing_->paint(painter,
+                  QRectF(0.0, 0.0, width, look.size.height()),
+                  look.forPrint ? Theme::kLight : shownTheme());
   painter.translate(width, 0.0);
   chart_->paint(painter, chart, title);
   painter.restore();

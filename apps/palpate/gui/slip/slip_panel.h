@@ -26,7 +26,6 @@ class SlipPanel : public ComputedPage {
   Q_OBJECT
  public:
   explicit SlipPanel(QSettings& settings, QWidget* parent = nullptr);
-  void setTheme(Theme theme) override;
   void setPosition(double seconds) override;
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
@@ -86,7 +85,6 @@ class SlipPanel : public ComputedPage {
   const HandDescription* hand() const;
   const SlipSample* sampleNow(std::size_t matrix) const;
 
-  Theme theme_ = Theme::kDark;
   // Results of recent recordings and options, newest first.
   std::list<Kept> kept_;
   Found found_;

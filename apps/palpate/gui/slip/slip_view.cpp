@@ -104,11 +104,6 @@ void SlipView::clear() {
   update();
 }
 
-void SlipView::setTheme(Theme theme) {
-  theme_ = theme;
-  update();
-}
-
 void SlipView::setMap(ColorMapName map) {
   if (map == map_) return;
   map_ = map;
@@ -257,7 +252,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
 
 void SlipView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  paint(painter, rect(), theme_);
+  paint(painter, rect(), shownTheme());
 }
 
 }  // namespace palpate::gui

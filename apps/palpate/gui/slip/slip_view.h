@@ -44,7 +44,6 @@ class SlipView : public QWidget {
   void setScene(const SlipViewData& scene);
   void clear();
   const std::optional<SlipViewData>& scene() const noexcept { return scene_; }
-  void setTheme(Theme theme);
   void setMap(ColorMapName map);
   void paint(QPainter& painter, const QRectF& area, Theme theme) const;
   // The pixel position of a point of the matrix.
@@ -62,7 +61,6 @@ class SlipView : public QWidget {
   Place placeIn(const QRectF& area) const;
 
   std::optional<SlipViewData> scene_;
-  Theme theme_ = Theme::kDark;
   ColorMapName map_ = ColorMapName::kInferno;
 };
 

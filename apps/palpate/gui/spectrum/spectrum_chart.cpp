@@ -18,7 +18,6 @@ constexpr double kSpectrumChartHeadroom = 1.06;
 constexpr double kSignalShare = 0.55;         // height of the signal relative to the spectrogram
 constexpr int kSpectrumChartCursorWidth = 4;  // [px] with its edges
 constexpr int kSpectrumChartBarWidth = 12;    // [px] of the colours
-constexpr double kSpectrumChartWheelPan = 0.1;
 // [s]; longer time spans are labelled in other units, as in the timeline.
 constexpr double kSpectrumChartLongestInS = 1200.0;
 constexpr int kLowBelow = 230;  // [px]; lower: no room for names of axes
@@ -75,31 +74,21 @@ std::vector<QString> spectrumNotes(const SpectrumReport& report, const SpectrumO
   return {what + " · " + rest, what, nyquist + "; " + grid, nyquist};
 }
 
-SpectrumChart::SpectrumChart(QWidget* parent) : ReadingChart(parent) {
+SpectrumChart::SpectrumChart(QWidget* parent) : Chart(parent) {
   setObjectName("spectrumChart");
   setAccessibleName("Signal and its spectra");
-  arrangeChart(*this);
-  setMouseTracking(true);
-  xAxis->setTickLabels(false);
   axisRect()->setMinimumMargins(QMargins(timeAxisLeft(*this), 8, 8, 4));
   addGraph();
-  spectra_ = new QCPAxisRect(this);
-  plotLayout()->addElement(1, 0, spectra_);
+  spectra_ = addBelow(1.0);
   plotLayout()->setRowStretchFactor(0, kSignalShare);
-  plotLayout()->setRowSpacing(0);
   time_ = spectra_->axis(QCPAxis::atBottom);
   frequency_ = spectra_->axis(QCPAxis::atLeft);
-  time_->ticker()->setTickCount(9);
   frequency_->setLabel("frequency in Hz");
-  for (QCPAxis* axis : {time_, frequency_}) axis->setLayer("axes");
   colors_ = new QCPColorScale(this);
   plotLayout()->addElement(1, 1, colors_);
   colors_->setType(QCPAxis::atRight);
   colors_->setBarWidth(kSpectrumChartBarWidth);
   plotLayout()->setColumnStretchFactor(1, 0.001);
-  auto* sides = new QCPMarginGroup(this);
-  axisRect()->setMarginGroup(QCP::msLeft | QCP::msRight, sides);
-  spectra_->setMarginGroup(QCP::msLeft | QCP::msRight, sides);
   auto* heights = new QCPMarginGroup(this);
   spectra_->setMarginGroup(QCP::msTop | QCP::msBottom, heights);
   colors_->setMarginGroup(QCP::msTop | QCP::msBottom, heights);
@@ -111,21 +100,18 @@ SpectrumChart::SpectrumChart(QWidget* parent) : ReadingChart(parent) {
   note_->setPositionAlignment(Qt::AlignLeft | Qt::AlignBottom);
   note_->setClipToAxisRect(false);
   note_->setPadding(QMargins(0, 0, 0, 3));
-  cursor_ = new QWidget(this);
-  cursor_->setObjectName("cursor");
-  cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  addCursor(kSpectrumChartCursorWidth);
   connect(this, &QCustomPlot::afterReplot, this, [this] {
-    placeCursor();
     if (isVisible()) emit rightChanged(width() - spectra_->rect().right() - 1);
   });
+  restyle();
 }
 
 void SpectrumChart::setAnswer(const SpectrumAnswer& answer) {
   answer_ = answer;
   fillSignal();
   fillSpectra();
-  style();
-  replot(QCustomPlot::rpQueuedReplot);
+  restyle();
 }
 
 void SpectrumChart::fillSignal() {
@@ -203,17 +189,9 @@ void SpectrumChart::setMap(ColorMapName map) {
   replot(QCustomPlot::rpQueuedReplot);
 }
 
-void SpectrumChart::setTheme(Theme theme) {
-  theme_ = theme;
-  style();
-  replot(QCustomPlot::rpQueuedReplot);
-}
-
 void SpectrumChart::style() {
-  const ThemeColors& colors = colorsOf(theme_);
-  styleChart(*this, theme_);
-  for (QCPAxis* axis : spectra_->axes()) styleExtraAxis(*axis, *this, theme_);
-  styleExtraAxis(*colors_->axis(), *this, theme_);
+  const ThemeColors& colors = colorsOf();
+  styleExtraAxis(*colors_->axis(), *this);
   // A signal from one matrix has the colour of that matrix.
   std::size_t matrix = 0, touched = 0;
   for (std::size_t m = 0; m < answer_.taxels.numMatrices(); ++m) {
@@ -222,11 +200,11 @@ void SpectrumChart::style() {
     matrix = m;
     ++touched;
   }
-  graph(0)->setPen(curvePen(matrix, touched > 1, theme_));
+  graph(0)->setPen(curvePen(matrix, touched > 1));
   note_->setColor(colors.text);
   note_->setFont(font());
   // Edges make the cursor visible on dark colours.
-  cursor_->setStyleSheet("background: " + colors.accent.name() + "; border: 0 solid " +
+  cursor().setStyleSheet("background: " + colors.accent.name() + "; border: 0 solid " +
                          colors.window.name() +
                          "; border-left-width: 1px; border-right-width: 1px");
   writeNotes();
@@ -263,7 +241,7 @@ void SpectrumChart::writeNotes() {
 }
 
 void SpectrumChart::setVisibleRange(double fromS, double toS) {
-  for (QCPAxis* axis : {xAxis, time_}) axis->setRange(fromS, toS);
+  Chart::setVisibleRange(fromS, toS);
   if (toS > kSpectrumChartLongestInS && !time_->ticker().dynamicCast<QCPAxisTickerTime>()) {
     const QSharedPointer<QCPAxisTickerTime> clock(new QCPAxisTickerTime);
     clock->setTimeFormat("%h:%m:%s");
@@ -274,27 +252,9 @@ void SpectrumChart::setVisibleRange(double fromS, double toS) {
     time_->ticker()->setTickCount(9);
   }
   nameAxes();
-  replot(QCustomPlot::rpQueuedReplot);
 }
 
-void SpectrumChart::setPosition(double seconds) {
-  positionS_ = seconds;
-  placeCursor();
-}
-
-void SpectrumChart::placeCursor() {
-  const QRect plot = axisRect()->rect();
-  const int x = static_cast<int>(std::lround(xAxis->coordToPixel(positionS_)));
-  const bool inside = x >= plot.left() - 1 && x <= plot.right() + 2;
-  const QRect place(x - kSpectrumChartCursorWidth / 2,
-                    plot.top(),
-                    kSpectrumChartCursorWidth,
-                    spectra_->rect().bottom() - plot.top());
-  if (cursor_->geometry() != place) cursor_->setGeometry(place);
-  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
-}
-
-QString SpectrumChart::valuesAt(const QPointF& at) const {
+QString SpectrumChart::readingAt(const QPointF& at) const {
   if (!answer_.spectrogram) return {};
   const double seconds = secondsAt(at.x());
   const QString time = figure(seconds, 2) + " s";
@@ -347,36 +307,8 @@ void SpectrumChart::paint(QPainter& painter,
   axis.setTickLabelFont(fontBefore);
 }
 
-void SpectrumChart::mousePressEvent(QMouseEvent* event) {
-  if (event->button() != Qt::LeftButton) return;
-  seeking_ = true;
-  emit seekRequested(secondsAt(event->position().x()));
-}
-
-void SpectrumChart::mouseMoveEvent(QMouseEvent* event) {
-  if (seeking_) emit seekRequested(secondsAt(event->position().x()));
-}
-
-void SpectrumChart::mouseReleaseEvent(QMouseEvent*) { seeking_ = false; }
-
 void SpectrumChart::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() == Qt::LeftButton) emit fitRequested();
-}
-
-void SpectrumChart::wheelEvent(QWheelEvent* event) {
-  const double notches = event->angleDelta().y() / kWheelNotch;
-  const double sideways = event->angleDelta().x() / kWheelNotch;
-  if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier)
-    emit panRequested(-(sideways != 0.0 ? sideways : notches) * kSpectrumChartWheelPan *
-                      xAxis->range().size());
-  else
-    emit zoomRequested(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
-  event->accept();
-}
-
-void SpectrumChart::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
-  writeNotes();
 }
 
 void SpectrumChart::hideEvent(QHideEvent* event) {

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "gui/appearance/color_map.h"
-#include "gui/appearance/theme.h"
-#include "gui/chart/reading_chart.h"
+#include "gui/chart/chart.h"
 #include "gui/picture/exported_view.h"
 #include "gui/spectrum/spectrum_worker.h"
 
@@ -25,7 +24,7 @@ QString nameOf(SpectrumScale scale);
 // longest first.
 std::vector<QString> spectrumNotes(const SpectrumReport& report, const SpectrumOptions& options);
 
-class SpectrumChart : public ReadingChart {
+class SpectrumChart : public Chart {
   Q_OBJECT
  public:
   explicit SpectrumChart(QWidget* parent = nullptr);
@@ -35,20 +34,16 @@ class SpectrumChart : public ReadingChart {
   const SpectrumAnswer& answer() const noexcept { return answer_; }
   void setScale(SpectrumScale scale);
   void setMap(ColorMapName map);
-  void setTheme(Theme theme);
-  void setVisibleRange(double fromS, double toS);
-  void setPosition(double seconds);
-  // The tool tip at a point.
-  QString valuesAt(const QPointF& at) const;
+  void setVisibleRange(double fromS, double toS) override;
   QString notes() const { return note_->text(); }
   // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title, const QString& name);
 
+  QString readingAt(const QPointF& at) const override;
   QSize sizeHint() const override { return {900, 280}; }
   QSize minimumSizeHint() const override { return {260, 180}; }
 
  signals:
-  void seekRequested(double seconds);
   void zoomRequested(double seconds, double factor);
   void panRequested(double seconds);
   void fitRequested();
@@ -56,29 +51,22 @@ class SpectrumChart : public ReadingChart {
   void rightChanged(int px);
 
  protected:
-  void mousePressEvent(QMouseEvent* event) override;
-  void mouseMoveEvent(QMouseEvent* event) override;
-  void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
-  void wheelEvent(QWheelEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
   void hideEvent(QHideEvent* event) override;
-  QString readingAt(const QPoint& at) const override { return valuesAt(at); }
-  void restyle() override { style(); }
+  void style() override;
+  void resized() override { writeNotes(); }
+  void panBy(double seconds) override { emit panRequested(seconds); }
+  void zoomAbout(double seconds, double factor) override { emit zoomRequested(seconds, factor); }
 
  private:
   void fillSignal();
   void fillSpectra();
-  void style();
   void writeNotes();
   void nameAxes();
-  void placeCursor();
-  double secondsAt(double pixel) const { return xAxis->pixelToCoord(pixel); }
 
   SpectrumAnswer answer_;
   SpectrumScale scale_ = SpectrumScale::kDecibels;
   ColorMapName map_ = ColorMapName::kInferno;
-  Theme theme_ = Theme::kDark;
   QCPAxisRect* spectra_;
   // Axes of the spectrogram.
   QCPAxis* time_;
@@ -87,9 +75,6 @@ class SpectrumChart : public ReadingChart {
   QCPItemText* note_;
   // One map for each part.
   std::vector<QCPColorMap*> maps_;
-  QWidget* cursor_;
-  double positionS_ = 0.0;
-  bool seeking_ = false;
 };
 
 }  // namespace palpate::gui

@@ -69,10 +69,7 @@ void SpectrumFeature::takeSight() {
   panel_->setVisibleRange(seen.fromS, seen.toS);
 }
 
-void SpectrumFeature::takeLook() {
-  panel_->setMap(state().appearance.view().map);
-  panel_->setTheme(state().appearance.theme());
-}
+void SpectrumFeature::takeLook() { panel_->setMap(state().appearance.view().map); }
 
 void SpectrumFeature::settle() { panel_->settle(); }
 

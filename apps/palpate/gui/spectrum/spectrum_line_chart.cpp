@@ -17,10 +17,9 @@ constexpr int kLowLineChart = 190;  // [px]; lower: no room for names of axes
 
 }  // namespace
 
-SpectrumLineChart::SpectrumLineChart(QWidget* parent) : ReadingChart(parent) {
+SpectrumLineChart::SpectrumLineChart(QWidget* parent) : Chart(parent) {
   setObjectName("spectrumLineChart");
   setAccessibleName("Mean spectrum or coherence");
-  arrangeChart(*this);
   axisRect()->setMinimumMargins(QMargins(timeAxisLeft(*this), fontMetrics().height() + 8, 12, 8));
   addGraph();
   peaks_ = addGraph();
@@ -34,6 +33,7 @@ SpectrumLineChart::SpectrumLineChart(QWidget* parent) : ReadingChart(parent) {
   note_->setPositionAlignment(Qt::AlignLeft | Qt::AlignBottom);
   note_->setClipToAxisRect(false);
   note_->setPadding(QMargins(0, 0, 0, 3));
+  restyle();
 }
 
 double SpectrumLineChart::binHz() const {
@@ -68,8 +68,7 @@ void SpectrumLineChart::setAnswer(const SpectrumAnswer& answer) {
   answer_ = answer;
   chosen_ = -1;
   fill();
-  style();
-  replot(QCustomPlot::rpQueuedReplot);
+  restyle();
 }
 
 void SpectrumLineChart::fill() {
@@ -113,14 +112,7 @@ void SpectrumLineChart::setScale(SpectrumScale scale) {
   scale_ = scale;
   if (numBins() == 0) return;
   fill();
-  style();
-  replot(QCustomPlot::rpQueuedReplot);
-}
-
-void SpectrumLineChart::setTheme(Theme theme) {
-  theme_ = theme;
-  style();
-  replot(QCustomPlot::rpQueuedReplot);
+  restyle();
 }
 
 void SpectrumLineChart::setChosenPeak(int index) {
@@ -131,8 +123,7 @@ void SpectrumLineChart::setChosenPeak(int index) {
 }
 
 void SpectrumLineChart::style() {
-  const ThemeColors& colors = colorsOf(theme_);
-  styleChart(*this, theme_);
+  const ThemeColors& colors = colorsOf();
   graph(0)->setPen(QPen(colors.accent, 1.4));
   peaks_->setScatterStyle(
       QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(colors.text, 1.2), Qt::NoBrush, kPeakSize));
@@ -174,7 +165,7 @@ void SpectrumLineChart::writeNote() {
   note_->setText(*fits);
 }
 
-QString SpectrumLineChart::valuesAt(const QPointF& at) const {
+QString SpectrumLineChart::readingAt(const QPointF& at) const {
   if (numBins() == 0 || !axisRect()->rect().contains(at.toPoint())) return {};
   const double place = std::round(xAxis->pixelToCoord(at.x()) / binHz());
   const auto bin =
@@ -196,11 +187,6 @@ void SpectrumLineChart::paint(QPainter& painter,
                               const QString& title,
                               const QString& name) {
   paintChart(painter, look, *this, {.title = title, .legend = {{name, graph(0)->pen()}}});
-}
-
-void SpectrumLineChart::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
-  writeNote();
 }
 
 }  // namespace palpate::gui

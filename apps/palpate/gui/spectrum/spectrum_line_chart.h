@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "gui/appearance/theme.h"
-#include "gui/chart/reading_chart.h"
+#include "gui/chart/chart.h"
 #include "gui/picture/exported_view.h"
 #include "gui/spectrum/spectrum_chart.h"
 #include "gui/spectrum/spectrum_worker.h"
 
 namespace palpate::gui {
 
-class SpectrumLineChart : public ReadingChart {
+class SpectrumLineChart : public Chart {
   Q_OBJECT
  public:
   explicit SpectrumLineChart(QWidget* parent = nullptr);
@@ -22,25 +22,22 @@ class SpectrumLineChart : public ReadingChart {
   void setAnswer(const SpectrumAnswer& answer);
   const SpectrumAnswer& answer() const noexcept { return answer_; }
   void setScale(SpectrumScale scale);
-  void setTheme(Theme theme);
   // Marks a peak: its index in the table; -1: none.
   void setChosenPeak(int index);
-  // The tool tip at a point: the values of the nearest bin.
-  QString valuesAt(const QPointF& at) const;
   QString note() const { return note_->text(); }
   void paint(QPainter& painter, const PictureLook& look, const QString& title, const QString& name);
 
+  // The values of the nearest bin.
+  QString readingAt(const QPointF& at) const override;
   QSize sizeHint() const override { return {520, 240}; }
   QSize minimumSizeHint() const override { return {200, 150}; }
 
  protected:
-  void resizeEvent(QResizeEvent* event) override;
-  QString readingAt(const QPoint& at) const override { return valuesAt(at); }
-  void restyle() override { style(); }
+  void style() override;
+  void resized() override { writeNote(); }
 
  private:
   void fill();
-  void style();
   void writeNote();
   double binHz() const;
   std::size_t numBins() const;
@@ -50,7 +47,6 @@ class SpectrumLineChart : public ReadingChart {
 
   SpectrumAnswer answer_;
   SpectrumScale scale_ = SpectrumScale::kDecibels;
-  Theme theme_ = Theme::kDark;
   int chosen_ = -1;
   QCPGraph* peaks_;
   QCPGraph* chosenPeak_;

@@ -259,12 +259,6 @@ void SpectrumLinePage::setAnswer(const SpectrumAnswer& answer) {
                                               : peaks_);
 }
 
-void SpectrumLinePage::setTheme(Theme theme) {
-  chart_->setTheme(theme);
-  peaks_->setTheme(theme);
-  common_->setTheme(theme);
-}
-
 std::vector<ExportedTable> SpectrumLinePage::tables() const {
   const SpectrumAnswer& answer = chart_->answer();
   if (answer.coherence) return {{"coherence", [answer] { return coherenceTable(answer); }}};

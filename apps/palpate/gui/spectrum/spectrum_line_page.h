@@ -37,7 +37,6 @@ class SpectrumLinePage : public QWidget {
   void setAnswer(const SpectrumAnswer& answer);
   // Whether the field for the other signal is shown.
   void setChoosing(bool choosing);
-  void setTheme(Theme theme);
   // The tables of what is shown: the line, and its peaks.
   std::vector<ExportedTable> tables() const;
 

@@ -180,11 +180,6 @@ TimeSpan SpectrumPanel::lineSpan() const { return span_.value_or(TimeSpan{fromS_
 
 void SpectrumPanel::setPosition(double seconds) { chart_->setPosition(seconds); }
 
-void SpectrumPanel::setTheme(Theme theme) {
-  chart_->setTheme(theme);
-  linePage_->setTheme(theme);
-}
-
 void SpectrumPanel::paint(QPainter& painter, const PictureLook& look, const QString& title) {
   if (pages_->currentWidget() == linePage_)
     linePage_->chart().paint(painter, look, title, name_);

@@ -40,7 +40,6 @@ class SpectrumPanel : public QWidget {
   // The selected range, which the mean and the coherence are of; nothing: the visible part.
   void setSpan(const std::optional<TimeSpan>& span);
   void setPosition(double seconds);
-  void setTheme(Theme theme);
   void setMap(ColorMapName map) { chart_->setMap(map); }
   // Paints the shown chart for export, and says how large it is.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);

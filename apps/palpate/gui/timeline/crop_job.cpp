@@ -53,9 +53,6 @@ CropJob::CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidg
   offer_->findChild<QToolButton*>("offerClose")->setObjectName("openSavedClose");
   connect(&job_, &BackgroundJob::started, offer_, &OfferStrip::dismiss);
   connect(&windowState.displayed, &DisplayedSource::shown, offer_, &OfferStrip::dismiss);
-  connect(&windowState.appearance, &ViewAppearance::themeChanged, offer_, [this] {
-    offer_->setTheme(windowState_.appearance.theme());
-  });
   connect(&job_, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
   connect(&job_, &BackgroundJob::finished, strip_, &OpeningStrip::end);
   connect(strip_, &OpeningStrip::cancelRequested, &job_, &BackgroundJob::cancel);

@@ -126,7 +126,6 @@ TextTable differenceTable(const SelectedCurves& selected) {
 
 StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
                                    const QString& range,
-                                   Theme theme,
                                    QWidget* parent)
     : QDialog(parent) {
   setWindowTitle("Statistics of the selection");
@@ -139,7 +138,6 @@ StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
     auto* figures = new FiguresTable(columns, tabs);
     figures->setObjectName(name);
     figures->setSingleLine();
-    figures->setTheme(theme);
     std::vector<std::vector<FigureCell>> rows;
     for (std::size_t i = 0; i < of.numRows; ++i) {
       std::vector<FigureCell> cells;
@@ -179,8 +177,8 @@ StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
                          {.name = "dy", .tip = "at end - at begin", .letters = 9},
                          {.name = "dy/dt [unit/s]", .letters = 9}}),
                "&Differences");
-  auto* histogram = new HistogramPage(selected, theme, tabs);
-  auto* relation = new RelationPage(selected, theme, tabs);
+  auto* histogram = new HistogramPage(selected, tabs);
+  auto* relation = new RelationPage(selected, tabs);
   tabs->addTab(histogram, "&Histogram");
   tabs->addTab(relation, "XY &plot");
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);

@@ -55,10 +55,7 @@ class StatisticsDialog : public QDialog {
   Q_OBJECT
  public:
   // `range`: what the tables are of, in words.
-  StatisticsDialog(const SelectedCurves& selected,
-                   const QString& range,
-                   Theme theme,
-                   QWidget* parent = nullptr);
+  StatisticsDialog(const SelectedCurves& selected, const QString& range, QWidget* parent = nullptr);
 };
 
 }  // namespace palpate::gui

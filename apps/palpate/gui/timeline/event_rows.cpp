@@ -125,11 +125,6 @@ void EventRows::setScale(double fromS, double toS, int leftPixel, int rightPixel
   update();
 }
 
-void EventRows::setTheme(Theme theme) {
-  theme_ = theme;
-  update();
-}
-
 double EventRows::pixelOf(double seconds) const {
   return left_ + (seconds - fromS_) / (toS_ - fromS_) * (right_ - left_);
 }
@@ -168,20 +163,20 @@ QRectF EventRows::barOf(std::size_t index) const {
 }
 
 QColor EventRows::colorOf(const EventMark& mark) const {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   switch (mark.lane) {
     case EventLane::kGrasps:
-      return matrixColor(0, theme_);
+      return matrixColor(0);
     case EventLane::kSteps:
-      return matrixColor(3, theme_);
+      return matrixColor(3);
     case EventLane::kSlips:
       return colors.danger;
     case EventLane::kGaps:
       return colors.warning;
     case EventLane::kLabels:
-      return matrixColor(5, theme_);
+      return matrixColor(5);
     case EventLane::kNotes:
-      return matrixColor(2, theme_);
+      return matrixColor(2);
     case EventLane::kOthers:
       break;
   }
@@ -212,10 +207,10 @@ void EventRows::paintMark(QPainter& painter, std::size_t index, const Neighbours
   const bool now = chosen_ == index;
   QColor fill = colorOf(mark);
   fill.setAlphaF(now ? 0.75F : 0.38F);
-  painter.setPen(now ? QPen(colorsOf(theme_).text, 1.2) : QPen(colorOf(mark), 1.0));
+  painter.setPen(now ? QPen(colorsOf().text, 1.2) : QPen(colorOf(mark), 1.0));
   painter.setBrush(fill);
   painter.drawRoundedRect(bar.adjusted(0.5, 0.5, -0.5, -0.5), 2.0, 2.0);
-  painter.setPen(colorsOf(theme_).text);
+  painter.setPen(colorsOf().text);
   const double textWidth = fontMetrics().horizontalAdvance(mark.text);
   if (mark.toS > mark.fromS && textWidth + 2 <= bar.width()) {
     painter.drawText(bar, Qt::AlignCenter, mark.text);
@@ -248,7 +243,7 @@ void EventRows::paintMark(QPainter& painter, std::size_t index, const Neighbours
 void EventRows::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   painter.fillRect(rect(), colors.window);
   for (std::size_t row = 0; row < lanes_.size(); ++row) {
     const QRectF lane(left_,

@@ -25,7 +25,6 @@ class EventRows : public QWidget {
   const std::vector<EventMark>& marks() const noexcept { return marks_; }
   // Sets the scale of time: the visible span [s] and the pixels of its ends in this widget.
   void setScale(double fromS, double toS, int leftPixel, int rightPixel);
-  void setTheme(Theme theme);
   std::optional<std::size_t> chosen() const noexcept { return chosen_; }
   void choose(std::optional<std::size_t> mark);
   // Chooses the next (step 1) or previous (step -1) mark in the row of the chosen one; in the first
@@ -110,7 +109,6 @@ class EventRows : public QWidget {
   double toS_ = 1.0;
   int left_ = 0;
   int right_ = 1;
-  Theme theme_ = Theme::kDark;
   std::optional<std::size_t> chosen_;
   Part drag_ = Part::kNone;
   double dragFromS_ = 0.0;

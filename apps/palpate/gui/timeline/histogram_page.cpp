@@ -16,8 +16,7 @@
 
 namespace palpate::gui {
 
-HistogramPage::HistogramPage(const SelectedCurves& selected, Theme theme, QWidget* parent)
-    : QWidget(parent) {
+HistogramPage::HistogramPage(const SelectedCurves& selected, QWidget* parent) : QWidget(parent) {
   curve_ = new QComboBox(this);
   curve_->setObjectName("histogramCurve");
   curve_->setAccessibleName("Curve of the histogram");
@@ -40,8 +39,8 @@ HistogramPage::HistogramPage(const SelectedCurves& selected, Theme theme, QWidge
   plot_->setAccessibleName("Histogram");
   arrangeChart(*plot_);
   bars_ = new QCPBars(plot_->xAxis, plot_->yAxis);
-  styleChart(*plot_, theme);
-  const ThemeColors& colors = colorsOf(theme);
+  styleChart(*plot_);
+  const ThemeColors& colors = colorsOf();
   QColor fill = colors.accent;
   fill.setAlphaF(0.5F);
   bars_->setBrush(fill);

@@ -22,7 +22,7 @@ struct SelectedCurves;
 class HistogramPage : public QWidget {
   Q_OBJECT
  public:
-  HistogramPage(const SelectedCurves& selected, Theme theme, QWidget* parent = nullptr);
+  HistogramPage(const SelectedCurves& selected, QWidget* parent = nullptr);
   const Histogram& histogram() const noexcept { return histogram_; }
   // A row per bin: its limits and the number of values.
   TextTable table() const;

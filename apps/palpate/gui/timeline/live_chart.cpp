@@ -33,8 +33,6 @@ constexpr std::size_t kMostRecordings = 100;
 constexpr double kLeastStepS = 0.05;
 // The first samples are drawn at once.
 constexpr std::size_t kFewSamples = 3;
-// Movement per notch of the wheel, as a share of the visible duration.
-constexpr double kLiveWheelPan = 0.1;
 // Height of the bar of a recording, as a share of that of the chart.
 constexpr double kBarHeight = 0.025;
 constexpr int kLiveWordsMargin = 6;  // [px]
@@ -69,18 +67,16 @@ QLabel* wordsOn(QWidget* chart, const char* name) {
 }  // namespace
 
 LiveChart::LiveChart(QWidget* parent)
-    : QCustomPlot(parent),
+    : Chart(parent),
       axes_(std::make_unique<UnitAxes>(*this)),
       secondsTicker_(new QCPAxisTickerFixed),
       span_(this),
       readings_(wordsOn(this, "cursorReadings")),
       behind_(wordsOn(this, "behindWords")) {
-  arrangeChart(*this);
   setAccessibleName("Live chart");
   setToolTip(
       "Wheel: how many seconds are shown; Shift+wheel: scroll back; drag: cursors with "
       "differences");
-  setMouseTracking(true);
   nameTime();
   fitToText(*this, [this] { setMinimumHeight(kLeastChartLines * fontMetrics().lineSpacing()); });
   xAxis->setTicker(secondsTicker_);
@@ -93,6 +89,7 @@ LiveChart::LiveChart(QWidget* parent)
   // Margins are known only after the axes have been laid out.
   connect(this, &QCustomPlot::afterReplot, this, &LiveChart::placeOverlays);
   follow(0.0);
+  restyle();
 }
 
 void LiveChart::setHistory(const SignalHistory* history, const HandDescription* hand) {
@@ -129,11 +126,9 @@ void LiveChart::setCurves(std::vector<PlottedCurve> curves) {
   rebuildGraphs();
 }
 
-void LiveChart::setTheme(Theme theme) {
-  theme_ = theme;
-  const ThemeColors& colors = colorsOf(theme);
-  styleChart(*this, theme);
-  span_.setTheme(theme);
+void LiveChart::style() {
+  const ThemeColors& colors = colorsOf();
+  span_.restyle();
   for (const Shown& event : events_)
     event.name->setColor(event.isGap ? colors.warning : colors.text);
   for (QLabel* words : {readings_, behind_})
@@ -164,12 +159,12 @@ void LiveChart::paintEvent(QPaintEvent* event) {
   QCustomPlot::paintEvent(event);
   if (!held_) return;
   QPainter painter(this);
-  paintStaleNotice(painter, rect(), {kHeldText, true}, theme_);
+  paintStaleNotice(painter, rect(), {kHeldText, true});
 }
 
 void LiveChart::rebuildGraphs() {
   clearGraphs();
-  axes_->rebuild(curves_, theme_);
+  axes_->rebuild(curves_);
   nameTime();
   for (const PlottedCurve& curve : curves_) {
     QCPGraph* added = addGraph(xAxis, axes_->of(curve.unit));
@@ -219,7 +214,7 @@ void LiveChart::showRange(double fromS, double toS) {
 void LiveChart::nameTime() {
   xAxis->setLabel(isLow(*this) ? "" : "time since the first frame in s");
   if (timeUnit_) removeItem(timeUnit_);
-  if (isLow(*this)) timeUnit_ = unitInCorner(*this, "s", Qt::AlignRight | Qt::AlignBottom, theme_);
+  if (isLow(*this)) timeUnit_ = unitInCorner(*this, "s", Qt::AlignRight | Qt::AlignBottom);
 }
 
 void LiveChart::refill() {
@@ -484,7 +479,7 @@ void LiveChart::forget(double beforeS) {
 
 void LiveChart::addEvent(const RecordingEvent& event) {
   if (!hasHistory_) return;
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   const double beginS = series_.secondsOf(event.tUs);
   const QString text = QString::fromStdString(event.text);
   // Long gaps are visible in the samples, shorter ones only here. Where single frames are lost the
@@ -506,12 +501,12 @@ void LiveChart::addEvent(const RecordingEvent& event) {
 
 void LiveChart::showRecording(std::int64_t firstUs, std::int64_t lastUs, bool runs) {
   if (!hasHistory_ || series_.empty() || firstUs == 0) return;
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   const double beginS = series_.secondsOf(firstUs);
   const double endS = series_.secondsOf(lastUs);
   // The last one, unless it has ended.
   if (recordings_.empty() || recordings_.back().beginS != beginS) {
-    auto* bar = shadeSpan(*this, beginS, endS, theme_);
+    auto* bar = shadeSpan(*this, beginS, endS);
     bar->setBrush(colors.danger);
     bar->setLayer("overlay");
     bar->topLeft->setCoords(beginS, 1.0 - kBarHeight);
@@ -546,7 +541,7 @@ void LiveChart::line(double atS, const QString& name, const QString& text, const
   shape->start->setCoords(atS, 0.0);
   shape->end->setCoords(atS, 1.0);
   shape->setPen(QPen(color, 1.0));
-  auto* word = wordAt(*this, atS, name, Qt::AlignLeft, colorsOf(theme_).text);
+  auto* word = wordAt(*this, atS, name, Qt::AlignLeft, colorsOf().text);
   events_.push_back({atS, atS, false, shape, word, text, false});
   arrangedFor_ = 0.0;
   arrangeNames();
@@ -582,10 +577,10 @@ void LiveChart::shadeNewGaps() {
   for (const TimeSpan& gap : series_.gaps()) {
     if (gap.fromS < shadedToS_) continue;
     shadedToS_ = gap.toS;
-    auto* shape = shadeSpan(*this, gap.fromS, gap.toS, theme_);
+    auto* shape = shadeSpan(*this, gap.fromS, gap.toS);
     const QString name = "gap " + figure(gap.lengthS(), 1) + " s";
     auto* word =
-        wordAt(*this, (gap.fromS + gap.toS) / 2, name, Qt::AlignHCenter, colorsOf(theme_).warning);
+        wordAt(*this, (gap.fromS + gap.toS) / 2, name, Qt::AlignHCenter, colorsOf().warning);
     events_.push_back({gap.fromS, gap.toS, true, shape, word, name, false});
     arrangedFor_ = 0.0;
   }
@@ -633,7 +628,7 @@ bool LiveChart::event(QEvent* event) {
     QToolTip::showText(toolTipAt_, toolTip_.isEmpty() ? toolTip() : toolTip_, this);
     return true;
   }
-  return QCustomPlot::event(event);
+  return Chart::event(event);
 }
 
 LiveChart::Drag LiveChart::dragAt(const QPointF& at) const {
@@ -719,33 +714,24 @@ void LiveChart::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void LiveChart::wheelEvent(QWheelEvent* event) {
   event->accept();
-  if (axes_->wheel(*event)) return;
-  const double notches = event->angleDelta().y() / kWheelNotch;
-  const double sideways = event->angleDelta().x() / kWheelNotch;
-  if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier)
-    return scroll(-(sideways != 0.0 ? sideways : notches) * kLiveWheelPan);
-  const double wanted =
-      std::clamp(windowS_ / std::pow(kWheelZoom, notches), kShortestS, kMaxWindowS);
+  if (!axes_->wheel(*event)) Chart::wheelEvent(event);
+}
+
+void LiveChart::zoomAbout(double seconds, double factor) {
+  const double wanted = std::clamp(windowS_ / factor, kShortestS, kMaxWindowS);
   if (following_) return setWindowS(wanted);
-  const double fixed = secondsAt(event->position().x());
-  const double share = (fixed - seen().lower) / seen().size();
-  showSpan(fixed - share * wanted, fixed + (1.0 - share) * wanted);
+  const double share = (seconds - seen().lower) / seen().size();
+  showSpan(seconds - share * wanted, seconds + (1.0 - share) * wanted);
 }
 
 void LiveChart::contextMenuEvent(QContextMenuEvent* event) {
   if (!series_.empty()) emit menuRequested(event->globalPos());
 }
 
-void LiveChart::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
+void LiveChart::resized() {
   nameTime();
   axes_->nameAxes();
   refill();
-}
-
-void LiveChart::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::FontChange) setTheme(theme_);
-  QCustomPlot::changeEvent(event);
 }
 
 }  // namespace palpate::gui

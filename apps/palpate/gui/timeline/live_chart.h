@@ -20,8 +20,7 @@
 #include <palpate/recording/recording_event.h>
 #include <palpate/signals/axis_range.h>
 
-#include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/chart.h"
 #include "gui/chart/plotted_curve.h"
 #include "gui/chart/span_overlay.h"
 #include "gui/chart/unit_axes.h"
@@ -30,7 +29,7 @@ class QLabel;
 
 namespace palpate::gui {
 
-class LiveChart : public QCustomPlot {
+class LiveChart : public Chart {
   Q_OBJECT
  public:
   static constexpr double kShortestS = 2.0, kUsualS = 30.0, kMaxWindowS = 600.0;
@@ -43,7 +42,6 @@ class LiveChart : public QCustomPlot {
   // Curves without values stay empty.
   void setCurves(std::vector<PlottedCurve> curves);
   const std::vector<PlottedCurve>& curves() const noexcept { return curves_; }
-  void setTheme(Theme theme);
   UnitAxes& axes() noexcept { return *axes_; }
   // Visible duration [s], clamped to 2..600. The newest frame, or the middle of a chart that was
   // scrolled back, stays where it is.
@@ -73,8 +71,6 @@ class LiveChart : public QCustomPlot {
   // Freezes the chart at this span, limited to what is kept.
   void showSpan(double fromS, double toS);
   QCPRange seen() const { return xAxis->range(); }
-  double secondsAt(double pixel) const { return xAxis->pixelToCoord(pixel); }
-  double pixelOf(double seconds) const { return xAxis->coordToPixel(seconds); }
 
   // Times of the two cursors, each at a sample; nothing: it isn't set.
   using Cursors = std::array<std::optional<double>, 2>;
@@ -116,8 +112,10 @@ class LiveChart : public QCustomPlot {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  void changeEvent(QEvent* event) override;
+  void style() override;
+  void resized() override;
+  void panBy(double seconds) override { scroll(seconds / seen().size()); }
+  void zoomAbout(double seconds, double factor) override;
   bool event(QEvent* event) override;
 
  private:
@@ -172,7 +170,6 @@ class LiveChart : public QCustomPlot {
   QPointer<QCPItemText> timeUnit_;
   std::map<QString, RollingRange> ranges_;
   QSharedPointer<QCPAxisTickerFixed> secondsTicker_;
-  Theme theme_ = Theme::kDark;
   double windowS_ = kUsualS;
   bool held_ = false;
   bool following_ = true;

@@ -38,7 +38,7 @@ QCPRange withAir(const QCPRange& range) {
 
 }  // namespace
 
-RelationPage::RelationPage(const SelectedCurves& selected, Theme theme, QWidget* parent)
+RelationPage::RelationPage(const SelectedCurves& selected, QWidget* parent)
     : QWidget(parent), timeS_(selected.timeS) {
   for (const SelectedCurves::Curve& curve : selected.curves) {
     values_.push_back(curve.values);
@@ -63,8 +63,8 @@ RelationPage::RelationPage(const SelectedCurves& selected, Theme theme, QWidget*
   plot_->setMinimumSize(240, 140);
   plot_->setAccessibleName("XY plot");
   arrangeChart(*plot_);
-  styleChart(*plot_, theme);
-  const ThemeColors& colors = colorsOf(theme);
+  styleChart(*plot_);
+  const ThemeColors& colors = colorsOf();
   points_ = new QCPCurve(plot_->xAxis, plot_->yAxis);
   points_->setLineStyle(QCPCurve::lsNone);
   points_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, colors.accent, 3));

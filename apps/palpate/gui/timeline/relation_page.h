@@ -23,7 +23,7 @@ struct SelectedCurves;
 class RelationPage : public QWidget {
   Q_OBJECT
  public:
-  RelationPage(const SelectedCurves& selected, Theme theme, QWidget* parent = nullptr);
+  RelationPage(const SelectedCurves& selected, QWidget* parent = nullptr);
   const LinearRelation& relation() const noexcept { return relation_; }
   // A row per frame: time, x, y.
   TextTable table() const;

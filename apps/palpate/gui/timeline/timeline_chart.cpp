@@ -20,31 +20,24 @@ constexpr int kTimelineChartFaint = 110;
 constexpr double kEmptyDurationS = 1.0;
 // Margin beside a shown span, as a share of it.
 constexpr double kTimelineChartAir = 0.08;
-constexpr int kTimelineChartCursorWidth = 2;  // [px]
 // Share of the old page with which a new page starts.
-constexpr double kTimelineChartPageRest = 0.1;
 constexpr std::size_t kMostGapMarks = 2000;
 // A view of later times shows h:min:s [s].
 constexpr double kTimelineChartLongestInS = 1200.0;
 // Below this visible duration [s] ticks need fractions of a second.
 constexpr double kFewSecondsS = 8.0;
 
-// Movement per notch, as a share of the visible span.
-constexpr double kTimelineMouseWheelPan = 0.1;
-
 }  // namespace
 
 TimelineChart::TimelineChart(QWidget* parent)
-    : ReadingChart(parent), axes_(std::make_unique<UnitAxes>(*this)), span_(this) {
-  arrangeChart(*this);
+    : Chart(parent), axes_(std::make_unique<UnitAxes>(*this)), span_(this) {
   setAccessibleName("Timeline");
-  setMouseTracking(true);
   fitToText(*this, [this] { setMinimumHeight(kLeastChartLines * fontMetrics().lineSpacing()); });
   secondsTicker_ = xAxis->ticker();
   clockTicker_.reset(new QCPAxisTickerTime);
   clockTicker_->setTickCount(secondsTicker_->tickCount());
   nameTime();
-  cursor_ = overlayOn(this, "cursor");
+  addCursor();
   notes_ = new QLabel(this);
   notes_->setObjectName("chartNotes");
   notes_->setWordWrap(true);
@@ -60,7 +53,6 @@ TimelineChart::TimelineChart(QWidget* parent)
   connect(axes_.get(), &UnitAxes::logarithmicChanged, this, rescale);
   // Margins are known only after the axes have been laid out.
   connect(this, &QCustomPlot::afterReplot, this, [this] {
-    placeCursor();
     placeSelection();
     placeNotes();
     emit seenChanged();
@@ -76,6 +68,7 @@ TimelineChart::TimelineChart(QWidget* parent)
     scaleAxes();
     refill();
   });
+  restyle();
 }
 
 double TimelineChart::durationS() const {
@@ -88,11 +81,10 @@ void TimelineChart::setRecording(const OpenedRecordingPtr& recording) {
   recording_ = recording;
   rangesOfOther_.clear();
   for (const auto& [unit, range] : axes_->byHand()) rangesOfOther_.insert(unit);
-  positionS_ = 0.0;
   drag_ = Drag::kNone;
   curves_.clear();
   store_.setRecording(recording);
-  cursor_->setVisible(recording_ != nullptr);
+  Chart::setPosition(recording_ ? 0.0 : std::numeric_limits<double>::quiet_NaN());
   setSelection(std::nullopt);
   rebuildGraphs();
   fit();
@@ -143,13 +135,9 @@ void TimelineChart::setRight(int px) {
   replot(QCustomPlot::rpQueuedReplot);
 }
 
-void TimelineChart::setTheme(Theme theme) {
-  theme_ = theme;
-  const ThemeColors& colors = colorsOf(theme);
-  styleChart(*this, theme);
-  span_.setTheme(theme);
-  cursor_->setStyleSheet("background: " + colors.accent.name());
-  notes_->setStyleSheet("background: transparent; color: " + colors.warning.name());
+void TimelineChart::style() {
+  span_.restyle();
+  notes_->setStyleSheet("background: transparent; color: " + colorsOf().warning.name());
   rebuildGraphs();
 }
 
@@ -157,7 +145,7 @@ void TimelineChart::rebuildGraphs() {
   clearGraphs();
   clearItems();
   gapLabels_.clear();
-  axes_->rebuild(curves_, theme_);
+  axes_->rebuild(curves_);
   nameTime();
   for (const PlottedCurve& curve : curves_) {
     QCPGraph* added = addGraph(xAxis, axes_->of(curve.unit));
@@ -180,12 +168,12 @@ void TimelineChart::rebuildGraphs() {
   if (recording_) gaps_ = recording_->timingNow().gaps;
   for (std::size_t i = 0; i < std::min(gaps_.size(), kMostGapMarks); ++i) {
     const double begin = recording_->timeAt(gaps_[i].frame);
-    shadeSpan(*this, begin, begin + gaps_[i].seconds, theme_);
+    shadeSpan(*this, begin, begin + gaps_[i].seconds);
     gapLabels_.push_back(wordAt(*this,
                                 begin + gaps_[i].seconds / 2,
                                 "gap " + QString::number(gaps_[i].seconds, 'f', 1) + " s",
                                 Qt::AlignHCenter,
-                                colorsOf(theme_).warning));
+                                colorsOf().warning));
   }
   numUnreadable_ = recording_ ? recording_->unreadableNow().count : 0;
   if (numUnreadable_ > 0) shadeUnreadable();
@@ -200,8 +188,7 @@ void TimelineChart::shadeUnreadable() {
   for (std::size_t i = 0; i < std::min(runs.size(), kMostGapMarks); ++i)
     shadeSpan(*this,
               recording_->timeAt(runs[i].first > 0 ? runs[i].first - 1 : 0),
-              recording_->timeAt(std::min(runs[i].last + 1, last)),
-              theme_);
+              recording_->timeAt(std::min(runs[i].last + 1, last)));
 }
 
 // Axes begin at zero unless values are below; those of angles and temperatures begin at their
@@ -277,26 +264,9 @@ void TimelineChart::showGapLabels() {
 }
 
 void TimelineChart::setPosition(double seconds) {
-  positionS_ = seconds;
-  const QCPRange range = xAxis->range();
-  const bool out = seconds < range.lower || seconds > range.upper;
-  if (recording_ && drag_ == Drag::kNone && out) {
-    const double span = range.size();
-    const double from = seconds > range.upper ? seconds - kTimelineChartPageRest * span
-                                              : seconds - (1.0 - kTimelineChartPageRest) * span;
-    setVisibleRange(from, from + span);
-  }
-  placeCursor();
-}
-
-void TimelineChart::placeCursor() {
-  const QRect plot = axisRect()->rect();
-  const int x = static_cast<int>(std::lround(pixelOf(positionS_)));
-  const bool inside = recording_ && x >= plot.left() - 1 && x <= plot.right() + 2;
-  const QRect place(
-      x - kTimelineChartCursorWidth / 2, plot.top(), kTimelineChartCursorWidth, plot.height());
-  if (cursor_->geometry() != place) cursor_->setGeometry(place);
-  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
+  const auto page = pageWith(seconds);
+  if (recording_ && drag_ == Drag::kNone && page) setVisibleRange(page->lower, page->upper);
+  Chart::setPosition(recording_ ? seconds : std::numeric_limits<double>::quiet_NaN());
 }
 
 void TimelineChart::setSelection(std::optional<TimeSpan> span) {
@@ -341,13 +311,13 @@ void TimelineChart::nameTime() {
   const QString unit = seconds ? "s" : "h:min:s";
   xAxis->setLabel(isLow(*this) ? QString() : "time from the first frame in " + unit);
   if (timeUnit_) removeItem(timeUnit_);
-  if (isLow(*this)) timeUnit_ = unitInCorner(*this, unit, Qt::AlignRight | Qt::AlignBottom, theme_);
+  if (isLow(*this)) timeUnit_ = unitInCorner(*this, unit, Qt::AlignRight | Qt::AlignBottom);
 }
 
 void TimelineChart::fit() { setVisibleRange(0.0, durationS()); }
 
 void TimelineChart::zoom(double factor) {
-  zoomAbout(seen().contains(positionS_) && factor > 1.0 ? positionS_ : seen().center(), factor);
+  zoomAbout(seen().contains(position()) && factor > 1.0 ? position() : seen().center(), factor);
 }
 
 void TimelineChart::showSpan(const TimeSpan& span) {
@@ -357,11 +327,9 @@ void TimelineChart::showSpan(const TimeSpan& span) {
 }
 
 void TimelineChart::zoomAbout(double seconds, double factor) {
-  const QCPRange range = xAxis->range();
-  const double span =
-      std::clamp(range.size() / factor, std::min(Selection::kShortestS, durationS()), durationS());
-  const double share = (seconds - range.lower) / range.size();
-  setVisibleRange(seconds - share * span, seconds + (1.0 - share) * span);
+  const double shortest = std::min(Selection::kShortestS, durationS());
+  const QCPRange range = zoomed(seconds, factor, shortest, durationS());
+  setVisibleRange(range.lower, range.upper);
 }
 
 TimelineChart::Drag TimelineChart::dragAt(const QPointF& at) const {
@@ -454,25 +422,19 @@ void TimelineChart::mouseDoubleClickEvent(QMouseEvent* event) {
 void TimelineChart::wheelEvent(QWheelEvent* event) {
   if (!recording_) return;
   event->accept();
-  if (axes_->wheel(*event)) return;
-  const double notches = event->angleDelta().y() / kWheelNotch;
-  const double sideways = event->angleDelta().x() / kWheelNotch;
-  if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
-    const QCPRange range = xAxis->range();
-    const double moved =
-        -(sideways != 0.0 ? sideways : notches) * kTimelineMouseWheelPan * range.size();
-    setVisibleRange(range.lower + moved, range.upper + moved);
-  } else {
-    zoomAbout(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
-  }
+  if (!axes_->wheel(*event)) Chart::wheelEvent(event);
+}
+
+void TimelineChart::panBy(double seconds) {
+  const QCPRange range = xAxis->range();
+  setVisibleRange(range.lower + seconds, range.upper + seconds);
 }
 
 void TimelineChart::contextMenuEvent(QContextMenuEvent* event) {
   if (recording_) emit menuRequested(event->globalPos());
 }
 
-void TimelineChart::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
+void TimelineChart::resized() {
   nameTime();
   axes_->nameAxes();
   refill();

@@ -11,9 +11,8 @@
 
 #include <palpate/model/timing.h>
 
-#include "gui/appearance/theme.h"
+#include "gui/chart/chart.h"
 #include "gui/chart/plotted_curve.h"
-#include "gui/chart/reading_chart.h"
 #include "gui/chart/span_overlay.h"
 #include "gui/chart/unit_axes.h"
 #include "gui/source/opened_recording.h"
@@ -21,7 +20,7 @@
 
 namespace palpate::gui {
 
-class TimelineChart : public ReadingChart {
+class TimelineChart : public Chart {
   Q_OBJECT
  public:
   explicit TimelineChart(QWidget* parent = nullptr);
@@ -40,36 +39,32 @@ class TimelineChart : public ReadingChart {
   // recording: none are drawn.
   void setBefore(const OpenedRecordingPtr& before);
   SeriesStore& storeBefore() noexcept { return before_; }
-  void setTheme(Theme theme);
-  // The visible range of each vertical axis, by unit.
   // The least space right of the time axis [px].
   void setRight(int px);
   // Moves the cursor; when it leaves a zoomed view, the view moves on by a page.
-  void setPosition(double seconds);
+  void setPosition(double seconds) override;
 
   void fit();
   // A factor above 1 zooms in, about the cursor if visible; below 1 zooms out. Otherwise the middle
   // of the view is the fixed point.
   void zoom(double factor);
-  void zoomAbout(double seconds, double factor);
+  void zoomAbout(double seconds, double factor) override;
   // Shows the span with a small margin.
   void showSpan(const TimeSpan& span);
-  void setVisibleRange(double from, double to);
+  // Limited to the recording.
+  void setVisibleRange(double from, double to) override;
   QCPRange seen() const { return xAxis->range(); }
   double durationS() const;
-  double secondsAt(double pixel) const { return xAxis->pixelToCoord(pixel); }
-  double pixelOf(double seconds) const { return xAxis->coordToPixel(seconds); }
-  int cursorPixel() const { return cursor_->x() + cursor_->width() / 2; }
 
   const std::optional<TimeSpan>& selection() const noexcept { return selection_; }
   // The span is clamped to the recording; nothing: no selection.
   void setSelection(std::optional<TimeSpan> span);
 
+  QString readingAt(const QPointF& at) const override { return valuesAt(secondsAt(at.x())); }
   QSize sizeHint() const override { return {900, 210}; }
   QSize minimumSizeHint() const override { return {240, 90}; }
 
  signals:
-  void seekRequested(double seconds);
   void selectionChanged();
   // The visible span, or its position in pixels, has changed.
   void seenChanged();
@@ -85,9 +80,9 @@ class TimelineChart : public ReadingChart {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  QString readingAt(const QPoint& at) const override { return valuesAt(secondsAt(at.x())); }
-  void restyle() override { setTheme(theme_); }
+  void style() override;
+  void resized() override;
+  void panBy(double seconds) override;
 
  private:
   enum class Drag { kNone, kPan, kScrub, kSelect, kFrom, kTo };
@@ -100,7 +95,6 @@ class TimelineChart : public ReadingChart {
   // Drops the range that was set by hand for another recording if no value of this one is in it.
   void dropRangeOfOther(const QString& unit, const ValueExtent& shown);
   void placeNotes();
-  void placeCursor();
   void placeSelection();
   void showGapLabels();
   Drag dragAt(const QPointF& at) const;
@@ -120,17 +114,14 @@ class TimelineChart : public ReadingChart {
   // Units whose range was set by hand for another recording, not yet compared with this one.
   std::set<QString> rangesOfOther_;
   QLabel* notes_;
-  Theme theme_ = Theme::kDark;
   QSharedPointer<QCPAxisTicker> secondsTicker_;
   QSharedPointer<QCPAxisTickerTime> clockTicker_;
   std::vector<Gap> gaps_;
   std::size_t numUnreadable_ = 0;  // frames that were shaded as damaged
   // One per gap.
   std::vector<QCPItemText*> gapLabels_;
-  QWidget* cursor_;
   // The selection.
   SpanOverlay span_;
-  double positionS_ = 0.0;
   std::optional<TimeSpan> selection_;
   Drag drag_ = Drag::kNone;
   QPointF pressedAt_;

@@ -177,8 +177,6 @@ void TimelineFeature::connectSubject() {
                                    QString::number(range.to));
           });
   ViewAppearance& look = state().appearance;
-  followTheme(panel_);
-  followTheme(liveChart_);
   followUnits(signalTree_);
   connect(&look, &ViewAppearance::changed, this, [this, &look] {
     header_->setSignal(look.view().signal);
@@ -490,12 +488,11 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   std::vector<PlottedCurve> curves;
   const HandDescription* hand = state().displayed.hand();
   if (!hand) return curves;
-  const Theme theme = state().appearance.theme();
   const DisplayUnits& units = state().appearance.view().units;
   const std::vector<bool>& plotted = state().selection.plotted();
   for (std::size_t row = 0; row < plotted.size(); ++row)
     if (plotted[row])
-      curves.push_back(matrixCurve(*hand, row, state().appearance.view().signal, theme, units));
+      curves.push_back(matrixCurve(*hand, row, state().appearance.view().signal, units));
   const bool live = state().displayed.isLive();
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording && !live) return curves;
@@ -509,41 +506,40 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
                    chosen,
                    count == 1 ? "chosen taxel: " + placeOfTaxel(*hand, chosen)
                               : QString::number(count) + " chosen taxels",
-                   0,
-                   theme));
+                   0));
   }
   // Places count curves that aren't shown, too: a curve keeps its colour when others come or go.
   std::size_t place = 0;
   for (const TaxelGroups::Group& group :
        groups_.of(live ? *hand->layout : recording->profile.layout()))
     if (++place; extras_.groups.contains(group.name))
-      add(taxelCurve(*hand, group.taxels, group.name, place, theme));
+      add(taxelCurve(*hand, group.taxels, group.name, place));
   place = 0;
   for (const FormulaCurve& each : state().formulas.all()) {
     if (recording && !live && extras_.formulas.contains(each.name) &&
         reasonAgainst(each).isEmpty()) {
-      PlottedCurve curve = formulaCurve(each.choice(), each.name, each.unit, place, theme);
-      distinguish(curve, place, curves, theme);
+      PlottedCurve curve = formulaCurve(each.choice(), each.name, each.unit, place);
+      distinguish(curve, place, curves);
       add(std::move(curve));
     }
     ++place;
   }
   for (const int axis : extras_.angles)
     if (axis < static_cast<int>(hand->axes.size()))
-      add(angleCurve(*hand, static_cast<std::size_t>(axis), theme, units));
+      add(angleCurve(*hand, static_cast<std::size_t>(axis), units));
   for (const int sensor : extras_.temperatures)
     if (sensor < static_cast<int>(hand->temperatureSensors.size()))
-      add(temperatureCurve(*hand, static_cast<std::size_t>(sensor), theme, units));
+      add(temperatureCurve(*hand, static_cast<std::size_t>(sensor), units));
   for (const int row : extras_.forces)
     if (live && hasForces_ && row <= static_cast<int>(hand->layout->numMatrices()))
-      add(forceCurve(*hand, static_cast<std::size_t>(row), theme));
+      add(forceCurve(*hand, static_cast<std::size_t>(row)));
   return curves;
 }
 
 void TimelineFeature::showCurves() {
   const bool live = state().displayed.isLive();
   const std::vector<PlottedCurve> now = curves();
-  header_->setCurves(now, state().appearance.theme());
+  header_->setCurves(now);
   header_->setLive(live);
   if (live)
     liveChart_->setCurves(now);
@@ -628,7 +624,7 @@ void TimelineFeature::showStatistics() {
                               QString::number(frames->last) + ", " +
                               figure(recording->timeAt(frames->first), 3) + " to " +
                               figure(recording->timeAt(frames->last), 3) + " s";
-        auto* dialog = new StatisticsDialog(*selected, range, state().appearance.theme(), window());
+        auto* dialog = new StatisticsDialog(*selected, range, window());
         dialog->setAttribute(Qt::WA_DeleteOnClose);
         dialog->show();
       });
@@ -706,7 +702,7 @@ std::vector<ExportedView> TimelineFeature::views() {
           QPainter onPicture(chart.get());
           const QRectF axes = paintChart(onPicture, look, *chart_, options);
           onPicture.end();
-          const Theme theme = look.forPrint ? Theme::kLight : state().appearance.theme();
+          const Theme theme = look.forPrint ? Theme::kLight : shownTheme();
           const QPen pen(colorsOf(theme).accent, 2.0);
           return FramePictures::Paint([chart, axes, pen, recording, seen = chart_->seen()](
                                           QPainter& painter, std::size_t frame) {

@@ -24,9 +24,8 @@ Legend::Legend(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
 }
 
-void Legend::setEntries(std::vector<Entry> entries, Theme theme) {
+void Legend::setEntries(std::vector<Entry> entries) {
   entries_ = std::move(entries);
-  theme_ = theme;
   fit();
   updateGeometry();
   update();
@@ -116,11 +115,11 @@ void Legend::paintEvent(QPaintEvent*) {
     painter.setPen(pen);
     painter.drawLine(x, y + line / 2, x + kTimelineHeaderStroke, y + line / 2);
     x += kTimelineHeaderStroke + kAfterStroke;
-    painter.setPen(colorsOf(theme_).text);
+    painter.setPen(colorsOf().text);
     painter.drawText(QRect(x, y, nameWidth + 2, line), Qt::AlignVCenter, entry.name);
   }
   if (at.size() == entries_.size()) return;
-  painter.setPen(colorsOf(theme_).muted);
+  painter.setPen(colorsOf().muted);
   painter.drawText(dotsRect(), Qt::AlignVCenter | Qt::TextDontClip, "…");
 }
 
@@ -186,10 +185,10 @@ TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidge
 
 void TimelineHeader::setSignal(PlottedSignal signal) { signal_->setCurrentText(nameOf(signal)); }
 
-void TimelineHeader::setCurves(const std::vector<PlottedCurve>& curves, Theme theme) {
+void TimelineHeader::setCurves(const std::vector<PlottedCurve>& curves) {
   std::vector<Legend::Entry> entries;
   for (const PlottedCurve& curve : curves) entries.push_back({curve.pen, curve.name});
-  legend_->setEntries(std::move(entries), theme);
+  legend_->setEntries(std::move(entries));
 }
 
 void TimelineHeader::setSelection(const QString& words) {

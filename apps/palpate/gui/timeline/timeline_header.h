@@ -26,7 +26,7 @@ class Legend : public QWidget {
     QString name;
   };
   explicit Legend(QWidget* parent = nullptr);
-  void setEntries(std::vector<Entry> entries, Theme theme);
+  void setEntries(std::vector<Entry> entries);
   const std::vector<Entry>& entries() const noexcept { return entries_; }
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return {40, sizeHint().height()}; }
@@ -50,7 +50,6 @@ class Legend : public QWidget {
 
   int lines_ = 1;
   std::vector<Entry> entries_;
-  Theme theme_ = Theme::kDark;
 };
 
 class TimelineHeader : public QWidget {
@@ -66,7 +65,7 @@ class TimelineHeader : public QWidget {
   };
   explicit TimelineHeader(const Actions& actions, QWidget* parent = nullptr);
   void setSignal(PlottedSignal signal);
-  void setCurves(const std::vector<PlottedCurve>& curves, Theme theme);
+  void setCurves(const std::vector<PlottedCurve>& curves);
   // "3.20 – 5.10 s · 61 frames"; empty: nothing is selected, no cursor is set.
   void setSelection(const QString& words);
   // "reading 34 %"; empty: everything is read.

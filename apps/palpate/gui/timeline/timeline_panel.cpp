@@ -44,9 +44,4 @@ void TimelinePanel::fitRows() {
   rowsScroll_->setMaximumHeight(whole);
 }
 
-void TimelinePanel::setTheme(Theme theme) {
-  chart_->setTheme(theme);
-  rows_->setTheme(theme);
-}
-
 }  // namespace palpate::gui

@@ -16,7 +16,6 @@ class TimelinePanel : public QWidget {
   explicit TimelinePanel(QWidget* parent = nullptr);
   TimelineChart& chart() noexcept { return *chart_; }
   EventRows& rows() noexcept { return *rows_; }
-  void setTheme(Theme theme);
 
  private:
   void fitRows();

@@ -32,7 +32,6 @@ class ComputedPage : public QWidget {
   // Sets what was measured of the connected hand, from which the page computes while the window
   // shows a live source; null: nothing.
   void setMeasured(const OpenedRecordingPtr& measured);
-  virtual void setTheme(Theme theme) = 0;
   virtual void setPosition(double /*seconds*/) {}
   // The displayed results for export; call both only while shown().
   virtual std::vector<ExportedTable> tables() const = 0;

@@ -20,13 +20,14 @@ Dock::Dock(const QString& name, QWidget* content, QWidget* header, QWidget* pare
   row->setObjectName("DockTitle");
   row->setAttribute(Qt::WA_StyledBackground);
   row->setToolTip("Drag to move this dock, double-click to make it a window of its own");
-  close_ = new QToolButton(row);
-  close_->setProperty("flat", true);
-  close_->setIconSize({10, 10});
-  close_->setToolTip("Close (open it again with the menu View)");
-  close_->setAccessibleName("Close " + name);
-  close_->setFocusPolicy(Qt::NoFocus);
-  connect(close_, &QToolButton::clicked, this, &QDockWidget::close);
+  auto* close = new QToolButton(row);
+  close->setProperty("flat", true);
+  close->setIcon(makeIcon(IconShape::kClose));
+  close->setIconSize({10, 10});
+  close->setToolTip("Close (open it again with the menu View)");
+  close->setAccessibleName("Close " + name);
+  close->setFocusPolicy(Qt::NoFocus);
+  connect(close, &QToolButton::clicked, this, &QDockWidget::close);
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(12, 3, 6, 3);
   layout->setSpacing(10);
@@ -35,7 +36,7 @@ Dock::Dock(const QString& name, QWidget* content, QWidget* header, QWidget* pare
     layout->addWidget(header, 1);
   else
     layout->addStretch(1);
-  layout->addWidget(close_);
+  layout->addWidget(close);
   setTitleBarWidget(row);
 }
 
@@ -51,7 +52,5 @@ int Dock::contentWidth() const {
                          plain->verticalScrollBar()->sizeHint().width());
   return std::max(width, titleBarWidget()->sizeHint().width());
 }
-
-void Dock::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }
 
 }  // namespace palpate::gui

@@ -16,12 +16,10 @@ class Dock : public QDockWidget {
   // `name` is the title and also the key in settings and for `--dock`. `header` (may be null) is
   // shown in the title row.
   Dock(const QString& name, QWidget* content, QWidget* header, QWidget* parent);
-  void setTheme(Theme theme);
   // The width at which nothing of the dock has to be scrolled sideways [px].
   int contentWidth() const;
 
  private:
-  QToolButton* close_;
 };
 
 }  // namespace palpate::gui

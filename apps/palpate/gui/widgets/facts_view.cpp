@@ -69,11 +69,6 @@ void FactsView::setStale(bool old) {
   update();
 }
 
-void FactsView::setTheme(Theme theme) {
-  theme_ = theme;
-  update();
-}
-
 int FactsView::rowHeight() const { return fontMetrics().height() + kFactsViewPadding; }
 
 int FactsView::nameWidth() const {
@@ -110,7 +105,7 @@ QSize FactsView::minimumSizeHint() const {
 }
 
 void FactsView::paintEvent(QPaintEvent* event) {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   QPainter painter(this);
   const int height = rowHeight();
   for (std::size_t i = 0; i < facts_.size(); ++i) {

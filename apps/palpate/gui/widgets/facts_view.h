@@ -31,7 +31,6 @@ class FactsView : public QWidget {
   // The values are stale: no new data arrive.
   void setStale(bool old);
   bool isOld() const noexcept { return stale_; }
-  void setTheme(Theme theme);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
 
@@ -53,7 +52,6 @@ class FactsView : public QWidget {
   // Width of the widest number since the rows are there [px].
   int numberWidth_ = 0;
   bool stale_ = false;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

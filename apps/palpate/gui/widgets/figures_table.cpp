@@ -26,12 +26,10 @@ class FigureDelegate : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
 
-  void setTheme(Theme theme) { theme_ = theme; }
-
   void paint(QPainter* painter,
              const QStyleOptionViewItem& option,
              const QModelIndex& index) const override {
-    const ThemeColors& colors = colorsOf(theme_);
+    const ThemeColors& colors = colorsOf();
     if (option.state & QStyle::State_Selected) painter->fillRect(option.rect, colors.accentSoft);
     painter->save();
     painter->setPen(colors.border);
@@ -58,9 +56,6 @@ class FigureDelegate : public QStyledItemDelegate {
     draw(detail, top + line);
     painter->restore();
   }
-
- private:
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace
@@ -138,11 +133,6 @@ std::vector<int> FiguresTable::neededWidths() const {
     widths.push_back(width + 2 * kFiguresTablePadding + 1);
   }
   return widths;
-}
-
-void FiguresTable::setTheme(Theme theme) {
-  static_cast<FigureDelegate*>(itemDelegate())->setTheme(theme);
-  viewport()->update();
 }
 
 void FiguresTable::setSingleLine() {

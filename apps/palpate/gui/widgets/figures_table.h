@@ -38,7 +38,6 @@ class FiguresTable : public QTableWidget {
  public:
   explicit FiguresTable(const std::vector<FigureColumn>& columns, QWidget* parent = nullptr);
   void setRows(const std::vector<std::vector<FigureCell>>& rows);
-  void setTheme(Theme theme);
   // To be called when no cell has a second line; rows are lower then.
   void setSingleLine();
   // Index of the chosen row; -1: none.

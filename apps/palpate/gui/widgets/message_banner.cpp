@@ -23,17 +23,18 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
   text_ = new LongWordLabel(this);
   text_->setObjectName(part + "Text");
   text_->installEventFilter(this);
-  close_ = new QToolButton(this);
-  close_->setObjectName(part + "Close");
-  close_->setProperty("flat", true);
-  close_->setIconSize({12, 12});
-  close_->setFocusPolicy(Qt::NoFocus);
-  close_->setToolTip("Close this message (Esc)");
-  connect(close_, &QToolButton::clicked, this, &MessageBanner::dismiss);
+  auto* close = new QToolButton(this);
+  close->setObjectName(part + "Close");
+  close->setProperty("flat", true);
+  close->setIcon(makeIcon(IconShape::kClose));
+  close->setIconSize({12, 12});
+  close->setFocusPolicy(Qt::NoFocus);
+  close->setToolTip("Close this message (Esc)");
+  connect(close, &QToolButton::clicked, this, &MessageBanner::dismiss);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(14, 8, 8, 8);
   row->addWidget(text_, 1);
-  row->addWidget(close_, 0, Qt::AlignTop);
+  row->addWidget(close, 0, Qt::AlignTop);
   hide();
 }
 
@@ -86,7 +87,5 @@ bool MessageBanner::eventFilter(QObject* watched, QEvent* event) {
 }
 
 QString MessageBanner::message() const { return text_->text(); }
-
-void MessageBanner::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }
 
 }  // namespace palpate::gui

@@ -28,7 +28,6 @@ class MessageBanner : public QWidget {
   void showAll(const QStringList& messages);
   void dismiss();
   QString message() const;
-  void setTheme(Theme theme);
 
  signals:
   // Emitted for every message that is added.
@@ -48,7 +47,6 @@ class MessageBanner : public QWidget {
 
   QList<Line> lines_;
   QLabel* text_;
-  QToolButton* close_;
 };
 
 }  // namespace palpate::gui

@@ -21,20 +21,21 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   accept_->setObjectName("offerAccept");
   accept_->setFocusPolicy(Qt::TabFocus);
   accept_->setAutoDefault(false);
-  close_ = new QToolButton(this);
-  close_->setObjectName("offerClose");
-  close_->setProperty("flat", true);
-  close_->setIconSize({12, 12});
-  close_->setFocusPolicy(Qt::TabFocus);
-  close_->setAccessibleName("Not now");
-  close_->setToolTip("Not now");
+  auto* close = new QToolButton(this);
+  close->setObjectName("offerClose");
+  close->setProperty("flat", true);
+  close->setIcon(makeIcon(IconShape::kClose));
+  close->setIconSize({12, 12});
+  close->setFocusPolicy(Qt::TabFocus);
+  close->setAccessibleName("Not now");
+  close->setToolTip("Not now");
   connect(accept_, &QPushButton::clicked, this, [this] {
     const auto accept = std::exchange(onAccept_, {});
     onDecline_ = {};
     hide();
     if (accept) accept();
   });
-  connect(close_, &QToolButton::clicked, this, [this] {
+  connect(close, &QToolButton::clicked, this, [this] {
     const auto decline = std::exchange(onDecline_, {});
     dismiss();
     if (decline) decline();
@@ -54,7 +55,7 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   lines->setSpacing(4);
   lines->addLayout(row);
   lines->addLayout(below);
-  row->addWidget(close_);
+  row->addWidget(close);
   hide();
 }
 
@@ -119,7 +120,5 @@ void OfferStrip::warn(bool on) {
 }
 
 QString OfferStrip::text() const { return text_->text(); }
-
-void OfferStrip::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }
 
 }  // namespace palpate::gui

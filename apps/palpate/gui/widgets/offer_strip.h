@@ -33,7 +33,6 @@ class OfferStrip : public QWidget {
   // Shows the present line in the colours of a warning: something isn't as it should be.
   void warn(bool on);
   QString text() const;
-  void setTheme(Theme theme);
 
  private:
   void removeOthers();
@@ -41,7 +40,6 @@ class OfferStrip : public QWidget {
   QLabel* text_;
   QPushButton* accept_;
   QHBoxLayout* others_;
-  QToolButton* close_;
   std::function<void()> onAccept_;
   std::function<void()> onDecline_;
 };

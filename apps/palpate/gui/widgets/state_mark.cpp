@@ -3,6 +3,8 @@
 #include <QPainter>
 #include <QPainterPath>
 
+#include "gui/appearance/theme.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -17,7 +19,7 @@ QPolygonF triangle() { return QPolygonF(QList<QPointF>{{8.0, 1.8}, {15.0, 14.2},
 
 }  // namespace
 
-StateMark::StateMark(Theme theme, QWidget* parent) : QWidget(parent), theme_(theme) {
+StateMark::StateMark(QWidget* parent) : QWidget(parent) {
   setFixedSize(kStateMarkUnits, kStateMarkUnits);
 }
 
@@ -27,7 +29,7 @@ void StateMark::setState(State state) {
 }
 
 void StateMark::paintEvent(QPaintEvent*) {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const QPen inside(colors.panel, kStateMarkStroke, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);

@@ -4,8 +4,6 @@
 
 #include <QWidget>
 
-#include "gui/appearance/theme.h"
-
 namespace palpate::gui {
 
 class StateMark : public QWidget {
@@ -13,7 +11,7 @@ class StateMark : public QWidget {
  public:
   enum class State { kNone, kAtWork, kGood, kWarning, kBad };
 
-  StateMark(Theme theme, QWidget* parent);
+  explicit StateMark(QWidget* parent);
   void setState(State state);
   State state() const noexcept { return state_; }
 
@@ -21,7 +19,6 @@ class StateMark : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  Theme theme_;
   State state_ = State::kNone;
 };
 

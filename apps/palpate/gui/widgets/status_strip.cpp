@@ -34,11 +34,6 @@ void StatusStrip::setStatus(const Status& status) {
   update();
 }
 
-void StatusStrip::setTheme(Theme theme) {
-  theme_ = theme;
-  update();
-}
-
 // Leaves room for the state and for messages.
 QString StatusStrip::shownRight() const {
   return fontMetrics().elidedText(status_.right, Qt::ElideMiddle, width() * 2 / 5);
@@ -53,7 +48,7 @@ bool StatusStrip::event(QEvent* event) {
 }
 
 void StatusStrip::paintEvent(QPaintEvent*) {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   QPainter painter(this);
   const auto advance = [this](const QString& text) {
     return fontMetrics().horizontalAdvance(text);

@@ -26,7 +26,6 @@ class StatusStrip : public QWidget {
   explicit StatusStrip(QWidget* parent = nullptr);
   void setStatus(const Status& status);
   const Status& status() const noexcept { return status_; }
-  void setTheme(Theme theme);
   QSize sizeHint() const override;
 
  protected:
@@ -38,7 +37,6 @@ class StatusStrip : public QWidget {
   QString shownRight() const;
 
   Status status_;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

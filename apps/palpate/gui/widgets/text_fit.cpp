@@ -10,20 +10,22 @@
 namespace palpate::gui {
 namespace {
 
-class TextFit : public QObject {
+class Fit : public QObject {
  public:
-  TextFit(QWidget& widget, std::function<void()> fit) : QObject(&widget), fit_(std::move(fit)) {
+  Fit(QWidget& widget, QEvent::Type after, std::function<void()> fit)
+      : QObject(&widget), after_(after), fit_(std::move(fit)) {
     widget.installEventFilter(this);
     fit_();
   }
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() == QEvent::FontChange) QTimer::singleShot(0, this, [this] { fit_(); });
+    if (event->type() == after_) QTimer::singleShot(0, this, [this] { fit_(); });
     return QObject::eventFilter(watched, event);
   }
 
  private:
+  QEvent::Type after_;
   std::function<void()> fit_;
 };
 
@@ -31,7 +33,12 @@ class TextFit : public QObject {
 
 void fitToText(QWidget& widget, std::function<void()> fit) {
   // The widget owns it.
-  new TextFit(widget, std::move(fit));  // NOLINT(cppcoreguidelines-owning-memory)
+  new Fit(widget, QEvent::FontChange, std::move(fit));  // NOLINT(cppcoreguidelines-owning-memory)
+}
+
+void fitToTheme(QWidget& widget, std::function<void()> fit) {
+  // NOLINTNEXTLINE(cppcoreguidelines-owning-memory)
+  new Fit(widget, QEvent::ApplicationPaletteChange, std::move(fit));
 }
 
 void keepWide(QAbstractButton& button, int leastPx) {

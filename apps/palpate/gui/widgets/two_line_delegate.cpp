@@ -2,6 +2,8 @@
 
 #include <QPainter>
 
+#include "gui/appearance/theme.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -19,7 +21,7 @@ QSize TwoLineDelegate::sizeHint(const QStyleOptionViewItem& option, const QModel
 void TwoLineDelegate::paint(QPainter* painter,
                             const QStyleOptionViewItem& option,
                             const QModelIndex& index) const {
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   const bool selected = option.state.testFlag(QStyle::State_Selected);
   const bool focused = selected && option.state.testFlag(QStyle::State_HasFocus);
   painter->save();

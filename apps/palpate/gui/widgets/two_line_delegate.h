@@ -3,8 +3,6 @@
 
 #include <QStyledItemDelegate>
 
-#include "gui/appearance/theme.h"
-
 namespace palpate::gui {
 
 class TwoLineDelegate : public QStyledItemDelegate {
@@ -13,14 +11,11 @@ class TwoLineDelegate : public QStyledItemDelegate {
   // The role of an item that holds its second line; the first one is Qt::DisplayRole.
   static constexpr int kDetailRole = Qt::UserRole + 1;
 
-  TwoLineDelegate(Theme theme, QObject* parent) : QStyledItemDelegate(parent), theme_(theme) {}
+  using QStyledItemDelegate::QStyledItemDelegate;
   QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
   void paint(QPainter* painter,
              const QStyleOptionViewItem& option,
              const QModelIndex& index) const override;
-
- private:
-  Theme theme_;
 };
 
 }  // namespace palpate::gui

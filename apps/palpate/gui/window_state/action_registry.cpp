@@ -101,10 +101,6 @@ QActionGroup* ActionRegistry::choices(const QString& id, const QStringList& name
   return groups_[id] = group;
 }
 
-void ActionRegistry::setTheme(Theme theme) {
-  for (const auto& [action, shape] : icons_) action->setIcon(makeIcon(shape, theme));
-}
-
 QAction* ActionRegistry::at(const QString& id) const { return known(actions_, id); }
 
 const QList<QAction*>& ActionRegistry::all(const QString& list) const {

@@ -43,9 +43,6 @@ class ActionRegistry {
   // A group of actions of which one is checked at a time; data() of an action is its index. They
   // have no keys.
   QActionGroup* choices(const QString& id, const QStringList& names);
-  // The icon is drawn in the colours of the theme, from the next setTheme() on.
-  void setIcon(QAction* action, IconShape shape) { icons_.emplace_back(action, shape); }
-  void setTheme(Theme theme);
 
   // All three throw std::out_of_range for an id that doesn't exist.
   QAction* at(const QString& id) const;
@@ -65,7 +62,6 @@ class ActionRegistry {
   QList<QAction*> made_;
   std::map<QString, QList<QAction*>> lists_;
   std::map<QString, QActionGroup*> groups_;
-  std::vector<std::pair<QAction*, IconShape>> icons_;
 };
 
 // The key sequence of an action, for example "Ctrl+O".

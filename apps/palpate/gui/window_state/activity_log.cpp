@@ -68,11 +68,6 @@ QString ActivityLog::lineText(int row) const {
          nameOf(at.severity).leftJustified(7) + "  " + activityLogTextOf(at);
 }
 
-void ActivityLog::setTheme(Theme theme) {
-  theme_ = theme;
-  if (!lines_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, kNumColumns - 1));
-}
-
 int ActivityLog::rowCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : static_cast<int>(lines_.size());
 }
@@ -84,7 +79,7 @@ int ActivityLog::columnCount(const QModelIndex& parent) const {
 QVariant ActivityLog::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const LogLine& at = line(index.row());
-  const ThemeColors& colors = colorsOf(theme_);
+  const ThemeColors& colors = colorsOf();
   switch (role) {
     case Qt::DisplayRole:
       if (index.column() == kTime) return timeText(at.timeMs, "HH:mm:ss");

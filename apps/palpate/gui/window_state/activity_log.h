@@ -41,7 +41,6 @@ class ActivityLog : public QAbstractTableModel {
   const LogLine& line(int row) const { return lines_[static_cast<std::size_t>(row)]; }
   // "2026-11-21 14:03:07.123  warning  text (3 times)"
   QString lineText(int row) const;
-  void setTheme(Theme theme);
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -50,7 +49,6 @@ class ActivityLog : public QAbstractTableModel {
  private:
   const Clock& clock_;
   std::deque<LogLine> lines_;
-  Theme theme_ = Theme::kDark;
 };
 
 }  // namespace palpate::gui

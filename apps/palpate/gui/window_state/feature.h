@@ -89,13 +89,6 @@ class Feature : public QObject {
  protected:
   WindowState& state() const noexcept { return windowState_; }
   QWidget* window() const noexcept { return window_; }
-  // Keeps a widget of this feature in the colours of the window's theme.
-  template <class Widget>
-  void followTheme(Widget* widget) {
-    connect(&windowState_.appearance, &ViewAppearance::themeChanged, widget, [this, widget] {
-      widget->setTheme(windowState_.appearance.theme());
-    });
-  }
   // Keeps the values that a widget shows in the units that the user chose.
   template <class Widget>
   void followUnits(Widget* widget) {
