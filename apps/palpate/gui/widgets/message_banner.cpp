@@ -1,12 +1,12 @@
 #include "gui/widgets/message_banner.h"
 
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
 
 #include "gui/appearance/icons.h"
 #include "gui/widgets/long_word_label.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -19,20 +19,18 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
     : QWidget(parent) {
   setObjectName(name);
   setAttribute(Qt::WA_StyledBackground);
-  text_ = new LongWordLabel(this);
-  text_->setObjectName(part + "Text");
+  text_ = named(new LongWordLabel(this), part + "Text");
   text_->installEventFilter(this);
-  close_ = new QToolButton(this);
-  close_->setObjectName(part + "Close");
+  close_ = named(new QToolButton(this), part + "Close", "Close this message (Esc)");
   close_->setProperty("flat", true);
   close_->setIconSize({12, 12});
   close_->setFocusPolicy(Qt::NoFocus);
-  close_->setToolTip("Close this message (Esc)");
   connect(close_, &QToolButton::clicked, this, &MessageBanner::dismiss);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(14, 8, 8, 8);
-  row->addWidget(text_, 1);
-  row->addWidget(close_, 0, Qt::AlignTop);
+  setLayout(inRow({{text_, 1}, {close_, 0, Qt::AlignTop}},
+                  {.left = Space::kWide,
+                   .top = Space::kUsual,
+                   .right = Space::kUsual,
+                   .bottom = Space::kUsual}));
   hide();
 }
 
