@@ -10,8 +10,8 @@ class QWidget;
 
 namespace palpate::gui {
 
-// Takes no click of Return in a dialog. `moves`: it moves the hand (see kMovesHand), else it stands
-// among those that do.
+// Takes neither Return in a dialog nor the focus by a click. `moves`: it moves the hand (see
+// kMovesHand), else it stands among those that do.
 QPushButton* motionButton(
     const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent);
 
