@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/desktop/button_keys.h"
+
 namespace palpate::gui::motion_button_test {
 namespace {
 
@@ -27,6 +29,15 @@ class MotionButtonTest : public ::testing::Test {
   QLineEdit* field_ = new QLineEdit(&window_);
   int relaxed_ = 0;
 };
+
+TEST_F(MotionButtonTest, ReturnInADialogAndAClickDontGiveItTheFocus) {
+  for (const bool moves : {true, false}) {
+    const auto* made = motionButton("Move", "moveJoints", "To the targets", moves, &window_);
+    EXPECT_FALSE(made->autoDefault());
+    EXPECT_EQ(made->focusPolicy(), Qt::TabFocus);
+    EXPECT_EQ(made->property(kMovesHand).toBool(), moves);
+  }
+}
 
 TEST_F(MotionButtonTest, DisabledItGivesTheFocusToNobody) {
   ASSERT_EQ(window_.focusWidget(), grasp_);

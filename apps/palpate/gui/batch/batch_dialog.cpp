@@ -27,13 +27,13 @@
 #include "gui/batch/batch_fields.h"
 #include "gui/batch/batch_results.h"
 #include "gui/widgets/dialog_properties.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr QSize kBatchDialogSize(900, 600);
-constexpr int kBatchMargin = 14;
 constexpr int kFirstNames = 4;  // lines of the preview
 constexpr int kCalmMs = 200;    // without changes, before the names are looked for
 constexpr int kBarSteps = 1000;
@@ -57,17 +57,9 @@ constexpr const char* kFieldsTip =
     "Names without {folder} keep the folders of the recordings.";
 
 QPushButton* batchButton(const char* name, const QString& text) {
-  auto* button = new QPushButton(text);
-  button->setObjectName(name);
+  auto* button = named(new QPushButton(text), name);
   button->setAutoDefault(false);
   return button;
-}
-
-QLabel* plainLabel(const char* name) {
-  auto* label = new QLabel;
-  label->setObjectName(name);
-  label->setTextFormat(Qt::PlainText);
-  return label;
 }
 
 QStringList pathsOf(const QMimeData& data) {
@@ -96,17 +88,12 @@ BatchDialog::BatchDialog(QSettings& settings, BatchController& controller, QWidg
   askForFolder = [this](const QString& begin) {
     return QFileDialog::getExistingDirectory(this, "Choose a folder", begin);
   };
-  results_ = new BatchResults;
-  results_->setObjectName("batchResults");
+  results_ = named(new BatchResults, "batchResults");
   pages_->setObjectName("batchPages");
   pages_->setDocumentMode(true);
   pages_->addTab(makeChoices(), "&Choices");
   pages_->addTab(results_, "Res&ults");
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 6, 0, 0);
-  whole->setSpacing(0);
-  whole->addWidget(pages_, 1);
-  whole->addWidget(makeFoot());
+  setLayout(inColumn({{pages_, 1}, makeFoot()}, Space::kNone, {.top = Space::kUsual}));
   delay_.setSingleShot(true);
   delay_.setInterval(kCalmMs);
   connect(&delay_, &QTimer::timeout, this, &BatchDialog::look);
@@ -123,38 +110,20 @@ BatchDialog::~BatchDialog() {
 }
 
 QWidget* BatchDialog::makeChoices() {
-  auto* page = new QWidget;
-  auto* column = new QVBoxLayout(page);
-  column->setContentsMargins(kBatchMargin, 10, kBatchMargin, 8);
-  column->setSpacing(10);
-  auto* upper = new QHBoxLayout;
-  upper->setSpacing(20);
   recordings_ = makeRecordings();
   fields_ = new BatchFields;
-  auto* side = new QVBoxLayout;
-  side->addWidget(fields_);
-  side->addStretch(1);
-  upper->addWidget(recordings_, 1);
-  upper->addLayout(side, 1);
+  auto* upper = inRow({{recordings_, 1}, {inColumn({fields_, Stretch{}}), 1}}, Space::kDialog);
   place_ = makePlace();
-  column->addLayout(upper, 1);
-  column->addWidget(place_);
-  return page;
+  return makeBox(inColumn({{upper, 1}, place_}, Space::kWide, kPageEdges));
 }
 
 QWidget* BatchDialog::makeRecordings() {
-  auto* side = new QWidget;
-  auto* column = new QVBoxLayout(side);
-  column->setContentsMargins(0, 0, 0, 0);
-  paths_ = new QListWidget;
-  paths_->setObjectName("batchPaths");
-  paths_->setAccessibleName("Recordings and folders");
+  paths_ = named(new QListWidget, "batchPaths", {}, "Recordings and folders");
   paths_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   paths_->setTextElideMode(Qt::ElideMiddle);
   paths_->setMinimumHeight(90);
-  auto* hint = new QLabel("Drop recordings and folders here", paths_->viewport());
-  hint->setObjectName("batchHint");
-  hint->setProperty("role", "muted");
+  auto* hint =
+      makeLabel(paths_->viewport(), "batchHint", "muted", "Drop recordings and folders here");
   hint->setAttribute(Qt::WA_TransparentForMouseEvents);
   auto* centre = new QVBoxLayout(paths_->viewport());
   centre->addWidget(hint, 0, Qt::AlignCenter);
@@ -162,17 +131,12 @@ QWidget* BatchDialog::makeRecordings() {
   connect(paths_->model(), &QAbstractItemModel::rowsInserted, hint, showHint);
   connect(paths_->model(), &QAbstractItemModel::rowsRemoved, hint, showHint);
   connect(paths_->model(), &QAbstractItemModel::modelReset, hint, showHint);
-  count_ = plainLabel("batchCount");
+  count_ = makeLabel(nullptr, "batchCount");
   count_->setProperty("role", "muted");
   auto* files = batchButton("batchAddFiles", "Add &files…");
   auto* folder = batchButton("batchAddFolder", "Add fol&der…");
   remove_ = batchButton("batchRemove", "&Remove");
-  auto* buttons = new QHBoxLayout;
-  for (QPushButton* button : {files, folder, remove_}) buttons->addWidget(button);
-  buttons->addStretch(1);
-  column->addWidget(paths_, 1);
-  column->addWidget(count_);
-  column->addLayout(buttons);
+  auto* side = makeBox(inColumn({{paths_, 1}, count_, inRow({files, folder, remove_, Stretch{}})}));
   auto* removeKey = new QAction(paths_);
   removeKey->setShortcut(QKeySequence::Delete);
   removeKey->setShortcutContext(Qt::WidgetShortcut);
@@ -193,84 +157,56 @@ QWidget* BatchDialog::makePlace() {
   auto* form = new QFormLayout(part);
   form->setContentsMargins(0, 0, 0, 0);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  folder_ = new QLineEdit;
-  folder_->setObjectName("batchFolder");
+  folder_ = named(new QLineEdit, "batchFolder");
   folder_->setPlaceholderText("the folder of the results; it is made where it is missing");
   auto* browse = batchButton("batchBrowse", "&Browse…");
   connect(browse, &QPushButton::clicked, this, [this] {
     const QString chosen = askForFolder(folder_->text());
     if (!chosen.isEmpty()) folder_->setText(chosen);
   });
-  auto* folderRow = new QHBoxLayout;
-  folderRow->addWidget(folder_, 1);
-  folderRow->addWidget(browse);
-  names_ = new QLineEdit;
-  names_->setObjectName("batchNames");
-  names_->setToolTip(kFieldsTip);
-  ending_ = plainLabel("batchEnding");
-  auto* help = plainLabel("batchFieldsHelp");
-  help->setText("{name} {folder} {ending} {date} {time}");
+  auto* folderRow = inRow({{folder_, 1}, browse});
+  names_ = named(new QLineEdit, "batchNames", kFieldsTip);
+  ending_ = makeLabel(nullptr, "batchEnding");
+  auto* help =
+      makeLabel(nullptr, "batchFieldsHelp", "muted", "{name} {folder} {ending} {date} {time}");
   help->setToolTip(kFieldsTip);
-  help->setProperty("role", "muted");
-  auto* namesRow = new QHBoxLayout;
-  namesRow->addWidget(names_, 1);
-  namesRow->addWidget(ending_);
-  namesRow->addSpacing(12);
-  namesRow->addWidget(help);
-  preview_ = plainLabel("batchPreview");
-  preview_->setProperty("role", "muted");
+  auto* namesRow = inRow({{names_, 1}, ending_, Space::kWide, help});
+  preview_ = makeLabel(nullptr, "batchPreview", "muted");
   preview_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   preview_->setFixedHeight(preview_->fontMetrics().lineSpacing() * (kFirstNames + 1));
   preview_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  resume_ = new QCheckBox("&Keep results that are whole");
-  resume_->setObjectName("batchResume");
+  resume_ = named(new QCheckBox("&Keep results that are whole"), "batchResume");
   resume_->setToolTip(
       "A result is not made again when it was made with the same choices of the same recording");
-  replace_ = new QCheckBox("Rep&lace other files");
-  replace_->setObjectName("batchReplace");
+  replace_ = named(new QCheckBox("Rep&lace other files"), "batchReplace");
   replace_->setToolTip("Replace files that exist already, also those that no batch has made");
-  threads_ = new QSpinBox;
-  threads_->setObjectName("batchThreads");
+  threads_ = named(new QSpinBox, "batchThreads", "Recordings at the same time");
   threads_->setRange(0, kMostThreadsShown);
   threads_->setSpecialValueText("one per core");
-  threads_->setToolTip("Recordings at the same time");
-  auto* options = new QHBoxLayout;
-  options->addWidget(resume_);
-  options->addSpacing(14);
-  options->addWidget(replace_);
-  options->addStretch(1);
   threads_->setButtonSymbols(QAbstractSpinBox::NoButtons);
-  auto* threadsLabel = new QLabel("At the same ti&me");
-  threadsLabel->setBuddy(threads_);
-  options->addWidget(threadsLabel);
-  options->addWidget(threads_);
-  const auto label = [](const QString& text, QWidget* field) {
-    auto* made = new QLabel(text);
-    made->setBuddy(field);
-    return made;
-  };
-  form->addRow(label("Into fold&er", folder_), folderRow);
-  form->addRow(label("N&ames", names_), namesRow);
+  auto* options = inRow({resume_,
+                         Space::kWide,
+                         replace_,
+                         Stretch{},
+                         makeTitle("At the same ti&me", threads_),
+                         threads_});
+  form->addRow(makeTitle("Into fold&er", folder_), folderRow);
+  form->addRow(makeTitle("N&ames", names_), namesRow);
   form->addRow("", preview_);
   form->addRow("", options);
   return part;
 }
 
 QWidget* BatchDialog::makeFoot() {
-  auto* foot = new QFrame;
-  foot->setObjectName("batchFoot");
-  auto* column = new QVBoxLayout(foot);
-  column->setContentsMargins(kBatchMargin, 8, kBatchMargin, 12);
-  bar_ = new QProgressBar;
-  bar_->setObjectName("batchDialogProgress");
+  auto* foot = named(new QFrame, "batchFoot");
+  bar_ = named(new QProgressBar, "batchDialogProgress");
   bar_->setRange(0, kBarSteps);
   bar_->setTextVisible(false);
   bar_->setFixedHeight(8);
   QSizePolicy kept = bar_->sizePolicy();
   kept.setRetainSizeWhenHidden(true);
   bar_->setSizePolicy(kept);
-  said_ = plainLabel("batchSaid");
-  said_->setWordWrap(true);
+  said_ = makeLines(nullptr, "batchSaid");
   said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   said_->setMinimumHeight(2 * said_->fontMetrics().lineSpacing());
   cancel_ = batchButton("batchCancel", "Cancel");
@@ -283,12 +219,9 @@ QWidget* BatchDialog::makeFoot() {
   connect(cancel_, &QPushButton::clicked, &controller_, &BatchController::cancel);
   connect(close_, &QPushButton::clicked, this, &QDialog::close);
   connect(start_, &QPushButton::clicked, this, &BatchDialog::start);
-  auto* row = new QHBoxLayout;
-  row->addWidget(said_, 1);
-  row->addSpacing(8);
-  for (QPushButton* button : {cancel_, close_, start_}) row->addWidget(button);
-  column->addWidget(bar_);
-  column->addLayout(row);
+  foot->setLayout(inColumn(
+      {bar_, inRow({{said_, 1}, Space::kUsual, cancel_, close_, start_})},
+      {.left = Space::kWide, .top = Space::kUsual, .right = Space::kWide, .bottom = Space::kWide}));
   return foot;
 }
 

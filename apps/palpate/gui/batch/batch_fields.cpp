@@ -3,7 +3,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -16,6 +15,7 @@
 #include <palpate/slip/slip_method.h>
 
 #include "gui/batch/batch_pictures.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -23,8 +23,7 @@ namespace {
 constexpr int kMostMatrix = 999;
 
 QComboBox* batchComboBox(const char* name, const std::vector<std::pair<QString, QString>>& items) {
-  auto* box = new QComboBox;
-  box->setObjectName(name);
+  auto* box = named(new QComboBox, name);
   // A long item must not widen the dialog.
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(10);
@@ -33,20 +32,14 @@ QComboBox* batchComboBox(const char* name, const std::vector<std::pair<QString, 
 }
 
 QCheckBox* batchCheckBox(const char* name, const QString& text, const QString& tip = {}) {
-  auto* box = new QCheckBox(text);
-  box->setObjectName(name);
-  box->setToolTip(tip);
-  return box;
+  return named(new QCheckBox(text), name, tip);
 }
 
 QDoubleSpinBox* limitBox(const char* name, double least, double most, const QString& tip) {
-  auto* box = new QDoubleSpinBox;
-  box->setObjectName(name);
+  auto* box = named(new QDoubleSpinBox, name, tip, tip);
   box->setRange(least, most);
   box->setDecimals(3);
   box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-  box->setToolTip(tip);
-  box->setAccessibleName(tip);
   return box;
 }
 
@@ -99,12 +92,9 @@ BatchFields::BatchFields(QWidget* parent)
   speed_->setDecimals(2);
   ending_ = batchComboBox("batchForm", formItems());
   filtersRow_ = makeFilters();
-  smooth_ = new QLineEdit;
-  smooth_->setObjectName("batchSmooth");
+  smooth_ = named(new QLineEdit, "batchSmooth", "Filters over time of the signals themselves");
   smooth_->setPlaceholderText("none; as kalman:q=0.05");
-  smooth_->setToolTip("Filters over time of the signals themselves");
-  matrix_ = new QSpinBox;
-  matrix_->setObjectName("batchMatrix");
+  matrix_ = named(new QSpinBox, "batchMatrix");
   matrix_->setRange(-1, kMostMatrix);
   matrix_->setSpecialValueText("all");
   matrix_->setButtonSymbols(QAbstractSpinBox::NoButtons);
@@ -163,33 +153,23 @@ BatchFields::BatchFields(QWidget* parent)
 }
 
 QWidget* BatchFields::makeFilters() {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 0, 0, 0);
-  filters_ = new QLineEdit;
-  filters_->setObjectName("batchFilters");
+  filters_ = named(new QLineEdit, "batchFilters");
   filters_->setPlaceholderText("none; as median:size=3 | kalman");
-  auto* take = new QPushButton("As sho&wn");
-  take->setObjectName("batchTakeFilters");
+  auto* take = named(
+      new QPushButton("As sho&wn"), "batchTakeFilters", "The filters that the window applies now");
   take->setAutoDefault(false);
-  take->setToolTip("The filters that the window applies now");
   connect(take, &QPushButton::clicked, this, [this] { filters_->setText(windowFilters()); });
-  layout->addWidget(filters_, 1);
-  layout->addWidget(take);
+  auto* row = makeBox(inRow({{filters_, 1}, take}));
   row->setFocusProxy(filters_);
   return row;
 }
 
 QWidget* BatchFields::makeLimits() {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 0, 0, 0);
   step_ = limitBox("batchStep", 1e-3, 100.0, "Threshold per frame [taxels]");
   limit_ = limitBox("batchLimit", 1e-3, 100.0, "Threshold since the reference [taxels]");
   rotation_ = limitBox("batchRotation", 0.1, 360.0, "Threshold of turning [deg]");
   rotation_->setSuffix("°");
-  for (QDoubleSpinBox* box : {step_, limit_, rotation_}) layout->addWidget(box, 1);
-  return row;
+  return makeBox(inRow({{step_, 1}, {limit_, 1}, {rotation_, 1}}));
 }
 
 void BatchFields::fill(const BatchChoices& choices) {

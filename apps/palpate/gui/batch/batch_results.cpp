@@ -5,13 +5,11 @@
 #include <QCheckBox>
 #include <QClipboard>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QStyledItemDelegate>
 #include <QTableView>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -23,6 +21,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/reveal_file.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -110,12 +109,8 @@ BatchResults::BatchResults(QWidget* parent)
   askForReport = [this] {
     return QFileDialog::getSaveFileName(this, "Save the report", "batch.csv", "Tables (*.csv)");
   };
-  summary_ = new QLabel;
-  summary_->setObjectName("batchSummary");
-  summary_->setTextFormat(Qt::PlainText);
-  summary_->setWordWrap(true);
-  table_ = new QTableView;
-  table_->setObjectName("batchTable");
+  summary_ = makeLines(nullptr, "batchSummary");
+  table_ = named(new QTableView, "batchTable");
   table_->setModel(model_);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -131,29 +126,18 @@ BatchResults::BatchResults(QWidget* parent)
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   table_->setColumnWidth(kRecording, 260);
   table_->setColumnWidth(kResultState, 100);
-  all_ = new QCheckBox("Show all &recordings");
-  all_->setObjectName("batchShowAll");
-  copy_ = new QPushButton("Co&py");
-  copy_->setObjectName("batchCopy");
-  copy_->setToolTip("Copy the selected rows, or all (Ctrl+C)");
-  save_ = new QPushButton("Save re&port…");
-  save_->setObjectName("batchSaveReport");
+  all_ = named(new QCheckBox("Show all &recordings"), "batchShowAll");
+  copy_ = named(new QPushButton("Co&py"), "batchCopy", "Copy the selected rows, or all (Ctrl+C)");
+  save_ = named(new QPushButton("Save re&port…"), "batchSaveReport");
   save_->setToolTip("A table as CSV, a row for each recording: source, result, state, text, files");
-  show_ = new QPushButton("Sho&w recording");
-  show_->setObjectName("batchReveal");
+  show_ = named(new QPushButton("Sho&w recording"), "batchReveal");
   show_->setToolTip("Show the recording in the file manager; also by a double click");
-  auto* foot = new QHBoxLayout;
-  foot->addWidget(all_);
-  foot->addStretch(1);
+  auto* foot = inRow({all_, Stretch{}});
   for (QPushButton* button : {show_, copy_, save_}) {
     button->setAutoDefault(false);
     foot->addWidget(button);
   }
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(14, 10, 14, 8);
-  column->addWidget(summary_);
-  column->addWidget(table_, 1);
-  column->addLayout(foot);
+  setLayout(inColumn({summary_, {table_, 1}, foot}, kPageEdges));
   auto* copyKey = new QAction(table_);
   copyKey->setShortcut(QKeySequence::Copy);
   copyKey->setShortcutContext(Qt::WidgetShortcut);

@@ -1,7 +1,6 @@
 #include "gui/calibrate/calibrate_panel.h"
 
 #include <QStackedWidget>
-#include <QVBoxLayout>
 
 #include "gui/calibrate/force_page.h"
 #include "gui/calibrate/measure_row.h"
@@ -9,6 +8,7 @@
 #include "gui/calibrate/pressure_page.h"
 #include "gui/calibrate/step_page.h"
 #include "gui/calibrate/tare_page.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 
@@ -28,9 +28,7 @@ CalibratePanel::CalibratePanel(QSettings& settings, QWidget* parent)
   add(noise_, "Noise", "Readings of an unloaded hand, over its temperature");
   add(tare_, "Tare", "Readings of taxels that nothing touches");
   add(force_, "Force", "Kilopascals and newtons of this recording");
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(parentOfPages);
+  setLayout(inColumn({parentOfPages}));
   showLastPage();
 }
 

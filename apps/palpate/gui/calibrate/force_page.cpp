@@ -2,11 +2,9 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 #include <cmath>
 
 #include <palpate/core/error.h>
@@ -16,6 +14,7 @@
 #include "gui/calibrate/calibration_facts.h"
 #include "gui/calibrate/force_chart.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
@@ -106,17 +105,11 @@ ForcePage::ForcePage(QSettings& settings, QWidget* parent)
   makeTop();
   auto* content = new QWidget(this);
   chart_ = new ForceChart(content);
-  table_ = new FiguresTable(forcePageColumns(), content);
-  table_->setObjectName("forceTable");
+  table_ = named(new FiguresTable(forcePageColumns(), content), "forceTable");
   notes_ = notesLabel("forceNotes", content);
-  auto* column = new QVBoxLayout(content);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
   // Above what is computed under these assumptions, where no small dock hides them.
   notes_->setProperty("role", QVariant());
-  column->addWidget(notes_);
-  column->addWidget(table_, 3);
-  column->addWidget(chart_, 2);
+  content->setLayout(inColumn({notes_, {table_, 3}, {chart_, 2}}, Space::kNone));
   setContent(content);
   askForCalibration = [this] {
     return QFileDialog::getOpenFileName(
@@ -128,28 +121,15 @@ ForcePage::ForcePage(QSettings& settings, QWidget* parent)
 }
 
 void ForcePage::makeTop() {
-  const auto button = [&](const char* name, const QString& text, const QString& tip) {
-    auto* made = new QPushButton(text, this);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    return made;
-  };
-  name_ = new QLabel(this);
-  name_->setObjectName("forceCalibration");
-  name_->setTextFormat(Qt::PlainText);
+  name_ = makeLabel(this, "forceCalibration");
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  drop_ = button("forceDrop", "Don't apply", "Show counts only");
-  choose_ = button("forceChoose", "Choose…", "A calibration saved on the page Pressure");
-  auto* files = new QHBoxLayout;
-  files->setSpacing(8);
-  files->addWidget(name_, 1);
-  files->addWidget(drop_);
-  files->addWidget(choose_);
+  drop_ = makeButton(this, "forceDrop", "Don't apply", "Show counts only");
+  choose_ = makeButton(this, "forceChoose", "Choose…", "A calibration saved on the page Pressure");
   const auto field = [&](const char* name, const QString& label, double least, double most) {
-    auto* made = new SecondsField(this);
-    made->setObjectName(name);
-    made->setAccessibleName(label);
-    made->setToolTip(label + " used for this recording; a .dsa doesn't store it");
+    auto* made = named(new SecondsField(this),
+                       name,
+                       label + " used for this recording; a .dsa doesn't store it",
+                       label);
     made->setRange(least, most);
     made->setFocusPolicy(Qt::StrongFocus);
     fitToText(*made, [made] {
@@ -160,22 +140,19 @@ void ForcePage::makeTop() {
   sensitivity_ = field("forceSensitivity", "Sensitivity", kLeastSensitivity, 1.0);
   threshold_ = field("forceThreshold", "Threshold in counts", 0.0, 0.0);  // showCalibration()
   threshold_->setDecimals(0);
-  keep_ = button("forceKeep", "Keep", "Add these settings to the recording (undo: Ctrl+Z)");
-  recordedWith_ = new QWidget(this);
-  auto* made = new QHBoxLayout(recordedWith_);
-  made->setContentsMargins(0, 0, 0, 0);
-  made->setSpacing(8);
-  made->addWidget(new QLabel("Recorded with sensitivity", this));
-  made->addWidget(sensitivity_);
-  made->addWidget(new QLabel("threshold", this));
-  made->addWidget(threshold_);
-  assumed_ = new QLabel("assumed", this);
-  assumed_->setObjectName("forceAssumed");
+  keep_ =
+      makeButton(this, "forceKeep", "Keep", "Add these settings to the recording (undo: Ctrl+Z)");
+  assumed_ = makeLabel(this, "forceAssumed", {}, "assumed");
   assumed_->setToolTip("Neither the recording nor the device says these settings");
-  made->addWidget(assumed_);
-  made->addWidget(keep_);
-  made->addStretch(1);
-  top().addLayout(files);
+  recordedWith_ = makeBox(inRow({"Recorded with sensitivity",
+                                 sensitivity_,
+                                 "threshold",
+                                 threshold_,
+                                 assumed_,
+                                 keep_,
+                                 Stretch{}}),
+                          this);
+  top().addLayout(inRow({{name_, 1}, drop_, choose_}));
   top().addWidget(recordedWith_);
   connect(choose_, &QPushButton::clicked, this, &ForcePage::chooseCalibration);
   connect(drop_, &QPushButton::clicked, this, [this] { applyThis({}); });

@@ -2,13 +2,11 @@
 
 #include <QCoreApplication>
 #include <QDateTime>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,6 +14,7 @@
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 
 namespace palpate::gui {
@@ -52,21 +51,18 @@ QString refusal(const std::string& why) {
 MeasureRow::MeasureRow(QSettings& settings, Setup setup, QWidget* parent)
     : QWidget(parent), settings_(settings), setup_(std::move(setup)) {
   setObjectName(setup_.part + "MeasureRow");
-  measure_ = new QPushButton("Measure now", this);
-  measure_->setObjectName(setup_.part + "Measure");
-  measure_->setToolTip(setup_.tip);
-  seconds_ = new FrameField(this);
-  seconds_->setObjectName(setup_.part + "MeasureSeconds");
-  seconds_->setAccessibleName("Seconds to measure");
-  seconds_->setToolTip("Seconds to measure the connected hand");
+  measure_ = makeButton(this, setup_.part + "Measure", "Measure now", setup_.tip);
+  seconds_ = named(new FrameField(this),
+                   setup_.part + "MeasureSeconds",
+                   "Seconds to measure the connected hand",
+                   "Seconds to measure");
   seconds_->setRange(1, kMostMeasureS);
   // A stored value that is no number becomes the usual one.
   bool valid = false;
   const int stored =
       settings_.value("calibrate/" + setup_.part + "_seconds").toString().toInt(&valid);
   seconds_->setValue(valid ? stored : setup_.usualSeconds);
-  progress_ = new QProgressBar(this);
-  progress_->setObjectName(setup_.part + "MeasureProgress");
+  progress_ = named(new QProgressBar(this), setup_.part + "MeasureProgress");
   progress_->setRange(0, kMeasureSteps);
   progress_->setTextVisible(false);
   progress_->setFixedHeight(kMeasureBarHeight);
@@ -74,25 +70,11 @@ MeasureRow::MeasureRow(QSettings& settings, Setup setup, QWidget* parent)
   QSizePolicy policy = progress_->sizePolicy();
   policy.setRetainSizeWhenHidden(true);
   progress_->setSizePolicy(policy);
-  cancel_ = new QPushButton("Cancel", this);
-  cancel_->setObjectName(setup_.part + "MeasureCancel");
+  cancel_ = makeButton(this, setup_.part + "MeasureCancel", "Cancel");
   cancel_->setToolTip("Cancels the measurement (Esc; a message that is shown is closed before)");
-  text_ = new QLabel(this);
-  text_->setObjectName(setup_.part + "MeasureText");
-  text_->setTextFormat(Qt::PlainText);
-  text_->setWordWrap(true);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
-  row->addWidget(measure_);
-  row->addWidget(seconds_);
-  row->addWidget(new QLabel("s", this));
-  row->addWidget(progress_, 1);
-  row->addWidget(cancel_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addLayout(row);
-  column->addWidget(text_);
+  text_ = makeLines(this, setup_.part + "MeasureText");
+  setLayout(
+      inColumn({inRow({measure_, seconds_, "s", {progress_, 1}, cancel_}), text_}, Space::kNarrow));
   timer_.setInterval(kMeasureLookMs);
   connect(&timer_, &QTimer::timeout, this, &MeasureRow::takeItems);
   connect(measure_, &QPushButton::clicked, this, &MeasureRow::begin);

@@ -1,12 +1,10 @@
 #include "gui/calibrate/noise_page.h"
 
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStyle>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +18,7 @@
 #include "gui/calibrate/measure_row.h"
 #include "gui/calibrate/noise_chart.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
 
@@ -124,45 +123,28 @@ NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise
                              .tip = "Noise of the connected hand at threshold 0 while it warms up"},
                             this);
   top().addWidget(measure_);
-  bins_ = new FrameField(this);
-  bins_->setObjectName("noiseBins");
-  bins_->setAccessibleName("Bins");
-  bins_->setToolTip("Equal bins over the temperatures; the study uses 20");
+  bins_ = named(new FrameField(this),
+                "noiseBins",
+                "Equal bins over the temperatures; the study uses 20",
+                "Bins");
   bins_->setRange(2, kMostBins);
   bins_->setValue(static_cast<int>(NoiseFloorOptions{}.bins));
-  save_ = new QPushButton("Save…", this);
-  save_->setObjectName("noiseSave");
-  save_->setToolTip("As JSON, or as XML that the prior program reads");
+  save_ = makeButton(this, "noiseSave", "Save…", "As JSON, or as XML that the prior program reads");
   save_->setEnabled(false);
-  apply_ = new QPushButton("Apply to this hand", this);
-  apply_->setObjectName("noiseApply");
-  apply_->setToolTip(kApplyTip);
+  apply_ = makeButton(this, "noiseApply", "Apply to this hand", kApplyTip);
   apply_->setProperty("primary", true);
   apply_->setEnabled(false);
-  auto* openLines = new QPushButton("Apply a file…", this);
-  openLines->setObjectName("noiseOpen");
-  openLines->setToolTip("Saved lines (JSON), or those of the prior program (XML)");
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
-  row->addWidget(new QLabel("Bins", this));
-  row->addWidget(bins_);
-  row->addStretch(1);
-  row->addWidget(openLines);
-  row->addWidget(save_);
-  row->addWidget(apply_);
-  top().addLayout(row);
+  auto* openLines = makeButton(this,
+                               "noiseOpen",
+                               "Apply a file…",
+                               "Saved lines (JSON), or those of the prior program (XML)");
+  top().addLayout(inRow({"Bins", bins_, Stretch{}, openLines, save_, apply_}));
 
   auto* content = new QWidget(this);
   chart_ = new NoiseChart(content);
-  table_ = new FiguresTable(noisePageColumns(), content);
-  table_->setObjectName("noiseTable");
+  table_ = named(new FiguresTable(noisePageColumns(), content), "noiseTable");
   notes_ = notesLabel("noiseNotes", content);
-  auto* column = new QVBoxLayout(content);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(chart_, 1);
-  column->addWidget(table_);
-  column->addWidget(notes_);
+  content->setLayout(inColumn({{chart_, 1}, table_, notes_}, Space::kNone));
   setContent(content);
 
   askForPlace = [this](const QString& suggestion) {

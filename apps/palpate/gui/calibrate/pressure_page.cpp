@@ -3,14 +3,12 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QResizeEvent>
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include <palpate/control/grasp_request.h>
@@ -24,6 +22,7 @@
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
@@ -86,26 +85,16 @@ PressurePage::PressurePage(QWidget* parent) : ComputedPage("pressure", parent) {
     charts_->setCurrentIndex(above ? 1 : 0);
   });
   auto* figures = new QWidget(content);
-  samples_ = new FiguresTable(pressurePageColumns(), figures);
-  samples_->setObjectName("pressureSamples");
+  samples_ = named(new FiguresTable(pressurePageColumns(), figures), "pressureSamples");
   samples_->setSingleLine();
-  facts_ = new FactsView(figures);
-  facts_->setObjectName("pressureFacts");
-  auto* framed = new QWidget(figures);
-  auto* inner = new QVBoxLayout(framed);
-  inner->setContentsMargins(12, 6, 12, 6);
-  inner->addWidget(facts_);
-  inner->addStretch(1);
+  facts_ = named(new FactsView(figures), "pressureFacts");
+  auto* framed = makeBox(inColumn({facts_, Stretch{}}, kPageEdges), figures);
   auto* scroll = new QScrollArea(figures);
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(framed);
-  auto* column = new QVBoxLayout(figures);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(samples_, 3);
-  column->addWidget(scroll, 4);
+  figures->setLayout(inColumn({{samples_, 3}, {scroll, 4}}, Space::kNone));
   halves_ = new QBoxLayout(QBoxLayout::TopToBottom, content);
   halves_->setContentsMargins(0, 0, 0, 0);
   halves_->setSpacing(0);
@@ -135,55 +124,41 @@ PressurePage::PressurePage(QWidget* parent) : ComputedPage("pressure", parent) {
 
 void PressurePage::makeTop() {
   auto* files = new WrappingRow(this);
-  const auto button = [&](const char* name, const QString& text, const QString& tip) {
-    auto* made = new QPushButton(text, this);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    return made;
-  };
-  auto* openIt = button("pressureOpen",
-                        "Open…",
-                        "A table (file,pressure_kpa[,temperature_c]) of recordings, or a "
-                        "calibration that was saved");
-  name_ = new QLabel(this);
-  name_->setObjectName("pressureName");
-  name_->setTextFormat(Qt::PlainText);
+  auto* openIt = makeButton(this,
+                            "pressureOpen",
+                            "Open…",
+                            "A table (file,pressure_kpa[,temperature_c]) of recordings, or a "
+                            "calibration that was saved");
+  name_ = makeLabel(this, "pressureName");
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  save_ = button("pressureSave", "Save…", "As JSON, with the data it was made from");
-  apply_ = button("pressureApply",
-                  "Apply to this hand",
-                  "Use this calibration for pressures and forces of this hand type");
+  save_ = makeButton(this, "pressureSave", "Save…", "As JSON, with the data it was made from");
+  apply_ = makeButton(this,
+                      "pressureApply",
+                      "Apply to this hand",
+                      "Use this calibration for pressures and forces of this hand type");
   apply_->setProperty("primary", true);
   files->add(openIt);
   files->add(save_);
   files->add(apply_);
   auto* options = new WrappingRow(this);
-  study_ = new QCheckBox("As in the study", this);
-  study_->setObjectName("pressureStudy");
+  study_ = named(new QCheckBox("As in the study", this), "pressureStudy");
   study_->setToolTip(
       "All terms, and the study's temperatures; off: only terms that cross-validation keeps");
   options->add(study_);
-  robust_ = new QCheckBox("Robust", this);
-  robust_->setObjectName("pressureRobust");
-  robust_->setToolTip("Outliers within a step count less (Huber's loss)");
+  robust_ = named(new QCheckBox("Robust", this),
+                  "pressureRobust",
+                  "Outliers within a step count less (Huber's loss)");
   options->add(robust_);
-  matrix_ = new QComboBox(this);
-  matrix_->setObjectName("pressureMatrix");
-  matrix_->setAccessibleName("Matrix");
-  matrix_->setToolTip("The matrix that was loaded");
+  matrix_ = named(new QComboBox(this), "pressureMatrix", "The matrix that was loaded", "Matrix");
   matrix_->addItem("loaded matrix");
   options->add(matrix_);
-  above_ = new QCheckBox("From above", this);
-  above_->setObjectName("pressureAbove");
+  above_ = named(new QCheckBox("From above", this), "pressureAbove");
   above_->setToolTip(
       "The surface over gain and temperature, pressure as colour; off: slices of it");
   options->add(above_);
   auto* measured = new WrappingRow(this);
   const auto field = [&](const char* name, const QString& label, const QString& tip, double most) {
-    auto* made = new SecondsField(this);
-    made->setObjectName(name);
-    made->setAccessibleName(label);
-    made->setToolTip(tip);
+    auto* made = named(new SecondsField(this), name, tip, label);
     made->setRange(0.0, most);
     made->setFocusPolicy(Qt::StrongFocus);
     fitToText(*made, [made] {
@@ -192,11 +167,7 @@ void PressurePage::makeTop() {
     auto* both = new QWidget(measured);
     auto* words = new QLabel(label, both);
     words->setToolTip(tip);
-    auto* row = new QHBoxLayout(both);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(8);
-    row->addWidget(words);
-    row->addWidget(made);
+    both->setLayout(inRow({words, made}));
     measured->add(both);
     return made;
   };

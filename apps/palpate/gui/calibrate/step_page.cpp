@@ -2,11 +2,9 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QResizeEvent>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +16,7 @@
 #include "gui/calibrate/calibration_facts.h"
 #include "gui/calibrate/step_chart.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/notes_label.h"
 
 namespace palpate::gui {
@@ -160,37 +159,22 @@ TextTable sampleTable(const std::shared_ptr<const FoundSteps>& found, std::size_
 }  // namespace
 
 StepPage::StepPage(QWidget* parent) : ComputedPage("steps", parent) {
-  matrices_ = new QComboBox(this);
-  matrices_->setObjectName("stepMatrix");
-  matrices_->setAccessibleName("Matrix");
-  matrices_->setToolTip("The matrix that was loaded");
-  signal_ = new QComboBox(this);
-  signal_->setObjectName("stepSignal");
-  signal_->setAccessibleName("Signal");
-  signal_->setToolTip("Signal of the matrix; a calibration uses the filtered mean");
+  matrices_ = named(new QComboBox(this), "stepMatrix", "The matrix that was loaded", "Matrix");
+  signal_ = named(new QComboBox(this),
+                  "stepSignal",
+                  "Signal of the matrix; a calibration uses the filtered mean",
+                  "Signal");
   for (const PlottedSignal each : kAllPlottedSignals) signal_->addItem(nameOf(each));
   signal_->setCurrentText(nameOf(PlottedSignal::kFilteredMean));
-  robust_ = new QCheckBox("Robust", this);
-  robust_->setObjectName("stepRobust");
-  robust_->setToolTip("Gives outliers less weight (Huber's loss)");
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
-  row->addWidget(matrices_);
-  row->addWidget(signal_);
-  row->addWidget(robust_);
-  row->addStretch(1);
-  top().addLayout(row);
+  robust_ = named(
+      new QCheckBox("Robust", this), "stepRobust", "Gives outliers less weight (Huber's loss)");
+  top().addLayout(inRow({matrices_, signal_, robust_, Stretch{}}));
 
   auto* content = new QWidget(this);
   auto* left = new QWidget(content);
-  auto* column = new QVBoxLayout(left);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  table_ = new FiguresTable(stepPageColumns(), left);
-  table_->setObjectName("stepTable");
+  table_ = named(new FiguresTable(stepPageColumns(), left), "stepTable");
   notes_ = notesLabel("stepNotes", left);
-  column->addWidget(table_, 1);
-  column->addWidget(notes_);
+  left->setLayout(inColumn({{table_, 1}, notes_}, Space::kNone));
   chart_ = new StepChart(content);
   halves_ = new QBoxLayout(QBoxLayout::TopToBottom, content);
   halves_->setContentsMargins(0, 0, 0, 0);

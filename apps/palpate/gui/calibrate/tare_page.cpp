@@ -1,9 +1,7 @@
 #include "gui/calibrate/tare_page.h"
 
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include <palpate/core/number_text.h>
@@ -13,6 +11,7 @@
 #include "gui/calibrate/measure_row.h"
 #include "gui/picture/table_picture.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/notes_label.h"
 
 namespace palpate::gui {
@@ -142,37 +141,23 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
                              .tip = "Readings of the connected hand, which nothing may touch"},
                             this);
   top().addWidget(measure_);
-  state_ = new QLabel(this);
-  state_->setObjectName("tareState");
-  state_->setWordWrap(true);
+  state_ = makeLines(this, "tareState");
   state_->hide();
-  remove_ = new QPushButton("Remove", this);
-  remove_->setObjectName("tareRemove");
-  remove_->setToolTip("Forces use the recorded values without a tare again");
-  keep_ = new QPushButton("Add to the recording", this);
-  keep_->setObjectName("tareKeep");
+  remove_ = makeButton(
+      this, "tareRemove", "Remove", "Forces use the recorded values without a tare again");
+  keep_ = makeButton(this, "tareKeep", "Add to the recording");
   keep_->setToolTip("As an event: forces use it, values never change (undo: Ctrl+Z)");
   keep_->setProperty("primary", true);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
-  row->addStretch(1);
-  row->addWidget(remove_);
-  row->addWidget(keep_);
   top().addWidget(state_);
-  top().addLayout(row);
+  top().addLayout(inRow({Stretch{}, remove_, keep_}));
   auto* content = new QWidget(this);
-  table_ = new FiguresTable(tarePageColumns(), content);
-  table_->setObjectName("tareTable");
+  table_ = named(new FiguresTable(tarePageColumns(), content), "tareTable");
   notes_ = notesLabel("tareNotes", content);
   notes_->setText(
       "The tare of a taxel is the median of its mean readings in these windows. Only forces (page "
       "Force, newtons in Inspect) use it: without it a taxel that reads something at rest adds to "
       "the force. Heat maps, contacts and grasps show the readings as they were recorded.");
-  auto* column = new QVBoxLayout(content);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(table_, 1);
-  column->addWidget(notes_);
+  content->setLayout(inColumn({{table_, 1}, notes_}, Space::kNone));
   setContent(content);
   connect(measure_, &MeasureRow::measured, this, &TarePage::setMeasured);
   connect(measure_, &MeasureRow::said, this, &TarePage::said);

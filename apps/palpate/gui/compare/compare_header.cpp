@@ -3,15 +3,14 @@
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QResizeEvent>
 #include <QSignalBlocker>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "gui/appearance/difference_map.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -42,10 +41,7 @@ QString titleOf(Alignment alignment) {
 }
 
 QComboBox* CompareHeader::recordingBox(const char* name, const QString& tip, QLabel*& swatch) {
-  auto* box = new QComboBox(this);
-  box->setObjectName(name);
-  box->setToolTip(tip);
-  box->setAccessibleName(tip);
+  auto* box = named(new QComboBox(this), name, tip, tip);
   box->setMinimumHeight(kCompareHeaderControlHeight);
   box->setMinimumContentsLength(10);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -65,25 +61,16 @@ CompareHeader::CompareHeader(QAction* leave,
   setAttribute(Qt::WA_StyledBackground);
   a_ = recordingBox("compareA", "Recording A: it is played", swatchA_);
   b_ = recordingBox("compareB", "Recording B: it is compared with A", swatchB_);
-  swap_ = new QToolButton(this);
-  swap_->setObjectName("compareSwap");
-  swap_->setText("⇄");
-  swap_->setToolTip("Swap A and B");
+  swap_ = makeToolButton(this, "compareSwap", "⇄", "Swap A and B");
   swap_->setAccessibleName("Swap A and B");
-  swap_->setFocusPolicy(Qt::TabFocus);
-  alignment_ = new QComboBox(this);
-  alignment_->setObjectName("compareAlignment");
+  alignment_ =
+      named(new QComboBox(this), "compareAlignment", "How B is aligned with A", "Alignment");
   alignment_->setMinimumHeight(kCompareHeaderControlHeight);
-  alignment_->setToolTip("How B is aligned with A");
-  alignment_->setAccessibleName("Alignment");
   alignment_->setFocusPolicy(Qt::TabFocus);
   for (const Alignment each : kAllAlignments) alignment_->addItem(titleOf(each));
   grasps_ = new QWidget(this);
   const auto graspBox = [this](const char* name, const QString& tip) {
-    auto* box = new QComboBox(grasps_);
-    box->setObjectName(name);
-    box->setToolTip(tip);
-    box->setAccessibleName(tip);
+    auto* box = named(new QComboBox(grasps_), name, tip, tip);
     box->setMinimumHeight(kCompareHeaderControlHeight);
     box->setFocusPolicy(Qt::TabFocus);
     connect(box, &QComboBox::activated, this, [this] {
@@ -94,16 +81,9 @@ CompareHeader::CompareHeader(QAction* leave,
   };
   graspA_ = graspBox("compareGraspA", "The grasp of A that begins where the one of B begins");
   graspB_ = graspBox("compareGraspB", "The grasp of B that begins where the one of A begins");
-  auto* graspRow = new QHBoxLayout(grasps_);
-  graspRow->setContentsMargins(0, 0, 0, 0);
-  graspRow->setSpacing(6);
-  graspRow->addWidget(new QLabel("of A", grasps_));
-  graspRow->addWidget(graspA_);
-  graspRow->addWidget(new QLabel("of B", grasps_));
-  graspRow->addWidget(graspB_);
+  grasps_->setLayout(inRow({"of A", graspA_, "of B", graspB_}));
   grasps_->hide();
-  offset_ = new QDoubleSpinBox(this);
-  offset_->setObjectName("compareOffset");
+  offset_ = named(new QDoubleSpinBox(this), "compareOffset");
   offset_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   offset_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   offset_->setDecimals(kOffsetDecimals);
@@ -118,50 +98,27 @@ CompareHeader::CompareHeader(QAction* leave,
   offset_->setToolTip("When B begins, in seconds from A's first frame (or drag B's bar)");
   offset_->setAccessibleName("Offset of B in seconds");
 
-  const auto button = [this](QAction* action) {
-    auto* made = new QToolButton(this);
-    made->setDefaultAction(action);
-    made->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    made->setFocusPolicy(Qt::TabFocus);
-    return made;
-  };
-  withText_ = {button(interpolated), button(values)};
-  auto* back = new QToolButton(this);
-  back->setObjectName("compareBack");
-  back->setText("Back to the matrices");
+  withText_ = {makeToolButton(this, interpolated), makeToolButton(this, values)};
+  auto* back = makeToolButton(this, "compareBack", "Back to the matrices");
   back->setToolTip("Back to the matrices (" + leave->shortcut().toString(QKeySequence::NativeText) +
                    ", Esc)");
-  back->setFocusPolicy(Qt::TabFocus);
   connect(back, &QToolButton::clicked, leave, &QAction::trigger);
 
-  auto* first = new QHBoxLayout;
-  first->setSpacing(6);
   auto* title = new QLabel("<b>Compare</b>", this);
-  first->addWidget(title);
-  first->addSpacing(10);
-  first->addWidget(swatchA_);
-  first->addWidget(a_, 1);
-  first->addWidget(swap_);
-  first->addWidget(swatchB_);
-  first->addWidget(b_, 1);
-  first->addStretch(0);
-  first->addSpacing(6);
-  first->addWidget(back);
-  auto* second = new QHBoxLayout;
-  second->setSpacing(6);
-  second->addWidget(new QLabel("Aligned by", this));
-  second->addWidget(alignment_);
-  second->addWidget(grasps_);
-  second->addSpacing(8);
-  second->addWidget(new QLabel("B begins at", this));
-  second->addWidget(offset_);
-  second->addStretch(1);
+  auto* first = inRow({title,
+                       Space::kWide,
+                       swatchA_,
+                       {a_, 1},
+                       swap_,
+                       swatchB_,
+                       {b_, 1},
+                       Stretch{0},
+                       Space::kUsual,
+                       back});
+  auto* second =
+      inRow({"Aligned by", alignment_, grasps_, Space::kUsual, "B begins at", offset_, Stretch{}});
   for (QToolButton* each : withText_) second->addWidget(each);
-  auto* rows = new QVBoxLayout(this);
-  rows->setContentsMargins(12, 4, 10, 5);
-  rows->setSpacing(4);
-  rows->addLayout(first);
-  rows->addLayout(second);
+  setLayout(inColumn({first, second}, Space::kNarrow, kBarEdges));
 
   connect(a_, &QComboBox::activated, this, [this](int index) { choose(a_, index, true); });
   connect(b_, &QComboBox::activated, this, [this](int index) { choose(b_, index, false); });

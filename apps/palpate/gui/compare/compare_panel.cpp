@@ -3,14 +3,12 @@
 #include <QAction>
 #include <QComboBox>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
 #include <QResizeEvent>
 #include <QStackedWidget>
 #include <QStyle>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +25,7 @@
 #include "gui/compare/compare_view.h"
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -83,45 +82,26 @@ ComparePanel::~ComparePanel() = default;
 
 void ComparePanel::build(QAction* leave, QAction* interpolated, QAction* values) {
   header_ = new CompareHeader(leave, interpolated, values, this);
-  notice_ = new QLabel(this);
-  notice_->setObjectName("compareNotice");
-  notice_->setTextFormat(Qt::PlainText);
-  notice_->setWordWrap(true);
+  notice_ = makeLines(this, "compareNotice");
   notice_->setContentsMargins(14, 4, 14, 4);
   auto* content = new QWidget(this);
-  view_ = new CompareView(content);
-  view_->setObjectName("compareView");
-  chart_ = new CompareChart(content);
-  chart_->setObjectName("compareChart");
-  strip_ = new CompareStrip(*chart_, content);
-  strip_->setObjectName("compareStrip");
-  auto* parts = new QVBoxLayout(content);
-  parts->setContentsMargins(0, 0, 0, 0);
-  parts->setSpacing(0);
-  parts->addWidget(notice_);
-  parts->addWidget(view_, kViewShare);
-  parts->addWidget(makeCurveHeader());
-  parts->addWidget(strip_);
-  parts->addWidget(chart_, kChartShare);
+  view_ = named(new CompareView(content), "compareView");
+  chart_ = named(new CompareChart(content), "compareChart");
+  strip_ = named(new CompareStrip(*chart_, content), "compareStrip");
+  content->setLayout(
+      inColumn({notice_, {view_, kViewShare}, makeCurveHeader(), strip_, {chart_, kChartShare}},
+               Space::kNone));
   stack_ = new FittingPages(this);
   stack_->addWidget(makeEmpty());
   stack_->addWidget(new ContentScroll(content, {0, kLeastHeight}, this));
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(header_);
-  column->addWidget(stack_, 1);
+  setLayout(inColumn({header_, {stack_, 1}}, Space::kNone));
 }
 
 QWidget* ComparePanel::makeCurveHeader() {
-  auto* header = new QWidget(this);
-  header->setObjectName("ViewHeader");
+  auto* header = named(new QWidget(this), "ViewHeader");
   header->setAttribute(Qt::WA_StyledBackground);
   const auto box = [header](const char* name, const QString& tip) {
-    auto* made = new QComboBox(header);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    made->setAccessibleName(tip);
+    auto* made = named(new QComboBox(header), name, tip, tip);
     made->setMinimumHeight(kComparePanelControlHeight);
     made->setFocusPolicy(Qt::TabFocus);
     return made;
@@ -134,19 +114,10 @@ QWidget* ComparePanel::makeCurveHeader() {
     overlayBox_->addItem(gui::nameOf(overlay));
   bandBox_ = box("compareBand", "The average over the curves of the chart, with a band");
   for (const CompareBand band : kAllCompareBands) bandBox_->addItem(gui::nameOf(band));
-  figures_ = new QLabel(header);
-  figures_->setObjectName("compareFigures");
-  figures_->setTextFormat(Qt::PlainText);
+  figures_ = makeLines(header, "compareFigures");
   figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  figures_->setWordWrap(true);
   figures_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  boxes_ = new QHBoxLayout;
-  boxes_->setSpacing(6);
-  boxes_->addWidget(signal_);
-  boxes_->addWidget(matrix_);
-  boxes_->addSpacing(10);
-  boxes_->addWidget(overlayBox_);
-  boxes_->addWidget(bandBox_);
+  boxes_ = inRow({signal_, matrix_, Space::kWide, overlayBox_, bandBox_});
   curveHeader_ = new QGridLayout(header);
   curveHeader_->setContentsMargins(12, 3, 10, 3);
   curveHeader_->setHorizontalSpacing(kBesideBoxes);
@@ -159,28 +130,18 @@ QWidget* ComparePanel::makeCurveHeader() {
 
 QWidget* ComparePanel::makeEmpty() {
   auto* page = new QWidget(this);
-  emptyText_ = new QLabel(page);
-  emptyText_->setObjectName("compareEmpty");
+  emptyText_ = makeLines(page, "compareEmpty");
   emptyText_->setAlignment(Qt::AlignCenter);
-  emptyText_->setTextFormat(Qt::PlainText);
-  emptyText_->setWordWrap(true);
-  emptyOpen_ = new QPushButton("Open another…", page);
-  emptyOpen_->setObjectName("compareOpen");
+  emptyOpen_ = makeButton(page, "compareOpen", "Open another…");
   emptyOpen_->setProperty("primary", true);
-  emptyItself_ = new QPushButton("Compare it with itself", page);
-  emptyItself_->setObjectName("compareItself");
-  emptyItself_->setToolTip("Two grasps of the same recording: B can be shifted");
-  auto* buttons = new QHBoxLayout;
-  buttons->addStretch(1);
-  buttons->addWidget(emptyOpen_);
-  buttons->addWidget(emptyItself_);
-  buttons->addStretch(1);
-  auto* column = new QVBoxLayout(page);
-  column->setSpacing(14);
-  column->addStretch(1);
-  column->addWidget(emptyText_);
-  column->addLayout(buttons);
-  column->addStretch(1);
+  emptyItself_ = makeButton(page,
+                            "compareItself",
+                            "Compare it with itself",
+                            "Two grasps of the same recording: B can be shifted");
+  page->setLayout(inColumn(
+      {Stretch{}, emptyText_, inRow({Stretch{}, emptyOpen_, emptyItself_, Stretch{}}), Stretch{}},
+      Space::kWide,
+      kPageEdges));
   return page;
 }
 

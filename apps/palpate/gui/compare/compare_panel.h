@@ -20,7 +20,7 @@
 class QAction;
 class QComboBox;
 class QGridLayout;
-class QHBoxLayout;
+class QBoxLayout;
 class QLabel;
 class QPushButton;
 class QStackedWidget;
@@ -171,7 +171,7 @@ class ComparePanel : public QWidget {
   QComboBox* matrix_ = nullptr;
   QComboBox* overlayBox_ = nullptr;
   QComboBox* bandBox_ = nullptr;
-  QHBoxLayout* boxes_ = nullptr;
+  QBoxLayout* boxes_ = nullptr;
   QGridLayout* curveHeader_ = nullptr;
   QLabel* figures_ = nullptr;
   bool figuresBelow_ = false;

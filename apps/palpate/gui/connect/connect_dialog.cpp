@@ -19,6 +19,7 @@
 #include "gui/connect/scene_page.h"
 #include "gui/connect/stream_page.h"
 #include "gui/widgets/content_scroll.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
 #include "gui/widgets/text_fit.h"
 
@@ -78,15 +79,8 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   auto* page = new QHBoxLayout;
   page->setContentsMargins(kConnectDialogMargin, kConnectDialogMargin, kConnectDialogMargin, 16);
   page->addWidget(pages_);
-  auto* middle = new QHBoxLayout;
-  middle->setSpacing(0);
-  middle->addWidget(makeKinds());
-  middle->addLayout(page, 1);
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->setSpacing(0);
-  whole->addLayout(middle, 1);
-  whole->addWidget(makeFoot());
+  setLayout(
+      inColumn({{inRow({makeKinds(), {page, 1}}, Space::kNone), 1}, makeFoot()}, Space::kNone));
   connect(ports_, &PortsPage::changed, this, &ConnectDialog::refresh);
   connect(stream_, &StreamPage::changed, this, &ConnectDialog::refresh);
   connect(scenes_, &ScenePage::changed, this, &ConnectDialog::refresh);
@@ -112,8 +106,7 @@ ConnectDialog::~ConnectDialog() {
 }
 
 QWidget* ConnectDialog::makeKinds() {
-  auto* side = new QFrame(this);
-  side->setObjectName("connectKinds");
+  auto* side = named(new QFrame(this), "connectKinds");
   const ThemeColors& colors = colorsOf();
   side->setStyleSheet(QString("#connectKinds { background: %1; border-right: 1px solid %2; }")
                           .arg(colors.window.name(), colors.border.name()));
@@ -122,17 +115,14 @@ QWidget* ConnectDialog::makeKinds() {
   column->setSpacing(3);
   for (const Connection::Kind kind : kAllConnectionKinds) {
     const KindText text = connectDialogTextOf(kind);
-    auto* button = new QRadioButton(text.title, side);
-    button->setObjectName(text.name);
+    auto* button = named(new QRadioButton(text.title, side), text.name);
     QFont bold = button->font();
     bold.setBold(true);
     button->setFont(bold);
     connect(button, &QRadioButton::toggled, this, [this, kind](bool on) {
       if (on) choose(kind);
     });
-    auto* what = new QLabel(text.what, side);
-    what->setWordWrap(true);
-    what->setProperty("role", "muted");
+    auto* what = makeLines(side, {}, "muted", text.what);
     what->setContentsMargins(22, 0, 0, 14);
     column->addWidget(button);
     column->addWidget(what);
@@ -140,10 +130,7 @@ QWidget* ConnectDialog::makeKinds() {
   }
   column->addStretch(1);
   if (settings_) column->addWidget(makeSaved());
-  auto* calm = new QLabel("Connecting never moves the hand.", side);
-  calm->setObjectName("connectIsCalm");
-  calm->setWordWrap(true);
-  calm->setProperty("role", "muted");
+  auto* calm = makeLines(side, "connectIsCalm", "muted", "Connecting never moves the hand.");
   column->addWidget(calm);
   // Names are never cut, however large the text is; with little height the column scrolls.
   side->setMinimumWidth(std::max(kKindsWidth, column->minimumSize().width()));
@@ -154,28 +141,17 @@ QWidget* ConnectDialog::makeKinds() {
 
 QWidget* ConnectDialog::makeSaved() {
   auto* part = new QWidget(this);
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(0, 0, 0, 10);
-  auto* title = new QLabel("Sa&ved connections", part);
-  saved_ = new QComboBox(part);
-  saved_->setObjectName("savedConnections");
+  saved_ = named(
+      new QComboBox(part), "savedConnections", "Choose a saved connection to fill in the fields");
   saved_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  saved_->setToolTip("Choose a saved connection to fill in the fields");
-  title->setBuddy(saved_);
-  auto* save = new QPushButton("Save &under…", part);
-  save->setObjectName("saveConnection");
+  auto* save =
+      makeButton(part, "saveConnection", "Save &under…", "Save these settings under a name");
   save->setAutoDefault(false);
-  save->setToolTip("Save these settings under a name");
-  forget_ = new QPushButton("Forget", part);
-  forget_->setObjectName("forgetConnection");
+  forget_ = makeButton(part, "forgetConnection", "Forget");
   forget_->setAutoDefault(false);
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(save);
-  buttons->addWidget(forget_);
-  buttons->addStretch(1);
-  column->addWidget(title);
-  column->addWidget(saved_);
-  column->addLayout(buttons);
+  part->setLayout(
+      inColumn({makeTitle("Sa&ved connections", saved_), saved_, inRow({save, forget_, Stretch{}})},
+               {.bottom = Space::kWide}));
   listSaved(last_.name);
   connect(saved_, &QComboBox::activated, this, [this] {
     const QString name = saved_->currentData().toString();
@@ -219,20 +195,14 @@ void ConnectDialog::fill(const Connection& connection) {
 }
 
 QWidget* ConnectDialog::makeFoot() {
-  auto* foot = new QFrame(this);
-  foot->setObjectName("connectFoot");
+  auto* foot = named(new QFrame(this), "connectFoot");
   foot->setStyleSheet(
       QString("#connectFoot { border-top: 1px solid %1; }").arg(colorsOf().border.name()));
   mark_ = new StateMark(foot);
-  problem_ = new QLabel(foot);
-  problem_->setObjectName("connectProblem");
-  problem_->setTextFormat(Qt::PlainText);
-  problem_->setWordWrap(true);
-  auto* cancel = new QPushButton("Cancel", foot);
-  cancel->setObjectName("connectCancel");
+  problem_ = makeLines(foot, "connectProblem");
+  auto* cancel = makeButton(foot, "connectCancel", "Cancel");
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-  connect_ = new QPushButton("&Connect", foot);
-  connect_->setObjectName("connectNow");
+  connect_ = makeButton(foot, "connectNow", "&Connect");
   connect_->setProperty("primary", true);
   connect_->setDefault(true);
   keepWide(*connect_, 110);

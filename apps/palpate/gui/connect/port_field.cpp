@@ -6,6 +6,7 @@
 #include <QSignalBlocker>
 #include <QTimer>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui {
@@ -20,9 +21,7 @@ PortField::PortField(const QString& title,
                      const QString& name,
                      QWidget* parent)
     : QWidget(parent), whenEmpty_(whenEmpty) {
-  auto* label = new QLabel(title, this);
-  box_ = new QComboBox(this);
-  box_->setObjectName(name + "Port");
+  box_ = named(new QComboBox(this), name + "Port");
   box_->setEditable(true);
   box_->setInsertPolicy(QComboBox::NoInsert);
   // A completer would turn ttyUSB1 into ttyUSB10.
@@ -34,13 +33,8 @@ PortField::PortField(const QString& title,
   box_->setToolTip(
       "A port of the list, another device such as /dev/pts/3, or a network name as "
       "tcp:192.168.1.42:13000");
-  label->setBuddy(box_);
   mark_ = new StateMark(this);
-  answer_ = new QLabel(this);
-  answer_->setObjectName(name + "Answer");
-  answer_->setTextFormat(Qt::PlainText);
-  answer_->setWordWrap(true);
-  answer_->setProperty("role", "muted");
+  answer_ = makeLines(this, name + "Answer", "muted");
   answer_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   answer_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   // Two lines, so that the layout does not change when the text wraps.
@@ -49,7 +43,7 @@ PortField::PortField(const QString& title,
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(7);
   grid->setVerticalSpacing(4);
-  grid->addWidget(label, 0, 0, 1, 2);
+  grid->addWidget(makeTitle(title, box_), 0, 0, 1, 2);
   grid->addWidget(box_, 1, 0, 1, 2);
   grid->addWidget(mark_, 2, 0, Qt::AlignTop);
   grid->addWidget(answer_, 2, 1);

@@ -1,12 +1,11 @@
 #include "gui/connect/ports_page.h"
 
 #include <QFrame>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QVBoxLayout>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
 
 namespace palpate::gui {
@@ -33,20 +32,10 @@ PortsPage::PortsPage(PortScan& scan, QWidget* parent) : QWidget(parent), scan_(s
                           "None: pressure is shown and recorded, but the hand can't be moved.",
                           "motion",
                           this);
-  help_ = new QLabel(this);
-  help_->setObjectName("portsHelp");
-  help_->setWordWrap(true);
-  help_->setTextFormat(Qt::PlainText);
+  help_ = makeLines(this, "portsHelp");
   help_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(10);
-  column->addWidget(tactile_);
-  column->addWidget(motion_);
-  column->addWidget(makeSwapRow());
-  column->addWidget(help_);
-  column->addStretch(1);
-  column->addWidget(makeLookRow());
+  setLayout(
+      inColumn({tactile_, motion_, makeSwapRow(), help_, Stretch{}, makeLookRow()}, Space::kWide));
   for (PortField* field : {tactile_, motion_}) {
     connect(field, &PortField::changed, this, &PortsPage::refresh);
     connect(field, &PortField::entered, this, [this, field] {
@@ -65,54 +54,41 @@ PortsPage::~PortsPage() {
 }
 
 QWidget* PortsPage::makeSwapRow() {
-  swapRow_ = new QFrame(this);
-  swapRow_->setObjectName("swapRow");
+  swapRow_ = named(new QFrame(this), "swapRow");
   const ThemeColors& colors = colorsOf();
   swapRow_->setStyleSheet(QString("#swapRow { background: %1; border: 1px solid %2; "
                                   "border-radius: 6px; }")
                               .arg(colors.dangerSoft.name(), colors.danger.name()));
-  swapText_ = new QLabel(swapRow_);
-  swapText_->setObjectName("swapText");
-  swapText_->setWordWrap(true);
-  swapText_->setTextFormat(Qt::PlainText);
-  auto* swap = new QPushButton("&Swap", swapRow_);
-  swap->setObjectName("swapPorts");
+  swapText_ = makeLines(swapRow_, "swapText");
+  auto* swap = makeButton(swapRow_, "swapPorts", "&Swap");
   swap->setAutoDefault(false);
   connect(swap, &QPushButton::clicked, this, [this] {
     setPorts(motion_->port(), tactile_->port());
     fill();
   });
-  auto* row = new QHBoxLayout(swapRow_);
-  row->setContentsMargins(12, 8, 8, 8);
-  row->setSpacing(12);
-  row->addWidget(swapText_, 1);
-  row->addWidget(swap);
+  swapRow_->setLayout(inRow({{swapText_, 1}, swap},
+                            Space::kWide,
+                            {.left = Space::kWide,
+                             .top = Space::kUsual,
+                             .right = Space::kUsual,
+                             .bottom = Space::kUsual}));
   return swapRow_;
 }
 
 QWidget* PortsPage::makeLookRow() {
   auto* line = new QWidget(this);
-  look_ = new QPushButton("Search &again", line);
-  look_->setObjectName("lookAgain");
+  look_ = makeButton(
+      line, "lookAgain", "Search &again", "List the ports again and check the device at each");
   look_->setAutoDefault(false);
-  look_->setToolTip("List the ports again and check the device at each");
   connect(look_, &QPushButton::clicked, this, &PortsPage::look);
-  progress_ = new QProgressBar(line);
-  progress_->setObjectName("portsProgress");
+  progress_ = named(new QProgressBar(line), "portsProgress");
   progress_->setTextVisible(false);
   progress_->setFixedSize(120, 8);
   QSizePolicy keeps = progress_->sizePolicy();
   keeps.setRetainSizeWhenHidden(true);
   progress_->setSizePolicy(keeps);
-  progressText_ = new QLabel(line);
-  progressText_->setObjectName("portsProgressText");
-  progressText_->setProperty("role", "muted");
-  auto* row = new QHBoxLayout(line);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(10);
-  row->addWidget(progressText_, 1);
-  row->addWidget(progress_);
-  row->addWidget(look_);
+  progressText_ = makeLabel(line, "portsProgressText", "muted");
+  line->setLayout(inRow({{progressText_, 1}, progress_, look_}, Space::kWide));
   return line;
 }
 

@@ -10,15 +10,14 @@
 #include <QLocale>
 #include <QPushButton>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui {
 
 ReplayPage::ReplayPage(const QStringList& recent, QWidget* parent) : QWidget(parent) {
-  auto* label = new QLabel("Recordin&g", this);
-  path_ = new QComboBox(this);
-  path_->setObjectName("recording");
+  path_ = named(new QComboBox(this), "recording");
   path_->setEditable(true);
   path_->setInsertPolicy(QComboBox::NoInsert);
   path_->setCompleter(nullptr);
@@ -34,27 +33,21 @@ ReplayPage::ReplayPage(const QStringList& recent, QWidget* parent) : QWidget(par
                        TwoLineDelegate::kDetailRole);
   }
   path_->setCurrentIndex(-1);
-  label->setBuddy(path_);
-  auto* browse = new QPushButton("Bro&wse…", this);
-  browse->setObjectName("browseRecording");
+  auto* browse = makeButton(this, "browseRecording", "Bro&wse…");
   browse->setAutoDefault(false);
   mark_ = new StateMark(this);
-  state_ = new QLabel(this);
-  state_->setObjectName("recordingState");
-  state_->setTextFormat(Qt::PlainText);
-  state_->setWordWrap(true);
-  state_->setProperty("role", "muted");
-  auto* what = new QLabel(
+  state_ = makeLines(this, "recordingState", "muted");
+  auto* what = makeLines(
+      this,
+      {},
+      "muted",
       "Its frames are played at their recorded times, as if they came from a hand: views, filters "
-      "and alarms work the same. Nothing moves.",
-      this);
-  what->setWordWrap(true);
-  what->setProperty("role", "muted");
+      "and alarms work the same. Nothing moves.");
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(7);
   grid->setVerticalSpacing(4);
-  grid->addWidget(label, 0, 0, 1, 3);
+  grid->addWidget(makeTitle("Recordin&g", path_), 0, 0, 1, 3);
   grid->addWidget(path_, 1, 0, 1, 2);
   grid->addWidget(browse, 1, 2);
   grid->addWidget(mark_, 2, 0, Qt::AlignTop);

@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <variant>
 
@@ -15,6 +14,7 @@
 
 #include "gui/source/connection.h"
 #include "gui/source/file_reading.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui {
@@ -37,39 +37,25 @@ bool movesObjects(const Scene& scene) {
 
 ScenePage::ScenePage(const std::filesystem::path& folder, QWidget* parent)
     : QWidget(parent), folder_(folder) {
-  auto* label = new QLabel("What is around the &hand", this);
-  list_ = new QListWidget(this);
-  list_->setObjectName("scenes");
+  list_ = named(new QListWidget(this), "scenes");
   list_->setItemDelegate(new TwoLineDelegate(list_));
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setStyleSheet(QString("#scenes { border: 1px solid %1; border-radius: 4px; }")
                            .arg(colorsOf().border.name()));
-  label->setBuddy(list_);
-  none_ = new QLabel(this);
-  none_->setObjectName("noScenes");
-  none_->setWordWrap(true);
-  none_->setTextFormat(Qt::PlainText);
-  acts_ = new QCheckBox("The scene moves the hand &by itself", this);
-  acts_->setObjectName("sceneScriptRuns");
-  note_ = new QLabel("Without this, nothing pulls or turns the object: the script does it.", this);
-  note_->setObjectName("sceneNote");
-  note_->setProperty("role", "muted");
-  note_->setWordWrap(true);
-  auto* other = new QPushButton("&Other scene…", this);
-  other->setObjectName("otherScene");
+  none_ = makeLines(this, "noScenes");
+  acts_ = named(new QCheckBox("The scene moves the hand &by itself", this), "sceneScriptRuns");
+  note_ = makeLines(this,
+                    "sceneNote",
+                    "muted",
+                    "Without this, nothing pulls or turns the object: the script does it.");
+  auto* other = makeButton(this, "otherScene", "&Other scene…");
   other->setAutoDefault(false);
-  auto* below = new QHBoxLayout;
-  below->addWidget(acts_, 1);
-  below->addWidget(other);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(6);
-  column->addWidget(label);
-  column->addWidget(none_);
-  column->addWidget(list_, 1);
-  column->addSpacing(2);
-  column->addLayout(below);
-  column->addWidget(note_);
+  setLayout(inColumn({makeTitle("What is around the &hand", list_),
+                      none_,
+                      {list_, 1},
+                      Space::kNarrow,
+                      inRow({{acts_, 1}, other}),
+                      note_}));
 
   for (const std::string& name : sceneNames(folder_)) {
     const QString scene = QString::fromStdString(name);

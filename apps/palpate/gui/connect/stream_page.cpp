@@ -9,7 +9,6 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 #include <stdexcept>
 
 #include <palpate/core/error.h>
@@ -19,6 +18,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/connect/port_field.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
 #include "gui/widgets/two_line_delegate.h"
 
@@ -54,19 +54,11 @@ QString handSummaryOf(const HandDescription& hand) {
 QWidget* markedLine(StateMark*& mark, QLabel*& label, const char* name) {
   auto* line = new QWidget;
   mark = new StateMark(line);
-  label = new QLabel(line);
-  label->setObjectName(name);
-  label->setTextFormat(Qt::PlainText);
-  label->setWordWrap(true);
-  label->setProperty("role", "muted");
+  label = makeLines(line, name, "muted");
   label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   // Two lines, so that the layout does not change when the text wraps.
   label->setMinimumHeight(2 * label->fontMetrics().lineSpacing());
-  auto* row = new QHBoxLayout(line);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(7);
-  row->addWidget(mark, 0, Qt::AlignTop);
-  row->addWidget(label, 1);
+  line->setLayout(inRow({{mark, 0, Qt::AlignTop}, {label, 1}}));
   return line;
 }
 
@@ -78,8 +70,7 @@ bool isOpenToOthers(const QString& source) {
 }
 
 QSpinBox* portBox(const char* name, int least) {
-  auto* box = new QSpinBox;
-  box->setObjectName(name);
+  auto* box = named(new QSpinBox, name);
   box->setRange(least, kHighestPort);
   box->setValue(kUsualPort);
   if (least == 0) box->setSpecialValueText("any free one");
@@ -97,8 +88,7 @@ StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
   form_->setHorizontalSpacing(12);
   form_->setVerticalSpacing(6);
   form_->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  place_ = new QComboBox(this);
-  place_->setObjectName("streamPlace");
+  place_ = named(new QComboBox(this), "streamPlace");
   place_->addItems({"Serial port",
                     "TCP: connect to a sender",
                     "TCP: wait for a sender",
@@ -107,10 +97,7 @@ StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
   form_->addRow("", makePlace());
   form_->addRow("&Hand", makeHand());
   makeForm();
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->addLayout(form_);
-  column->addStretch(1);
+  setLayout(inColumn({form_, Stretch{}}));
 
   askForFolder = [this] {
     return QFileDialog::getExistingDirectory(this, "Folder of a hand (with its hand.json)");
@@ -147,22 +134,13 @@ QWidget* StreamPage::makePlace() {
   port_ = new PortField(
       "&Port", "Choose a port, or type the path of a device or of a pty.", "stream", this);
   port_->box()->setToolTip("A port of the list, or another device such as /dev/pts/3");
-  auto* connection = new QWidget(this);
-  auto* row = new QHBoxLayout(connection);
-  row->setContentsMargins(0, 0, 0, 0);
-  host_ = new QLineEdit;
-  host_->setObjectName("streamHost");
+  host_ = named(new QLineEdit, "streamHost");
   host_->setPlaceholderText("name or address of the machine that sends");
   hostPort_ = portBox("streamHostPort", 1);
-  row->addWidget(host_, 1);
-  row->addWidget(new QLabel("port"));
-  row->addWidget(hostPort_);
+  auto* connection = makeBox(inRow({{host_, 1}, new QLabel("port"), hostPort_}), this);
   fields_->addWidget(port_);
   fields_->addWidget(connection);
   for (const Place place : {kListen, kUdp}) {
-    auto* awaiting = new QWidget(this);
-    auto* line = new QHBoxLayout(awaiting);
-    line->setContentsMargins(0, 0, 0, 0);
     const bool udp = place == kUdp;
     ports_[place] = portBox(udp ? "streamUdpPort" : "streamListenPort", 0);
     addresses_[place] = new QLineEdit;
@@ -171,32 +149,24 @@ QWidget* StreamPage::makePlace() {
     addresses_[place]->setToolTip(
         "Without an address only programs of this machine can send. With one, such as 0.0.0.0 or "
         "::, any machine that reaches it can");
-    line->addWidget(new QLabel("port"));
-    line->addWidget(ports_[place]);
-    line->addWidget(new QLabel("address"));
-    line->addWidget(addresses_[place], 1);
+    auto* awaiting = makeBox(
+        inRow({new QLabel("port"), ports_[place], new QLabel("address"), {addresses_[place], 1}}),
+        this);
     fields_->addWidget(awaiting);
   }
-  auto* whole = new QWidget(this);
-  auto* column = new QVBoxLayout(whole);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addWidget(fields_);
-  column->addWidget(markedLine(placeMark_, placeText_, "streamPlaceText"));
-  return whole;
+  return makeBox(inColumn({fields_, markedLine(placeMark_, placeText_, "streamPlaceText")},
+                          Space::kNarrow),
+                 this);
 }
 
 QWidget* StreamPage::makeHand() {
-  auto* whole = new QWidget(this);
-  hand_ = new QComboBox;
-  hand_->setObjectName("streamHand");
+  hand_ = named(new QComboBox, "streamHand");
   hand_->setItemDelegate(new TwoLineDelegate(hand_));
   hand_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   for (const KnownHand& each : knownHands(folders_)) handIndex(streamPageText(each.key));
   hand_->setCurrentIndex(-1);
   hand_->setPlaceholderText("choose a hand");
-  auto* choose = new QPushButton("Choose f&older…");
-  choose->setObjectName("streamHandFolder");
+  auto* choose = named(new QPushButton("Choose f&older…"), "streamHandFolder");
   choose->setAutoDefault(false);
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString chosen = askForFolder();
@@ -206,35 +176,28 @@ QWidget* StreamPage::makeHand() {
     hand_->setCurrentIndex(handIndex(chosen));
     refresh();
   });
-  auto* row = new QHBoxLayout;
-  row->addWidget(hand_, 1);
-  row->addWidget(choose);
-  auto* column = new QVBoxLayout(whole);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addLayout(row);
-  column->addWidget(markedLine(handMark_, handText_, "streamHandText"));
+  auto* whole = makeBox(inColumn({inRow({{hand_, 1}, choose}),
+                                  markedLine(handMark_, handText_, "streamHandText")},
+                                 Space::kNarrow),
+                        this);
   whole->setFocusProxy(hand_);
   return whole;
 }
 
 void StreamPage::makeForm() {
-  format_ = new QComboBox(this);
-  format_->setObjectName("streamFormat");
+  format_ = named(new QComboBox(this), "streamFormat");
   format_->addItem("found by itself", static_cast<int>(StreamFormat::kAuto));
   format_->addItem("lines of numbers", static_cast<int>(StreamFormat::kLines));
   format_->addItem("JSON", static_cast<int>(StreamFormat::kJson));
   format_->addItem("packets", static_cast<int>(StreamFormat::kBinary));
-  time_ = new QComboBox(this);
-  time_->setObjectName("streamTime");
+  time_ = named(new QComboBox(this), "streamTime");
+  time_->setToolTip("The unit of time in lines of numbers; JSON and packets contain theirs");
   time_->addItem("found by itself", static_cast<int>(StreamTime::kAuto));
   time_->addItem("no time", static_cast<int>(StreamTime::kNone));
   time_->addItem("seconds", static_cast<int>(StreamTime::kSeconds));
   time_->addItem("milliseconds", static_cast<int>(StreamTime::kMilliseconds));
   time_->addItem("microseconds", static_cast<int>(StreamTime::kMicroseconds));
-  time_->setToolTip("The unit of time in lines of numbers; JSON and packets contain theirs");
-  baud_ = new QComboBox(this);
-  baud_->setObjectName("streamBaud");
+  baud_ = named(new QComboBox(this), "streamBaud");
   baud_->setEditable(true);
   baud_->setInsertPolicy(QComboBox::NoInsert);
   baud_->setCompleter(nullptr);

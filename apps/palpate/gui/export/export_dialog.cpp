@@ -9,7 +9,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include "gui/export/export_place.h"
 #include "gui/export/export_preview.h"
 #include "gui/widgets/elided_text.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -37,8 +37,7 @@ QLineEdit:focus { border-color: palette(highlight); }
 )";
 
 QDoubleSpinBox* spinBox(const char* name, double least, double most, int decimals) {
-  auto* box = new QDoubleSpinBox;
-  box->setObjectName(name);
+  auto* box = named(new QDoubleSpinBox, name);
   box->setRange(least, most);
   box->setDecimals(decimals);
   box->setMinimumHeight(kExportDialogFieldHeight);
@@ -48,8 +47,7 @@ QDoubleSpinBox* spinBox(const char* name, double least, double most, int decimal
 }
 
 QComboBox* exportDialogComboBox(const char* name) {
-  auto* box = new QComboBox;
-  box->setObjectName(name);
+  auto* box = named(new QComboBox, name);
   box->setMinimumHeight(kExportDialogFieldHeight);
   return box;
 }
@@ -62,36 +60,22 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
     : QDialog(parent), views_(std::move(views)), first_(suggestion) {
   setWindowTitle("Export");
   setStyleSheet(kExportDialogStyle);
-  auto* side = new QFrame(this);
-  side->setObjectName("exportSide");
-  preview_ = new ExportPreview(side);
-  preview_->setObjectName("exportPreview");
-  summary_ = new QLabel(side);
-  summary_->setObjectName("exportSummary");
-  summary_->setTextFormat(Qt::PlainText);
-  target_ = new QLabel(side);
-  target_->setObjectName("exportTarget");
-  target_->setTextFormat(Qt::PlainText);
-  target_->setProperty("role", "muted");
+  auto* side = named(new QFrame(this), "exportSide");
+  preview_ = named(new ExportPreview(side), "exportPreview");
+  summary_ = makeLabel(side, "exportSummary");
+  target_ = makeLabel(side, "exportTarget", "muted");
   for (QLabel* label : {summary_, target_}) {
     label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     label->setAlignment(Qt::AlignHCenter);
   }
-  auto* column = new QVBoxLayout(side);
-  column->setContentsMargins(4, 4, 4, 14);
-  column->setSpacing(3);
-  column->addWidget(preview_, 1);
-  column->addWidget(summary_);
-  column->addWidget(target_);
-  auto* middle = new QHBoxLayout;
-  middle->setSpacing(0);
-  middle->addWidget(makeForm());
-  middle->addWidget(side, 1);
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->setSpacing(0);
-  whole->addLayout(middle, 1);
-  whole->addWidget(makeFoot());
+  side->setLayout(inColumn({{preview_, 1}, summary_, target_},
+                           Space::kNarrow,
+                           {.left = Space::kNarrow,
+                            .top = Space::kNarrow,
+                            .right = Space::kNarrow,
+                            .bottom = Space::kWide}));
+  setLayout(
+      inColumn({{inRow({makeForm(), {side, 1}}, Space::kNone), 1}, makeFoot()}, Space::kNone));
   fill(suggestion);
   connectFields();
   resize(kExportDialogUsualSize);
@@ -132,9 +116,9 @@ QWidget* ExportDialog::makeForm() {
   colors_ = exportDialogComboBox("exportColors");
   colors_->addItems({"for print: white background, dark lines", "as on screen"});
   fields_->addRow("&Colours", colors_);
-  titled_ = new QCheckBox("T&itle line", form);
-  titled_->setObjectName("exportTitled");
-  titled_->setToolTip("Name of the recording, frame and time above the picture");
+  titled_ = named(new QCheckBox("T&itle line", form),
+                  "exportTitled",
+                  "Name of the recording, frame and time above the picture");
   fields_->addRow("", titled_);
   // Aligns the fields for all rows, so that they don't move when rows are shown or hidden.
   int labelWidth = 0;
@@ -155,47 +139,26 @@ QWidget* ExportDialog::makeForm() {
 }
 
 QWidget* ExportDialog::makeSize() {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(6);
   width_ = spinBox("exportWidth", 20.0, 1200.0, 1);
   height_ = spinBox("exportHeight", 20.0, 1200.0, 1);
   width_->setAccessibleName("Width in mm");
   height_->setAccessibleName("Height in mm");
-  layout->addWidget(width_, 1);
-  layout->addWidget(new QLabel("×", row));
-  layout->addWidget(height_, 1);
-  layout->addWidget(new QLabel("mm", row));
-  return row;
+  return makeBox(inRow({{width_, 1}, "×", {height_, 1}, "mm"}));
 }
 
 QWidget* ExportDialog::makeFoot() {
-  auto* foot = new QFrame(this);
-  foot->setObjectName("exportFoot");
-  problem_ = new QLabel(foot);
-  problem_->setObjectName("exportProblem");
-  problem_->setTextFormat(Qt::PlainText);
+  auto* foot = named(new QFrame(this), "exportFoot");
+  problem_ = makeLabel(foot, "exportProblem");
   problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  replace_ = new QCheckBox("R&eplace", foot);
-  replace_->setObjectName("exportReplace");
-  auto* cancel = new QPushButton("Cancel", foot);
-  cancel->setObjectName("exportCancel");
+  replace_ = named(new QCheckBox("R&eplace", foot), "exportReplace");
+  auto* cancel = makeButton(foot, "exportCancel", "Cancel");
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-  ok_ = new QPushButton("Export", foot);
-  ok_->setObjectName("exportOk");
+  ok_ = makeButton(foot, "exportOk", "Export");
   ok_->setProperty("primary", true);
   ok_->setDefault(true);
   keepWide(*ok_, 110);
   connect(ok_, &QPushButton::clicked, this, &ExportDialog::accept);
-  auto* row = new QHBoxLayout(foot);
-  row->setContentsMargins(kExportDialogMargin, 12, kExportDialogMargin, 12);
-  row->setSpacing(8);
-  row->addWidget(problem_, 1);
-  row->addWidget(replace_);
-  row->addSpacing(8);
-  row->addWidget(cancel);
-  row->addWidget(ok_);
+  foot->setLayout(inRow({{problem_, 1}, replace_, Space::kUsual, cancel, ok_}, kFootEdges));
   return foot;
 }
 

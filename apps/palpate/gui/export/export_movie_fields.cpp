@@ -2,9 +2,10 @@
 
 #include <QComboBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <algorithm>
+
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -12,8 +13,7 @@ namespace {
 constexpr int kExportMovieFieldsFieldHeight = 28;  // [px]
 
 QComboBox* exportMovieFieldsComboBox(const char* name) {
-  auto* box = new QComboBox;
-  box->setObjectName(name);
+  auto* box = named(new QComboBox, name);
   box->setMinimumHeight(kExportMovieFieldsFieldHeight);
   return box;
 }
@@ -32,12 +32,7 @@ ExportMovieFields::ExportMovieFields(QFormLayout& form)
   rate_ = exportMovieFieldsComboBox("exportRate");
   rate_->setAccessibleName("Pictures per second");
   for (const int rate : kMovieRates) rate_->addItem(QString("%1 pictures/s").arg(rate), rate);
-  pace_ = new QWidget;
-  auto* row = new QHBoxLayout(pace_);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(8);
-  row->addWidget(speed_, 1);
-  row->addWidget(rate_, 2);
+  pace_ = makeBox(inRow({{speed_, 1}, {rate_, 2}}));
   form.addRow("S&peed", pace_);
   qobject_cast<QLabel*>(form.labelForField(pace_))->setBuddy(speed_);
   height_ = exportMovieFieldsComboBox("exportMovieHeight");

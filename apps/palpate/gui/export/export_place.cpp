@@ -3,13 +3,12 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QVBoxLayout>
 
 #include "gui/source/recording_settings.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 
@@ -19,38 +18,21 @@ ExportPlace::ExportPlace(int labelWidth, QWidget* parent) : QWidget(parent) {
   askForFolder = [this](const QString& begin) {
     return QFileDialog::getExistingDirectory(this, "Folder to export to", begin);
   };
-  name_ = new QLineEdit(this);
-  name_->setObjectName("exportName");
+  name_ = named(new QLineEdit(this), "exportName");
   name_->setMaxLength(kMostLetters);
-  ending_ = new QLabel(this);
-  ending_->setObjectName("exportEnding");
-  ending_->setTextFormat(Qt::PlainText);
-  folder_ = new QLineEdit(this);
-  folder_->setObjectName("exportFolder");
-  auto* browseButton = new QPushButton("&Browse…", this);
-  browseButton->setObjectName("exportBrowse");
+  ending_ = makeLabel(this, "exportEnding");
+  folder_ = named(new QLineEdit(this), "exportFolder");
+  auto* browseButton = makeButton(this, "exportBrowse", "&Browse…");
   browseButton->setAutoDefault(false);
   connect(browseButton, &QPushButton::clicked, this, &ExportPlace::browse);
-  auto* nameLabel = new QLabel("&Name", this);
-  nameLabel->setBuddy(name_);
-  auto* folderLabel = new QLabel("F&older", this);
-  folderLabel->setBuddy(folder_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 10, 0, 0);
-  column->setSpacing(8);
-  const auto add = [&](QLabel* label, QLineEdit* field, QWidget* beside) {
+  const auto line = [labelWidth](const QString& title, QLineEdit* field, QWidget* beside) {
+    auto* label = makeTitle(title, field);
     label->setFixedWidth(labelWidth);
-    auto* row = new QHBoxLayout;
-    row->setSpacing(8);
-    row->addWidget(label);
     // The same spacing as in a form.
-    row->addSpacing(4);
-    row->addWidget(field, 1);
-    row->addWidget(beside);
-    column->addLayout(row);
+    return inRow({label, Space::kNarrow, {field, 1}, beside});
   };
-  add(nameLabel, name_, ending_);
-  add(folderLabel, folder_, browseButton);
+  setLayout(inColumn({line("&Name", name_, ending_), line("F&older", folder_, browseButton)},
+                     {.top = Space::kWide}));
   connect(name_, &QLineEdit::textEdited, this, [this] { nameIsOwn_ = !name_->text().isEmpty(); });
   for (QLineEdit* field : {name_, folder_})
     connect(field, &QLineEdit::textChanged, this, &ExportPlace::changed);

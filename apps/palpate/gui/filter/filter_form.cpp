@@ -16,6 +16,7 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -25,9 +26,7 @@ using FilterFormKind = FilterOption::Kind;
 constexpr int kDecimals = 4;
 
 QLabel* filterFormCaption(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text, parent);
-  label->setProperty("role", "muted");
-  return label;
+  return makeLabel(parent, {}, "muted", text);
 }
 
 QString wordOf(const FilterOption& option) {
@@ -62,13 +61,10 @@ double firstValue(const FilterOption& option) {
 }  // namespace
 
 FilterForm::FilterForm(QWidget* parent) : QWidget(parent) {
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(6);
   about_ = filterFormCaption({}, this);
   about_->setObjectName("filterAbout");
   about_->setWordWrap(true);
-  column->addWidget(about_);
+  setLayout(inColumn({about_}));
 }
 
 void FilterForm::setMatrixNames(const QStringList& shortNames) {
@@ -119,7 +115,7 @@ void FilterForm::build(const FilterKind& kind) {
   int row = 0;
   for (const FilterOption& option : kind.options) addField(*grid, row++, option);
   addMatrices(*grid, row);
-  static_cast<QVBoxLayout*>(layout())->insertWidget(0, fields_);
+  static_cast<QBoxLayout*>(layout())->insertWidget(0, fields_);
   about_->setText(QString::fromStdString(kind.purpose) +
                   "\nBorder: " + QString::fromStdString(kind.border) +
                   ".\nSource: " + QString::fromStdString(kind.source) + ".");

@@ -2,14 +2,12 @@
 
 #include <QCheckBox>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <numeric>
 
@@ -18,6 +16,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/filter/filter_form.h"
 #include "gui/filter/filter_list.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -34,9 +33,7 @@ QString quantity(int count, const QString& word) {
 FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent), editor_(editor) {
   list_ = new FilterList(this);
   form_ = new FilterForm(this);
-  totals_ = new QLabel(this);
-  totals_->setObjectName("filterTotals");
-  totals_->setWordWrap(true);
+  totals_ = makeLines(this, "filterTotals");
   progress_ = new QProgressBar(this);
   progress_->setRange(0, 100);
   progress_->setTextVisible(false);
@@ -47,28 +44,16 @@ FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent
   progress_->hide();
 
   auto* content = new QWidget(this);
-  auto* inner = new QVBoxLayout(content);
-  inner->setContentsMargins(0, 0, 0, 0);
-  inner->setSpacing(8);
   heading_ = sectionHeading("OPTIONS", content);
-  inner->addWidget(heading_);
-  inner->addWidget(form_);
-  inner->addStretch(1);
+  content->setLayout(inColumn({heading_, form_, Stretch{}}));
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(content);
 
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(12, 8, 12, 8);
-  column->setSpacing(8);
-  column->addWidget(makeTop());
-  column->addWidget(list_, 2);
-  column->addWidget(makeButtons());
-  column->addWidget(progress_);
-  column->addWidget(scroll, 3);
-  column->addWidget(totals_);
+  setLayout(inColumn({makeTop(), {list_, 2}, makeButtons(), progress_, {scroll, 3}, totals_},
+                     kPageEdges));
 
   askForRecipe = [this] {
     return std::filesystem::path(
@@ -96,12 +81,7 @@ FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent
 
 QWidget* FilterPanel::makeTop() {
   auto* top = new QWidget(this);
-  auto* row = new QHBoxLayout(top);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(6);
-  onBox_ = new QCheckBox("Filter the shown frames", top);
-  onBox_->setObjectName("filterOn");
-  onBox_->setToolTip("After, or before: A");
+  onBox_ = named(new QCheckBox("Filter the shown frames", top), "filterOn", "After, or before: A");
   connect(onBox_, &QCheckBox::toggled, this, &FilterPanel::setOn);
   const auto button = [&](const QString& text, const QString& tip) {
     auto* made = new QToolButton(top);
@@ -118,20 +98,13 @@ QWidget* FilterPanel::makeTop() {
   auto* menu = new QMenu(presets);
   fillMoreMenu(*menu);
   presets->setMenu(menu);
-  row->addWidget(onBox_, 1);
-  row->addWidget(undo_);
-  row->addWidget(redo_);
-  row->addWidget(presets);
+  top->setLayout(inRow({{onBox_, 1}, undo_, redo_, presets}));
   return top;
 }
 
 QWidget* FilterPanel::makeButtons() {
   auto* line = new QWidget(this);
-  auto* row = new QHBoxLayout(line);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(6);
-  auto* add = new QPushButton("Add", line);
-  add->setObjectName("filterAdd");
+  auto* add = makeButton(line, "filterAdd", "Add");
   auto* menu = new QMenu(add);
   fillAddMenu(*menu);
   add->setMenu(menu);
@@ -157,11 +130,7 @@ QWidget* FilterPanel::makeButtons() {
   connect(remove_, &QPushButton::clicked, this, [this] {
     if (const auto at = list_->chosen()) editor_.remove(*at);
   });
-  row->addWidget(add);
-  row->addStretch(1);
-  row->addWidget(up_);
-  row->addWidget(down_);
-  row->addWidget(remove_);
+  line->setLayout(inRow({add, Stretch{}, up_, down_, remove_}));
   return line;
 }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "gui/widgets/dialog_properties.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -85,19 +86,15 @@ void DialogStop::showIn(QDialog& dialog) {
     return;
   }
   if (bar) return widen(dialog, *bar);
-  bar = new QWidget(&dialog);
-  bar->setObjectName(kDialogStopName);
-  auto* button = new QPushButton("Stop  (Esc)", bar);
-  button->setObjectName("dialogStopButton");
+  bar = named(new QWidget(&dialog), kDialogStopName);
+  auto* button = makeButton(bar, "dialogStopButton", "Stop  (Esc)", stop_.toolTip());
   button->setProperty("danger", true);
   button->setAutoDefault(false);
   button->setFocusPolicy(Qt::NoFocus);
-  button->setToolTip(stop_.toolTip());
   connect(button, &QPushButton::clicked, &stop_, &QAction::trigger);
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(12, 8, 12, 0);
-  auto* state = new QLabel(bar);
-  state->setObjectName(kDialogStopStateName);
+  auto* state = makeLabel(bar, kDialogStopStateName);
   // Either text has room: a dialogue doesn't change its size while it is read.
   state->ensurePolished();
   int width = 0;

@@ -13,6 +13,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/hand/object_fields.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 
 namespace palpate::gui {
@@ -47,44 +48,26 @@ void recall(const QSettings& settings, const QString& key, QDoubleSpinBox& field
 
 GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
     : QWidget(parent), settings_(settings) {
-  header_ = new QToolButton(this);
-  header_->setObjectName("moreGraspOptions");
-  header_->setText("More");
+  header_ = makeToolButton(this, "moreGraspOptions", "More");
   header_->setToolTip(
       "The object, limits of single fingers and in newtons; how a slip-aware grasp holds");
   header_->setCheckable(true);
   header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   header_->setProperty("flat", true);
-  header_->setFocusPolicy(Qt::TabFocus);
-  summary_ = new QLabel(this);
-  summary_->setObjectName("graspOptionsSummary");
-  summary_->setProperty("role", "muted");
-  summary_->setTextFormat(Qt::PlainText);
+  summary_ = makeLabel(this, "graspOptionsSummary", "muted");
   summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   body_ = new QWidget(this);
-  auto* head = new QHBoxLayout;
-  head->setSpacing(8);
-  head->addWidget(header_);
-  head->addWidget(summary_, 1);
   object_ = new ObjectFields(body_);
   connect(object_, &ObjectFields::changed, this, &GraspOptions::showChoice);
-  auto* rows = new QVBoxLayout(body_);
-  rows->setContentsMargins(0, 0, 0, 0);
-  rows->setSpacing(4);
-  rows->addWidget(object_);
   auto* grid = new QGridLayout;
-  rows->addLayout(grid);
+  body_->setLayout(inColumn({object_, grid}, Space::kNarrow));
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(4);
   grid->setColumnStretch(1, 1);
   grid->setColumnStretch(3, 1);
   makeLimits(*grid);
   makeHolding(*grid);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addLayout(head);
-  column->addWidget(body_);
+  setLayout(inColumn({inRow({header_, {summary_, 1}}), body_}, Space::kNarrow));
   connect(header_, &QToolButton::toggled, this, &GraspOptions::open);
   header_->setChecked(settings.value(kOptionsOpen, false).toBool());
   open(header_->isChecked());
@@ -93,9 +76,7 @@ GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
 
 QDoubleSpinBox* GraspOptions::field(
     const QString& name, const QString& title, double least, double most, int decimals) {
-  auto* made = new SecondsField(body_);
-  made->setObjectName(name);
-  made->setAccessibleName(title);
+  auto* made = named(new SecondsField(body_), name, {}, title);
   made->setDecimals(decimals);
   made->setRange(least, most);
   made->setFocusPolicy(Qt::StrongFocus);
@@ -104,20 +85,14 @@ QDoubleSpinBox* GraspOptions::field(
 }
 
 void GraspOptions::makeLimits(QGridLayout& grid) {
-  unit_ = new QComboBox(body_);
-  unit_->setObjectName("limitUnit");
-  unit_->setAccessibleName("Unit of the limit");
+  unit_ = named(new QComboBox(body_), "limitUnit", {}, "Unit of the limit");
   unit_->addItems({"counts", "newtons"});
   grid.addWidget(new QLabel("Limit in", body_), 0, 0);
   grid.addWidget(unit_, 0, 1);
-  whyCounts_ = new QLabel(kWhyCounts, body_);
-  whyCounts_->setObjectName("whyCounts");
-  whyCounts_->setProperty("role", "muted");
-  whyCounts_->setWordWrap(true);
+  whyCounts_ = makeLines(body_, "whyCounts", "muted", kWhyCounts);
   whyCounts_->setToolTip(kNoCalibrationTip);
   grid.addWidget(whyCounts_, 0, 2, 1, 2);
-  eachFinger_ = new QCheckBox("Fingers 0, 1, 2", body_);
-  eachFinger_->setObjectName("eachFinger");
+  eachFinger_ = named(new QCheckBox("Fingers 0, 1, 2", body_), "eachFinger");
   eachFinger_->setToolTip(
       "A limit of its own for each finger; in counts the largest taxel of the finger, in newtons "
       "its whole force");
@@ -165,8 +140,7 @@ void GraspOptions::makeHolding(QGridLayout& grid) {
   hold_->setToolTip("Slip-aware: ends after this time; the hand goes on holding. 0: until stopped");
   hold_->setSpecialValueText("until stopped");
   recall(settings_, kHold, *hold_, usual.holdS);
-  loosen_ = new QCheckBox("Loosen", body_);
-  loosen_->setObjectName("loosenHand");
+  loosen_ = named(new QCheckBox("Loosen", body_), "loosenHand");
   loosen_->setToolTip(
       "Slip-aware: the hand may open slowly to a limit that fell. Off in each new session");
   mass_ = field("objectMass", "Object mass", 0.0, 100.0, 3);
@@ -181,8 +155,7 @@ void GraspOptions::makeHolding(QGridLayout& grid) {
     grid.addWidget(new QLabel(title, body_), at, column);
     grid.addWidget(field, at, column + 1);
   };
-  auto* caption = new QLabel("Slip-aware grasp", body_);
-  caption->setProperty("role", "muted");
+  auto* caption = makeLabel(body_, {}, "muted", "Slip-aware grasp");
   grid.addWidget(caption, 2, 0, 1, 4);
   row(3, 0, "Most, counts", most_);
   row(3, 2, "Calm, s", calm_);

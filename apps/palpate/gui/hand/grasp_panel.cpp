@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include "gui/hand/motion_button.h"
 #include "gui/hand/object_fields.h"
 #include "gui/hand/touch_store.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/status_lines.h"
 #include "gui/widgets/text_fit.h"
 #include "gui/widgets/value_slider.h"
@@ -59,30 +59,19 @@ double remembered(
   return ok && value >= least && value <= most ? value : usual;
 }
 
-QPushButton* button(const QString& text, const QString& name, QWidget* parent) {
-  auto* made = new QPushButton(text, parent);
-  made->setObjectName(name);
-  made->setFocusPolicy(Qt::TabFocus);
-  made->setAutoDefault(false);
-  made->setProperty(kMovesHand, true);
-  return made;
-}
-
 }  // namespace
 
 GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent)
     : QWidget(parent), settings_(settings), touches_(touches) {
   highestLimit = [](const GraspRequest&) { return kMaxGraspLimitCounts; };
   const GraspRequest usual;
-  preshape_ = new QComboBox(this);
-  preshape_->setObjectName("preshape");
+  preshape_ = named(new QComboBox(this), "preshape");
   for (const Preshape& each : movableHand().file->preshapes)
     preshape_->addItem(QString::fromStdString(each.title), QString::fromStdString(each.name));
   const int index = preshape_->findData(
       settings.value(kPreshape, QString::fromStdString(usual.preshape)).toString());
   preshape_->setCurrentIndex(std::max(0, index));
-  close_ = new ValueSlider("Close ratio", {0.0, 1.0, 1.0, 0.01, 2, " "}, this);
-  close_->setObjectName("closeRatio");
+  close_ = named(new ValueSlider("Close ratio", {0.0, 1.0, 1.0, 0.01, 2, " "}, this), "closeRatio");
   close_->setToolTip(
       "How far the hand closes: 0 open, 1 closed. A reactive grasp goes to 1 at most");
   close_->showValue(remembered(settings, kClose, 0.0, 1.0, usual.closeRatio));
@@ -94,24 +83,23 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
   // A new session never begins with the fast motions of another one.
   velocity_->showValue(usual.velocityDegPerS);
   settings.remove("grasp/velocity_deg_per_s");
-  limit_ = new ValueSlider(
-      "Limit",
-      {kMinGraspLimitCounts, kMaxGraspLimitCounts, kMaxGraspLimitCounts, 1.0, 0, "counts"},
-      this);
-  limit_->setObjectName("limit");
+  limit_ = named(
+      new ValueSlider(
+          "Limit",
+          {kMinGraspLimitCounts, kMaxGraspLimitCounts, kMaxGraspLimitCounts, 1.0, 0, "counts"},
+          this),
+      "limit");
   limit_->showValue(
       remembered(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts, usual.limitCounts));
 
-  forceLimit_ = new ValueSlider(
-      "Force limit", {kMinForceLimitN, kMaxForceLimitN, kSliderForceLimitN, 0.05, 2, "N"}, this);
-  forceLimit_->setObjectName("forceLimit");
+  forceLimit_ =
+      named(new ValueSlider("Force limit",
+                            {kMinForceLimitN, kMaxForceLimitN, kSliderForceLimitN, 0.05, 2, "N"},
+                            this),
+            "forceLimit");
   forceLimit_->showValue(
       remembered(settings, kForceLimit, kMinForceLimitN, kMaxForceLimitN, kUsualForceLimitN));
-  auto* limits = new QWidget(this);
-  auto* limitsRow = new QHBoxLayout(limits);
-  limitsRow->setContentsMargins(0, 0, 0, 0);
-  limitsRow->addWidget(limit_);
-  limitsRow->addWidget(forceLimit_);
+  auto* limits = makeBox(inRow({limit_, forceLimit_}), this);
 
   auto* form = new QFormLayout;
   form->setContentsMargins(0, 0, 0, 0);
@@ -133,30 +121,16 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
   });
 
   // The order of creation is the tab order.
-  grasp_ = button("Grasp", "graspHand", this);
-  reactive_ = button("Reactive", "reactiveGrasp", this);
-  slipAware_ = button("Slip-aware", "slipAwareGrasp", this);
-  open_ = button("Open", "openHand", this);
-  relax_ = button("Relax", "relaxHand", this);
+  grasp_ = motionButton("Grasp", "graspHand", {}, true, this);
+  reactive_ = motionButton("Reactive", "reactiveGrasp", {}, true, this);
+  slipAware_ = motionButton("Slip-aware", "slipAwareGrasp", {}, true, this);
+  open_ = motionButton("Open", "openHand", {}, true, this);
+  relax_ = motionButton("Relax", "relaxHand", {}, true, this);
   options_ = new GraspOptions(settings, this);
-  auto* grasps = new QHBoxLayout;
-  grasps->setSpacing(6);
-  for (QPushButton* each : {grasp_, reactive_, slipAware_}) grasps->addWidget(each, 1);
-  auto* others = new QHBoxLayout;
-  others->setSpacing(6);
-  for (QPushButton* each : {open_, relax_}) others->addWidget(each, 1);
-  auto* buttons = new QVBoxLayout;
-  buttons->setSpacing(6);
-  buttons->addLayout(grasps);
-  buttons->addLayout(others);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(10);
-  column->addLayout(form);
-  column->addLayout(buttons);
+  auto* buttons = inColumn(
+      {inRow({{grasp_, 1}, {reactive_, 1}, {slipAware_, 1}}), inRow({{open_, 1}, {relax_, 1}})});
   // Below the buttons, which don't move when it unfolds.
-  column->addWidget(options_);
-  column->addStretch(1);
+  setLayout(inColumn({form, buttons, options_, Stretch{}}, Space::kWide));
 
   connect(open_, &QPushButton::clicked, this, [this] {
     GraspRequest request = this->request(GraspMode::kPlain);
@@ -194,9 +168,7 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
 }
 
 void GraspPanel::makeForecast(QFormLayout& form) {
-  keep_ = new QCheckBox("Keep the limit", this);
-  keep_->setObjectName("keepLimit");
-  keep_->setToolTip(kKeepTip);
+  keep_ = named(new QCheckBox("Keep the limit", this), "keepLimit", kKeepTip);
   keep_->setChecked(settings_.value(kKeepLimit, true).toBool());
   forecast_ = new StatusLines(kForecastLines, "graspForecast", this);
   forecast_->label().setTextFormat(Qt::PlainText);

@@ -2,7 +2,6 @@
 
 #include <QAbstractSpinBox>
 #include <QAction>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPushButton>
@@ -10,7 +9,6 @@
 #include <QScrollBar>
 #include <QTabBar>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -32,6 +30,7 @@
 #include "gui/hand/touch_store.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/status_lines.h"
 #include "gui/widgets/text_fit.h"
@@ -69,17 +68,10 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   // A click on a button takes the focus from whatever had it: Return, pressed after a click on
   // Grasp, must not press a button elsewhere in the window.
   setFocusPolicy(Qt::ClickFocus);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(makeHead());
-  column->addWidget(makeBody(settings), 1);
   // At the bottom, so that other parts don't move when it appears or disappears.
-  heat_ = new QLabel(this);
-  heat_->setObjectName("handHeat");
-  heat_->setWordWrap(true);
+  heat_ = makeLines(this, "handHeat");
   heat_->setContentsMargins(kHandDockMargin, 6, kHandDockMargin, 8);
-  column->addWidget(heat_);
+  setLayout(inColumn({makeHead(), {makeBody(settings), 1}, heat_}, Space::kNone));
   body_->widget()->installEventFilter(this);
   fitToText(*this, [this] {
     textChanged_ = true;
@@ -160,21 +152,13 @@ QWidget* HandDock::makeHead() {
   // The height is fixed, so that no button moves: users remember the buttons of a robot by their
   // position.
   state_ = new StatusLines(kStateLines, "handState", head);
-  stop_ = new QPushButton("Stop  (Esc)", head);
-  stop_->setObjectName("stopHand");
+  stop_ = makeButton(head, "stopHand", "Stop  (Esc)");
   stop_->setProperty("danger", true);
   stop_->setFocusPolicy(Qt::TabFocus);
   // As high as the lines beside it.
   stop_->setSizePolicy(QSizePolicy::Minimum, QSizePolicy::Expanding);
   keepWide(*stop_, 120);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(12);
-  row->addWidget(state_, 1);
-  row->addWidget(stop_);
-  auto* column = new QVBoxLayout(head);
-  column->setContentsMargins(kHandDockMargin, 10, kHandDockMargin, 8);
-  column->setSpacing(6);
-  column->addLayout(row);
+  head->setLayout(inColumn({inRow({{state_, 1}, stop_}, Space::kWide)}, kPageEdges));
   return head;
 }
 
@@ -183,13 +167,11 @@ void HandDock::makePages(QSettings& settings, QWidget* content) {
   grasp_ = new GraspPanel(settings, *touches_, content);
   joint_ = new JointPanel(settings, content);
   sequence_ = new SequencePanel(settings, content);
-  chooser_ = new QTabBar(content);
-  chooser_->setObjectName("handPages");
+  chooser_ = named(new QTabBar(content), "handPages");
   chooser_->setDrawBase(false);
   chooser_->setExpanding(false);
   chooser_->setFocusPolicy(Qt::TabFocus);
-  pages_ = new FittingPages(content);
-  pages_->setObjectName(kDockPages);
+  pages_ = named(new FittingPages(content), kDockPages);
   const auto page = [this](QWidget* panel, const QString& name, const QString& tip) {
     // What is left of the height of a page stays below its panel.
     pages_->addWidget(panel);
@@ -265,48 +247,30 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   makePages(settings, content);
   sensitivity_ = new SensitivityModes(content);
   tactile_ = new TactileSettingsPanel(settings, content);
-  angles_ = new FactsView(content);
-  angles_->setObjectName("liveAngles");
-  angles_->setAccessibleName("Joint angles");
-  temperatures_ = new FactsView(content);
-  temperatures_->setObjectName("liveTemperatures");
-  temperatures_->setAccessibleName("Temperatures");
+  angles_ = named(new FactsView(content), "liveAngles", {}, "Joint angles");
+  temperatures_ = named(new FactsView(content), "liveTemperatures", {}, "Temperatures");
   const auto section = [content](const char* name, const QString& title, QWidget* view) {
-    auto* made = new QWidget(content);
-    made->setObjectName(name);
-    auto* rows = new QVBoxLayout(made);
-    rows->setContentsMargins(0, 0, 0, 0);
-    rows->setSpacing(4);
-    rows->addWidget(sectionHeading(title, made));
-    rows->addWidget(view);
-    rows->addStretch(1);
+    auto* made = named(new QWidget(content), name);
+    made->setLayout(inColumn({sectionHeading(title, made), view, Stretch{}}, Space::kNarrow));
     return made;
   };
   joints_ = section("handJoints", "Joint angles", angles_);
   heats_ = section("handTemperatures", "Temperatures", temperatures_);
-  auto* measured = new QHBoxLayout;
-  measured->setSpacing(20);
-  measured->addWidget(joints_, 1);
-  measured->addWidget(heats_, 1);
-  auto* column = new QVBoxLayout(content);
-  column->setContentsMargins(kHandDockMargin, 4, kHandDockMargin, 10);
-  column->setSpacing(8);
-  auto* settable = new QWidget(content);
-  settable->setObjectName("handControls");
-  auto* controls = new QVBoxLayout(settable);
-  controls->setContentsMargins(0, 0, 0, 0);
-  controls->setSpacing(8);
-  controls->addWidget(chooser_);
-  controls->addWidget(pages_);
-  controls->addSpacing(8);
-  controls->addWidget(sectionHeading("Matrices", settable));
-  controls->addWidget(sensitivity_);
-  controls->addWidget(tactile_);
-  controls->addSpacing(8);
-  column->addWidget(settable);
+  auto* settable = named(new QWidget(content), "handControls");
+  settable->setLayout(inColumn({chooser_,
+                                pages_,
+                                Space::kUsual,
+                                sectionHeading("Matrices", settable),
+                                sensitivity_,
+                                tactile_,
+                                Space::kUsual}));
   controls_ = {settable, stop_};
-  column->addLayout(measured);
-  column->addStretch(1);
+  content->setLayout(
+      inColumn({settable, inRow({{joints_, 1}, {heats_, 1}}, Space::kDialog), Stretch{}},
+               {.left = Space::kWide,
+                .top = Space::kNarrow,
+                .right = Space::kWide,
+                .bottom = Space::kWide}));
   area->setWidget(content);
   body_ = area;
   return area;
@@ -354,7 +318,7 @@ void HandDock::clearAnswers() {
 void HandDock::fitWidth() {
   int widest = body_->widget()->minimumSizeHint().width();
   for (int i = 0; i < pages_->count(); ++i)
-    widest = std::max(widest, pages_->widget(i)->minimumSizeHint().width() + 2 * kHandDockMargin);
+    widest = std::max(widest, pages_->widget(i)->minimumSizeHint().width() + 2 * px(Space::kWide));
   body_->setMinimumWidth(widest + body_->verticalScrollBar()->sizeHint().width());
 }
 

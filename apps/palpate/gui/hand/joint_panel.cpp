@@ -5,7 +5,6 @@
 #include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QInputDialog>
 #include <QLabel>
 #include <QMenu>
@@ -25,6 +24,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/motion_button.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 #include "gui/widgets/value_slider.h"
 
@@ -37,17 +37,6 @@ constexpr const char* kSaveTip = "Saves the present angles under a name";
 constexpr const char* kPoseFilter = "Poses (*.json)";
 constexpr std::uint64_t kLargestPoseFile = 10'000'000;
 constexpr std::size_t kMaxImportedPoses = 1000;
-
-QPushButton* jointButton(
-    const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
-  auto* made = new QPushButton(text, parent);
-  made->setObjectName(name);
-  made->setToolTip(tip);
-  made->setFocusPolicy(Qt::TabFocus);
-  made->setAutoDefault(false);
-  made->setProperty(kMovesHand, moves);
-  return made;
-}
 
 QString angleText(double value, const AxisDescription& axis) {
   return figure(value, 1) + (axis.isSliding ? " mm" : "°");
@@ -86,26 +75,14 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
   const int last = static_cast<int>(rows_.size());
   grid->addWidget(new QLabel("Velocity, deg/s", this), last, 0, 1, 2);
   grid->addWidget(velocity_, last, 2);
-  stopAtContact_ = new QCheckBox("Stop at a contact", this);
-  stopAtContact_->setObjectName("stopAtContact");
+  stopAtContact_ = named(new QCheckBox("Stop at a contact", this), "stopAtContact");
   stopAtContact_->setToolTip("Moves under tactile control, with the limits of the page Grasp");
   stopAtContact_->setChecked(settings.value(kJointContact, false).toBool());
-  move_ = jointButton("Move", "moveJoints", {}, true, this);
-  reset_ = jointButton(
+  move_ = motionButton("Move", "moveJoints", {}, true, this);
+  reset_ = motionButton(
       "Reset", "resetTargets", "Targets are the present angles again; nothing moves", false, this);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(6);
-  row->addWidget(stopAtContact_);
-  row->addStretch(1);
-  row->addWidget(move_);
-  row->addWidget(reset_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(8);
-  column->addLayout(grid);
-  column->addLayout(row);
-  column->addWidget(makePoses());
-  column->addStretch(1);
+  setLayout(
+      inColumn({grid, inRow({stopAtContact_, Stretch{}, move_, reset_}), makePoses(), Stretch{}}));
   connect(stopAtContact_, &QCheckBox::toggled, this, [this](bool on) {
     settings_.setValue(kJointContact, on);
   });
@@ -141,7 +118,7 @@ void JointPanel::makeRows(QGridLayout& grid) {
     fitToText(*row.target->field(), [field = row.target->field()] {
       field->setFixedWidth(field->fontMetrics().horizontalAdvance("-188.8") + 18);
     });
-    row.move = jointButton("Move", "moveJoint" + number, {}, true, this);
+    row.move = motionButton("Move", "moveJoint" + number, {}, true, this);
     row.move->setAccessibleName("Move " + name);
     const int at = static_cast<int>(axis);
     grid.addWidget(row.name, at, 0);
@@ -163,24 +140,18 @@ void JointPanel::makeRows(QGridLayout& grid) {
 
 QWidget* JointPanel::makePoses() {
   auto* part = new QWidget(this);
-  names_ = new QComboBox(part);
-  names_->setObjectName("ownPoses");
-  names_->setToolTip("Its angles become the targets; Move goes there");
+  names_ = named(new QComboBox(part), "ownPoses", "Its angles become the targets; Move goes there");
   names_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   names_->setMinimumContentsLength(8);
-  save_ = jointButton("Save…", "savePose", kSaveTip, false, part);
-  rename_ = jointButton("Rename…", "renamePose", "Renames the chosen pose", false, part);
-  remove_ = jointButton("Delete", "removePose", "Deletes the chosen pose", false, part);
-  file_ = jointButton("File", "poseFile", "Poses from a file, or into one", false, part);
+  save_ = motionButton("Save…", "savePose", kSaveTip, false, part);
+  rename_ = motionButton("Rename…", "renamePose", "Renames the chosen pose", false, part);
+  remove_ = motionButton("Delete", "removePose", "Deletes the chosen pose", false, part);
+  file_ = motionButton("File", "poseFile", "Poses from a file, or into one", false, part);
   auto* menu = new QMenu(file_);
   menu->addAction("Import…", this, &JointPanel::importPoses)->setObjectName("importPoses");
   menu->addAction("Export…", this, &JointPanel::exportPoses)->setObjectName("exportPoses");
   file_->setMenu(menu);
-  auto* row = new QHBoxLayout(part);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(6);
-  row->addWidget(names_, 1);
-  for (QPushButton* each : {save_, rename_, remove_, file_}) row->addWidget(each);
+  part->setLayout(inRow({{names_, 1}, save_, rename_, remove_, file_}));
   connect(names_, &QComboBox::activated, this, [this](int index) {
     if (index > 0) choosePose(names_->currentText());
     showPresent();

@@ -1,7 +1,10 @@
 #include "gui/hand/motion_button.h"
 
+#include <QPushButton>
 #include <QVariant>
-#include <QWidget>
+
+#include "gui/desktop/button_keys.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -17,6 +20,15 @@ QWidget* keeperOf(const QWidget& button) {
 }
 
 }  // namespace
+
+QPushButton* motionButton(
+    const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
+  auto* made = makeButton(parent, name, text, tip);
+  made->setFocusPolicy(Qt::TabFocus);
+  made->setAutoDefault(false);
+  made->setProperty(kMovesHand, moves);
+  return made;
+}
 
 void enableMotionButton(QWidget& button, bool on) {
   const QWidget* window = button.window();

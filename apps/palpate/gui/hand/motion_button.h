@@ -5,9 +5,15 @@
 
 #include <palpate/control/grasp_control.h>
 
+class QPushButton;
 class QWidget;
 
 namespace palpate::gui {
+
+// Takes neither Return in a dialog nor the focus by a click. `moves`: it moves the hand (see
+// kMovesHand), else it stands among those that do.
+QPushButton* motionButton(
+    const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent);
 
 // Enables or disables a button that moves the hand. One that has the focus of its window gives it
 // to the part of the window around it that takes the focus by a click (the dock Hand), where Return

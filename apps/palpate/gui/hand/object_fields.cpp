@@ -14,6 +14,7 @@
 #include <palpate/model/preshape.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 
 namespace palpate::gui {
@@ -35,9 +36,7 @@ class ObjectName : public QValidator {
 }  // namespace
 
 ObjectFields::ObjectFields(QWidget* parent) : QWidget(parent), hand_(movableHand()) {
-  name_ = new QComboBox(this);
-  name_->setObjectName("objectName");
-  name_->setAccessibleName("Name of the object");
+  name_ = named(new QComboBox(this), "objectName", {}, "Name of the object");
   name_->setEditable(true);
   name_->setInsertPolicy(QComboBox::NoInsert);
   // No completion: "ball" must not become "ball of foam".
@@ -49,24 +48,18 @@ ObjectFields::ObjectFields(QWidget* parent) : QWidget(parent), hand_(movableHand
   name_->setToolTip(
       "Under this name it is remembered where grasps with this preshape touched the object: later "
       "ones are fast until shortly before. Not kept for the next session");
-  size_ = new SecondsField(this);
-  size_->setObjectName("objectSize");
-  size_->setAccessibleName("Size of the object");
+  size_ = named(new SecondsField(this), "objectSize", {}, "Size of the object");
+  size_->setToolTip(
+      "Width between the fingers: until shortly before it a grasp that keeps its limit is fast. "
+      "Rather too large than too small. Not kept for the next session");
   size_->refused().setSaidUnit(" mm");
   size_->setDecimals(1);
   size_->setRange(0.0, kLargestObjectMm);
   size_->setFocusPolicy(Qt::StrongFocus);
   size_->setSpecialValueText("not known");
-  size_->setToolTip(
-      "Width between the fingers: until shortly before it a grasp that keeps its limit is fast. "
-      "Rather too large than too small. Not kept for the next session");
-  remembered_ = new QLabel(this);
-  remembered_->setObjectName("rememberedTouch");
-  remembered_->setProperty("role", "muted");
-  remembered_->setTextFormat(Qt::PlainText);
+  remembered_ = makeLabel(this, "rememberedTouch", "muted");
   remembered_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  forget_ = new QPushButton("Forget", this);
-  forget_->setObjectName("forgetTouch");
+  forget_ = makeButton(this, "forgetTouch", "Forget");
   forget_->setAccessibleName("Forget where the object was touched");
   forget_->setFocusPolicy(Qt::TabFocus);
   forget_->setAutoDefault(false);

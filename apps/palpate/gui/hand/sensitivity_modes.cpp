@@ -4,9 +4,9 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -24,12 +24,8 @@ SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
   row->setSpacing(4);
   const auto add =
       [&](SensitivityMode mode, const char* name, const QString& text, const QString& tip) {
-        auto* button = new QToolButton(this);
-        button->setObjectName(name);
-        button->setText(text);
-        button->setToolTip(tip);
+        auto* button = makeToolButton(this, name, text, tip);
         button->setCheckable(true);
-        button->setFocusPolicy(Qt::TabFocus);
         buttons_->addButton(button, static_cast<int>(mode));
         row->addWidget(button);
       };
@@ -47,17 +43,10 @@ SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
       "Adaptive",
       "Finds the highest sensitivity at which nothing saturates");
   row->addStretch(1);
-  text_ = new QLabel(this);
-  text_->setObjectName("sensitivityStatus");
-  text_->setProperty("role", "muted");
-  text_->setWordWrap(true);
+  text_ = makeLines(this, "sensitivityStatus", "muted");
   // Fixed height, so that the parts below don't move.
   text_->setMinimumHeight(2 * fontMetrics().lineSpacing());
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addLayout(row);
-  column->addWidget(text_);
+  setLayout(inColumn({row, text_}, Space::kNarrow));
   connect(buttons_, &QButtonGroup::idClicked, this, [this](int id) {
     choose(static_cast<SensitivityMode>(id));
   });

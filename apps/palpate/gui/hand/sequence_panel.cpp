@@ -2,12 +2,10 @@
 
 #include <QDoubleSpinBox>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
 #include <QMenu>
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -18,6 +16,7 @@
 
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/motion_button.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/status_lines.h"
 #include "gui/widgets/text_fit.h"
@@ -31,17 +30,6 @@ constexpr const char* kStoredSequence = "sequence/last";
 constexpr const char* kSequenceFilter = "Sequences (*.json)";
 constexpr std::uint64_t kLargestSequenceFile = 10'000'000;
 constexpr int kSequenceLines = 6;
-
-QPushButton* sequenceButton(
-    const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
-  auto* made = new QPushButton(text, parent);
-  made->setObjectName(name);
-  made->setToolTip(tip);
-  made->setFocusPolicy(Qt::TabFocus);
-  made->setAutoDefault(false);
-  made->setProperty(kMovesHand, moves);
-  return made;
-}
 
 }  // namespace
 
@@ -58,9 +46,7 @@ SequencePanel::SequencePanel(QSettings& settings, QWidget* parent)
         this, "Save the sequence", "sequence.json", kSequenceFilter);
   };
   sequence_.hand = movableHand().name;
-  steps_ = new QListWidget(this);
-  steps_->setObjectName("sequenceSteps");
-  steps_->setAccessibleName("Steps of the sequence");
+  steps_ = named(new QListWidget(this), "sequenceSteps", {}, "Steps of the sequence");
   fitToText(*steps_, [steps = steps_] {
     steps->setFixedHeight(kSequenceLines * (steps->fontMetrics().lineSpacing() + 6) + 8);
   });
@@ -78,59 +64,40 @@ SequencePanel::SequencePanel(QSettings& settings, QWidget* parent)
 }
 
 void SequencePanel::makeButtons() {
-  add_ = sequenceButton(
+  add_ = motionButton(
       "Add", "addStep", "Adds a step with the values of the pages Grasp and Joints", false, this);
   addMenu_ = new QMenu(add_);
   connect(addMenu_, &QMenu::aboutToShow, this, &SequencePanel::fillAddMenu);
   add_->setMenu(addMenu_);
-  seconds_ = new SecondsField(this);
-  seconds_->setObjectName("stepSeconds");
-  seconds_->setAccessibleName("Seconds of a step that holds or waits");
-  seconds_->setToolTip("Seconds of the next step that holds or waits");
+  seconds_ = named(new SecondsField(this),
+                   "stepSeconds",
+                   "Seconds of the next step that holds or waits",
+                   "Seconds of a step that holds or waits");
   seconds_->setDecimals(1);
   seconds_->setRange(0.0, 86'400.0);
   seconds_->setValue(2.0);
   seconds_->setFocusPolicy(Qt::StrongFocus);
-  remove_ = sequenceButton("Remove", "removeStep", "Removes the chosen step", false, this);
-  up_ = sequenceButton("Up", "stepUp", "The chosen step earlier", false, this);
-  down_ = sequenceButton("Down", "stepDown", "The chosen step later", false, this);
-  times_ = new QSpinBox(this);
-  times_->setObjectName("sequenceTimes");
-  times_->setAccessibleName("Repetitions");
-  times_->setToolTip("How often the whole table is done");
+  remove_ = motionButton("Remove", "removeStep", "Removes the chosen step", false, this);
+  up_ = motionButton("Up", "stepUp", "The chosen step earlier", false, this);
+  down_ = motionButton("Down", "stepDown", "The chosen step later", false, this);
+  times_ = named(
+      new QSpinBox(this), "sequenceTimes", "How often the whole table is done", "Repetitions");
   times_->setRange(1, MotionSequence::kMostRepetitions);
   times_->setFocusPolicy(Qt::StrongFocus);
-  start_ = sequenceButton("Start", "startSequence", {}, true, this);
-  file_ = sequenceButton("File", "sequenceFile", "The table from a file, or into one", false, this);
+  start_ = motionButton("Start", "startSequence", {}, true, this);
+  file_ = motionButton("File", "sequenceFile", "The table from a file, or into one", false, this);
   auto* menu = new QMenu(file_);
   menu->addAction("Open…", this, &SequencePanel::openFile)->setObjectName("openSequence");
   menu->addAction("Save…", this, &SequencePanel::saveFile)->setObjectName("saveSequence");
   file_->setMenu(menu);
   state_ = new StatusLines(3, "sequenceState", this);
   state_->label().setProperty("role", "muted");
-  auto* edit = new QHBoxLayout;
-  edit->setSpacing(6);
-  edit->addWidget(add_);
-  edit->addWidget(seconds_);
-  edit->addWidget(new QLabel("s", this));
-  edit->addStretch(1);
-  for (QPushButton* each : {remove_, up_, down_}) edit->addWidget(each);
-  auto* go = new QHBoxLayout;
-  go->setSpacing(6);
-  go->addWidget(times_);
-  go->addWidget(new QLabel("times", this));
-  go->addStretch(1);
-  go->addWidget(start_);
-  go->addWidget(file_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(6);
-  column->addWidget(steps_);
-  column->addLayout(edit);
-  column->addLayout(go);
-  column->addWidget(state_);
   // What is left of the height is below: no button moves when another page is higher.
-  column->addStretch(1);
+  setLayout(inColumn({steps_,
+                      inRow({add_, seconds_, "s", Stretch{}, remove_, up_, down_}),
+                      inRow({times_, "times", Stretch{}, start_, file_}),
+                      state_,
+                      Stretch{}}));
   connect(remove_, &QPushButton::clicked, this, [this] {
     const int row = steps_->currentRow();
     if (row < 0) return;

@@ -15,6 +15,7 @@
 
 #include <palpate/model/hand_description.h>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 #include "gui/widgets/value_slider.h"
 
@@ -28,9 +29,7 @@ constexpr const char* kPick = "Saved settings…";
 enum TactileSettingsPanelColumn { kSquare, kName, kSensitivity, kThreshold };
 
 QLabel* tactileSettingsPanelCaption(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text, parent);
-  label->setProperty("role", "muted");
-  return label;
+  return makeLabel(parent, {}, "muted", text);
 }
 
 }  // namespace
@@ -45,11 +44,7 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
   note_ = tactileSettingsPanelCaption({}, this);
   // Keeps room for one line, so that nothing moves when a note appears.
   note_->setMinimumHeight(fontMetrics().lineSpacing());
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(8);
-  column->addWidget(table_);
-  column->addWidget(note_);
+  setLayout(inColumn({table_, note_}));
   scanned_ = tactileSettingsPanelCaption({}, this);
   scanned_->setObjectName("scannedTaxels");
   scanned_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -143,9 +138,7 @@ void TactileSettingsPanel::makeRow(int row, const QString& name) {
 
 void TactileSettingsPanel::makeButtons() {
   const auto button = [this](const QString& text, const char* name, const QString& tip) {
-    auto* made = new QPushButton(text, this);
-    made->setObjectName(name);
-    made->setToolTip(tip);
+    auto* made = makeButton(this, name, text, tip);
     made->setFocusPolicy(Qt::TabFocus);
     return made;
   };
@@ -155,25 +148,13 @@ void TactileSettingsPanel::makeButtons() {
       "Restore the factory settings: sensitivity 0.5, threshold 150 (proximal) and 300 (distal)");
   undo_ = button("Undo", "undoSettings", "Back to the values from before the last change");
   redo_ = button("Redo", "redoSettings", "Again to the values that were undone");
-  auto* above = new QHBoxLayout;
-  above->setSpacing(6);
-  above->addWidget(scanned_, 1);
-  above->addWidget(undo_);
-  above->addWidget(redo_);
-  static_cast<QVBoxLayout*>(layout())->addLayout(above);
+  static_cast<QBoxLayout*>(layout())->addLayout(inRow({{scanned_, 1}, undo_, redo_}));
   connect(undo_, &QPushButton::clicked, this, [this] { restore(true); });
   connect(redo_, &QPushButton::clicked, this, [this] { restore(false); });
   save_ = button("Save…", "saveSettings", "Saves these values under a name, for this hand");
   remove_ = button("Delete", "removeSettings", "Deletes the saved settings chosen above");
-  names_ = new QComboBox(this);
-  names_->setObjectName("savedSettings");
-  auto* row = new QHBoxLayout;
-  row->setSpacing(6);
-  row->addWidget(reset_);
-  row->addWidget(names_, 1);
-  row->addWidget(save_);
-  row->addWidget(remove_);
-  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  names_ = named(new QComboBox(this), "savedSettings");
+  static_cast<QBoxLayout*>(layout())->addLayout(inRow({reset_, {names_, 1}, save_, remove_}));
   connect(reset_, &QPushButton::clicked, this, [this] {
     if (session_) applySettings(defaultTactileSettings(session_->device().hand()));
   });

@@ -7,12 +7,12 @@
 #include <QMenu>
 #include <QSignalBlocker>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include <palpate/core/error.h>
 
 #include "gui/widgets/fitting_row.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -52,12 +52,10 @@ std::vector<Eigen::Vector3d> handPanelExtentOf(const OpenedRecording& recording,
 }  // namespace
 
 HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(parent) {
-  auto* header = new FittingRow(this);
-  header->setObjectName("ViewHeader");
+  auto* header = named(new FittingRow(this), "ViewHeader");
   header->setAttribute(Qt::WA_StyledBackground);
   const auto box = [header](const char* name, const char* tip) {
-    auto* made = new QComboBox(header);
-    made->setObjectName(name);
+    auto* made = named(new QComboBox(header), name);
     made->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
     made->setToolTip(tip);
     made->setMinimumHeight(kHandPanelControlHeight);
@@ -69,12 +67,8 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
   spheres_ = box("sphereBox", "The enclosing sphere (B)");
   for (const SphereLook look : kAllSphereLooks) spheres_->addItem(nameOf(look));
   matrix_ = box("onlyMatrixBox", "One matrix alone (Alt+1, Alt+2, ..; Alt+0: the whole hand)");
-  auto* more = new QToolButton(header);
-  more->setObjectName("handShowButton");
-  more->setText("Show");
-  more->setToolTip("What else is shown");
+  auto* more = makeToolButton(header, "handShowButton", "Show", "What else is shown");
   more->setPopupMode(QToolButton::InstantPopup);
-  more->setFocusPolicy(Qt::TabFocus);
   auto* menu = new QMenu(more);
   menu->addActions(shown);
   more->setMenu(menu);
@@ -91,13 +85,8 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
   // The menu View, Hand in 3-D has all of them, too.
   header->setOptional({spheres_, taxels_, matrix_});
 
-  view_ = new HandView(this);
-  view_->setObjectName("handView");
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(header);
-  column->addWidget(view_, 1);
+  view_ = named(new HandView(this), "handView");
+  setLayout(inColumn({header, {view_, 1}}, Space::kNone));
 
   const auto chosen = [this](auto change) {
     HandLook look = view_->look();

@@ -6,9 +6,9 @@
 #include <QLabel>
 #include <QScreen>
 #include <QScrollArea>
-#include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/widgets/make.h"
 #include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
@@ -54,18 +54,13 @@ QWidget* columnOf(const std::vector<KeyEntry>& entries,
   for (const KeyEntry& entry : entries) {
     if (entry.section != section) {
       section = entry.section;
-      auto* heading = new QLabel(section.toUpper(), column);
-      heading->setProperty("role", "heading");
+      auto* heading = makeLabel(column, {}, "heading", section.toUpper());
       heading->setContentsMargins(0, row == 0 ? 0 : 12, 0, 2);
       grid->addWidget(heading, row++, 0, 1, 2);
     }
-    auto* keys = new QLabel(entry.keys, column);
-    keys->setTextFormat(Qt::PlainText);
+    auto* keys = makeLabel(column, {}, {}, entry.keys);
     grid->addWidget(keys, row, 0);
-    auto* what = new QLabel(entry.what, column);
-    what->setTextFormat(Qt::PlainText);
-    what->setProperty("role", "muted");
-    what->setWordWrap(true);
+    auto* what = makeLines(column, {}, "muted", entry.what);
     words.push_back(what);
     grid->addWidget(what, row++, 1);
   }
@@ -128,10 +123,7 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   scroll->setWidget(content);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  auto* page = new QVBoxLayout(this);
-  page->setContentsMargins(0, 0, 12, 12);
-  page->addWidget(scroll, 1);
-  page->addWidget(buttons);
+  setLayout(inColumn({{scroll, 1}, buttons}, {.right = Space::kWide, .bottom = Space::kWide}));
   // Without a desktop, pictures are taken of windows that are larger than the screen.
   const QWidget& shownOn = parent ? *parent->window() : *this;
   const QSize available = shownOn.screen()->availableSize().expandedTo(shownOn.size());

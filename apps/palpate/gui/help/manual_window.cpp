@@ -2,7 +2,6 @@
 
 #include <QAbstractTextDocumentLayout>
 #include <QDesktopServices>
-#include <QHBoxLayout>
 #include <QImageReader>
 #include <QScreen>
 #include <QScrollBar>
@@ -10,11 +9,11 @@
 #include <QSplitter>
 #include <QTextBlock>
 #include <QTextTable>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include <palpate/core/number_text.h>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -118,11 +117,7 @@ ManualWindow::ManualWindow(const std::filesystem::path& folder, QWidget* parent)
   halves->addWidget(browser_);
   halves->setStretchFactor(1, 1);
   halves->setChildrenCollapsible(false);
-  auto* page = new QVBoxLayout(this);
-  page->setContentsMargins(0, 0, 0, 0);
-  page->setSpacing(0);
-  page->addWidget(makeTop());
-  page->addWidget(halves, 1);
+  setLayout(inColumn({makeTop(), {halves, 1}}, Space::kNone));
   const QRect available = screen()->availableGeometry();
   resize(kUsualManual.boundedTo(available.size() * kManualScreenPart));
   // Over the other window, but with its title bar on the screen: Qt counts that only once the
@@ -158,8 +153,6 @@ ManualWindow::ManualWindow(const std::filesystem::path& folder, QWidget* parent)
 
 QWidget* ManualWindow::makeTop() {
   auto* top = new QWidget(this);
-  auto* row = new QHBoxLayout(top);
-  row->setContentsMargins(8, 6, 8, 6);
   back_ = arrowButton(Qt::LeftArrow, "Back (Alt+Left)", top);
   forward_ = arrowButton(Qt::RightArrow, "Forward (Alt+Right)", top);
   words_ = new QLineEdit(top);
@@ -168,12 +161,8 @@ QWidget* ManualWindow::makeTop() {
   words_->setClearButtonEnabled(true);
   words_->setMaximumWidth(320);
   words_->setToolTip("Finds words on all pages; Enter or F3: next place, Shift+F3: previous place");
-  status_ = new QLabel(top);
-  status_->setProperty("role", "muted");
-  row->addWidget(back_);
-  row->addWidget(forward_);
-  row->addWidget(words_, 1);
-  row->addWidget(status_, 1);
+  status_ = makeLabel(top, {}, "muted");
+  top->setLayout(inRow({back_, forward_, {words_, 1}, {status_, 1}}, around(Space::kUsual)));
   connect(back_, &QToolButton::clicked, this, &ManualWindow::back);
   connect(forward_, &QToolButton::clicked, this, &ManualWindow::forward);
   connect(words_, &QLineEdit::textChanged, this, &ManualWindow::search);

@@ -13,7 +13,6 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTableWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -23,6 +22,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/import/import_fields.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -32,22 +32,13 @@ constexpr const char* kDetected = "found by names";
 constexpr double kHighestImportRateHz = 1e6;
 
 QComboBox* importComboBox(const char* name, const std::vector<std::pair<QString, QString>>& items) {
-  auto* box = new QComboBox;
-  box->setObjectName(name);
+  auto* box = named(new QComboBox, name);
   for (const auto& [text, value] : items) box->addItem(text, value);
   return box;
 }
 
 void chooseImportValue(QComboBox& box, const QString& value) {
   box.setCurrentIndex(std::max(0, box.findData(value)));
-}
-
-QLabel* wrappedLabel(const char* name) {
-  auto* label = new QLabel;
-  label->setObjectName(name);
-  label->setTextFormat(Qt::PlainText);
-  label->setWordWrap(true);
-  return label;
 }
 
 QString sampleText(const ImportPreview& preview) {
@@ -69,13 +60,8 @@ ImportDialog::ImportDialog(QSettings& settings,
     : QDialog(parent), settings_(settings), folders_(std::move(folders)) {
   setWindowTitle("Import");
   const ImportRequest last = loadImportRequest(settings);
-  auto* upper = new QHBoxLayout;
-  upper->addWidget(makeFile(), 3);
-  upper->addWidget(makeMapping(), 4);
-  auto* whole = new QVBoxLayout(this);
-  whole->addLayout(upper);
-  whole->addWidget(makePreview(), 1);
-  whole->addWidget(makeFoot());
+  setLayout(inColumn({inRow({{makeFile(), 3}, {makeMapping(), 4}}), {makePreview(), 1}, makeFoot()},
+                     kPageEdges));
   askForData = [this, folder = last.data] {
     return QFileDialog::getOpenFileName(
         this,
@@ -103,49 +89,30 @@ ImportDialog::~ImportDialog() {
   for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
 }
 
-namespace {
-
-// The name of a row of several fields; its key goes to the first of them.
-QLabel* importFieldName(const QString& text, QWidget* field) {
-  auto* label = new QLabel(text);
-  label->setBuddy(field);
-  return label;
-}
-
-}  // namespace
-
 QWidget* ImportDialog::makeFile() {
   auto* side = new QWidget(this);
   auto* form = new QFormLayout(side);
   form->setContentsMargins(0, 0, 8, 0);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   const auto withButton = [&](QWidget* field, const QString& text, const char* name, auto pressed) {
-    auto* row = new QHBoxLayout;
-    auto* button = new QPushButton(text);
-    button->setObjectName(name);
+    auto* button = named(new QPushButton(text), name);
     button->setAutoDefault(false);
-    row->addWidget(field, 1);
-    row->addWidget(button);
+    auto* row = inRow({{field, 1}, button});
     connect(button, &QPushButton::clicked, this, pressed);
     return row;
   };
-  data_ = new QLineEdit;
-  data_->setObjectName("importData");
+  data_ = named(new QLineEdit, "importData");
   data_->setPlaceholderText("CSV, text, .npy, .npz, HDF5");
-  form->addRow(importFieldName("&File", data_),
-               withButton(data_, "Bro&wse…", "importBrowse", [this] {
+  form->addRow(makeTitle("&File", data_), withButton(data_, "Bro&wse…", "importBrowse", [this] {
                  const QString chosen = askForData();
                  if (!chosen.isEmpty()) setData(chosen);
                }));
-  hand_ = new QComboBox;
-  hand_->setObjectName("importHand");
-  form->addRow(importFieldName("&Hand", hand_),
-               withButton(hand_, "Fol&der…", "importHandFolder", [this] {
+  hand_ = named(new QComboBox, "importHand");
+  form->addRow(makeTitle("&Hand", hand_), withButton(hand_, "Fol&der…", "importHandFolder", [this] {
                  const QString chosen = askForHand();
                  if (!chosen.isEmpty()) setHand(chosen);
                }));
-  preset_ = new QComboBox;
-  preset_->setObjectName("importPreset");
+  preset_ = named(new QComboBox, "importPreset");
   auto* presets = withButton(preset_, "&Save…", "importSavePreset", [this] {
     const QString now = preset_->currentData().toString();
     const QString name = askForName(now).trimmed();
@@ -153,15 +120,14 @@ QWidget* ImportDialog::makeFile() {
     saveImportPreset(settings_, name, request().mapping);
     listPresets(name);
   });
-  removePreset_ = new QPushButton("Forget");
-  removePreset_->setObjectName("importRemovePreset");
+  removePreset_ = named(new QPushButton("Forget"), "importRemovePreset");
   removePreset_->setAutoDefault(false);
   connect(removePreset_, &QPushButton::clicked, this, [this] {
     removeImportPreset(settings_, preset_->currentData().toString());
     listPresets("");
   });
   presets->addWidget(removePreset_);
-  form->addRow(importFieldName("&Mapping", preset_), presets);
+  form->addRow(makeTitle("&Mapping", preset_), presets);
   delimiter_ = importComboBox("importDelimiter",
                               {{"detected", "detect"},
                                {"comma", "comma"},
@@ -172,11 +138,9 @@ QWidget* ImportDialog::makeFile() {
   header_ = importComboBox(
       "importHeader",
       {{"names: detected", "detect"}, {"first line: names", "present"}, {"no names", "absent"}});
-  auto* text = new QHBoxLayout;
-  for (QComboBox* box : {delimiter_, decimal_, header_}) text->addWidget(box, 1);
-  form->addRow(importFieldName("Te&xt", delimiter_), text);
-  time_ = new QLineEdit;
-  time_->setObjectName("importTime");
+  auto* text = inRow({{delimiter_, 1}, {decimal_, 1}, {header_, 1}});
+  form->addRow(makeTitle("Te&xt", delimiter_), text);
+  time_ = named(new QLineEdit, "importTime");
   time_->setPlaceholderText(kDetected);
   timeUnit_ = importComboBox("importTimeUnit",
                              {{"unit: detected", ""},
@@ -189,19 +153,14 @@ QWidget* ImportDialog::makeFile() {
                               {"date (ISO 8601)", "iso"},
                               {"date, day first", "dmy"},
                               {"date, month first", "mdy"}});
-  rate_ = new QDoubleSpinBox;
-  rate_->setObjectName("importRate");
+  rate_ = named(new QDoubleSpinBox, "importRate", "Rows per second, if the file has no times");
   rate_->setRange(0.0, kHighestImportRateHz);
   rate_->setDecimals(3);
   rate_->setSuffix(" Hz");
   rate_->setSpecialValueText("times of the file");
   rate_->setKeyboardTracking(false);
-  rate_->setToolTip("Rows per second, if the file has no times");
-  auto* time = new QHBoxLayout;
-  time->addWidget(time_, 2);
-  time->addWidget(timeUnit_, 1);
-  time->addWidget(rate_, 1);
-  form->addRow(importFieldName("&Time", time_), time);
+  auto* time = inRow({{time_, 2}, {timeUnit_, 1}, {rate_, 1}});
+  form->addRow(makeTitle("&Time", time_), time);
   return side;
 }
 
@@ -211,55 +170,30 @@ QWidget* ImportDialog::makeMapping() {
 }
 
 QWidget* ImportDialog::makePreview() {
-  auto* side = new QWidget(this);
-  auto* column = new QVBoxLayout(side);
-  column->setContentsMargins(0, 0, 0, 0);
-  form_ = wrappedLabel("importForm");
-  columns_ = new QTableWidget;
-  columns_->setObjectName("importColumns");
+  form_ = makeLines(nullptr, "importForm");
+  columns_ = named(new QTableWidget, "importColumns");
   columns_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   columns_->setTabKeyNavigation(false);
-  choices_ = wrappedLabel("importChoices");
-  column->addWidget(form_);
-  column->addWidget(columns_, 1);
-  column->addWidget(choices_);
-  warnings_ = wrappedLabel("importWarnings");
-  warnings_->setProperty("role", "warning");
+  choices_ = makeLines(nullptr, "importChoices");
+  warnings_ = makeLines(nullptr, "importWarnings", "warning");
   warnings_->hide();
-  column->addWidget(warnings_);
-  return side;
+  return makeBox(inColumn({form_, {columns_, 1}, choices_, warnings_}), this);
 }
 
 QWidget* ImportDialog::makeFoot() {
-  auto* foot = new QWidget(this);
-  auto* rows = new QVBoxLayout(foot);
-  rows->setContentsMargins(0, 0, 0, 0);
-  auto* target = new QHBoxLayout;
-  auto* label = new QLabel("Sa&ve as");
-  out_ = new QLineEdit;
-  out_->setObjectName("importOut");
-  label->setBuddy(out_);
-  replace_ = new QCheckBox("R&eplace");
-  replace_->setObjectName("importReplace");
-  strict_ = new QCheckBox("Stop at the first row that &can't be used");
-  strict_->setObjectName("importStrict");
-  for (QWidget* each : std::initializer_list<QWidget*>{label, out_, replace_, strict_})
-    target->addWidget(each);
-  rows->addLayout(target);
-  auto* buttons = new QHBoxLayout;
-  problem_ = wrappedLabel("importProblem");
+  out_ = named(new QLineEdit, "importOut");
+  replace_ = named(new QCheckBox("R&eplace"), "importReplace");
+  strict_ = named(new QCheckBox("Stop at the first row that &can't be used"), "importStrict");
+  problem_ = makeLines(nullptr, "importProblem");
   auto* cancel = new QPushButton("Cancel");
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-  ok_ = new QPushButton("Import");
-  ok_->setObjectName("importOk");
+  ok_ = named(new QPushButton("Import"), "importOk");
   ok_->setProperty("primary", true);
   ok_->setDefault(true);
   connect(ok_, &QPushButton::clicked, this, &ImportDialog::accept);
-  buttons->addWidget(problem_, 1);
-  buttons->addWidget(cancel);
-  buttons->addWidget(ok_);
-  rows->addLayout(buttons);
-  return foot;
+  return makeBox(inColumn({inRow({makeTitle("Sa&ve as", out_), out_, replace_, strict_}),
+                           inRow({{problem_, 1}, cancel, ok_})}),
+                 this);
 }
 
 void ImportDialog::connectFields() {

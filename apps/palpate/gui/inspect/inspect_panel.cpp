@@ -10,6 +10,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -121,52 +122,27 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   auto* content = new QWidget(this);
   model_ = new MatrixTableModel(content);
   matrices_ = new MatrixTable(model_, content);
-  facts_ = new FactsView(content);
-  facts_->setObjectName("recordingFacts");
-  facts_->setAccessibleName("Recording");
-  events_ = new FactsView(content);
-  events_->setObjectName("eventFacts");
-  events_->setAccessibleName("Events");
+  facts_ = named(new FactsView(content), "recordingFacts", {}, "Recording");
+  events_ = named(new FactsView(content), "eventFacts", {}, "Events");
   eventsHeading_ = sectionHeading("Events", content);
-  angles_ = new FactsView(content);
-  angles_->setObjectName("angleFacts");
-  angles_->setAccessibleName("Joint angles");
-  temperatures_ = new FactsView(content);
-  temperatures_->setObjectName("temperatureFacts");
-  temperatures_->setAccessibleName("Temperatures");
+  angles_ = named(new FactsView(content), "angleFacts", {}, "Joint angles");
+  temperatures_ = named(new FactsView(content), "temperatureFacts", {}, "Temperatures");
 
-  auto* left = new QVBoxLayout;
-  left->setSpacing(4);
   heading_ = sectionHeading("Recording", content);
-  left->addWidget(heading_);
-  left->addWidget(facts_);
-  left->addStretch(1);
-  auto* right = new QVBoxLayout;
-  right->setSpacing(4);
   anglesHeading_ = sectionHeading("Joint angles", content);
   temperaturesHeading_ = sectionHeading("Temperatures", content);
-  right->addWidget(anglesHeading_);
-  right->addWidget(angles_);
-  right->addSpacing(12);
-  right->addWidget(temperaturesHeading_);
-  right->addWidget(temperatures_);
-  right->addStretch(1);
+  auto* right = inColumn(
+      {anglesHeading_, angles_, Space::kWide, temperaturesHeading_, temperatures_, Stretch{}},
+      Space::kNarrow);
   columns_ = new QBoxLayout(QBoxLayout::LeftToRight);
   columns_->setSpacing(20);
-  columns_->addLayout(left, 6);
+  columns_->addLayout(inColumn({heading_, facts_, Stretch{}}, Space::kNarrow), 6);
   columns_->addLayout(right, 5);
 
-  auto* column = new QVBoxLayout(content);
-  column->setContentsMargins(12, 8, 12, 10);
-  column->setSpacing(14);
-  column->addWidget(matrices_);
-  column->addLayout(columns_);
-  auto* below = new QVBoxLayout;
-  below->setSpacing(4);
-  below->addWidget(eventsHeading_);
-  below->addWidget(events_);
-  column->addLayout(below);
-  column->addStretch(1);
+  content->setLayout(inColumn(
+      {matrices_, columns_, inColumn({eventsHeading_, events_}, Space::kNarrow), Stretch{}},
+      Space::kWide,
+      kPageEdges));
   setWidget(content);
   content->installEventFilter(this);
 }

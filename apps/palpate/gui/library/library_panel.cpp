@@ -4,7 +4,6 @@
 #include <QClipboard>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
@@ -21,6 +20,7 @@
 #include "gui/desktop/reveal_file.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -67,12 +67,9 @@ LibraryPanel::LibraryPanel(QSettings& settings,
   askForFolder = [this](const QString& start) {
     return QFileDialog::getExistingDirectory(this, "Folder with recordings", start);
   };
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
   buildTop();
   pages_ = new FittingPages(this);
-  column->addWidget(pages_, 1);
+  setLayout(inColumn({{pages_, 1}}, Space::kNone));
   buildTable();
   buildEmpty();
   buildBottom();
@@ -87,8 +84,7 @@ LibraryPanel::LibraryPanel(QSettings& settings,
 LibraryPanel::~LibraryPanel() { rememberColumns(); }
 
 void LibraryPanel::buildTop() {
-  folderButton_ = new QToolButton(this);
-  folderButton_->setObjectName("libraryFolder");
+  folderButton_ = named(new QToolButton(this), "libraryFolder");
   folderButton_->setProperty("flat", true);
   folderButton_->setIcon(makeIcon(IconShape::kOpen));
   folderButton_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -99,31 +95,19 @@ void LibraryPanel::buildTop() {
     button->setMinimumWidth(button->fontMetrics().horizontalAdvance(kChooseFolder) +
                             kIconAndPadding);
   });
-  refreshButton_ = new QToolButton(this);
-  refreshButton_->setObjectName("libraryRefresh");
-  refreshButton_->setText("Refresh");
+  refreshButton_ = makeToolButton(this, "libraryRefresh", "Refresh", "Read the folder again (F5)");
   refreshButton_->setProperty("flat", true);
-  refreshButton_->setToolTip("Read the folder again (F5)");
   refreshButton_->setShortcut(QKeySequence("F5"));
-  search_ = new QLineEdit(this);
-  search_->setObjectName("librarySearch");
+  search_ = named(new QLineEdit(this), "librarySearch");
   search_->setClearButtonEnabled(true);
   showExample();
   search_->setToolTip(
       "Every word must be found; \"several words\" in quotes are one.\n"
       "In one place only: name: path: operator: object: run: notes: label: date: form: state:");
   search_->installEventFilter(this);
-  auto* first = new QHBoxLayout;
-  first->setContentsMargins(0, 0, 0, 0);
-  first->setSpacing(4);
-  first->addWidget(folderButton_, 1);
-  first->addWidget(refreshButton_);
-  auto* top = new QVBoxLayout;
-  top->setContentsMargins(8, 6, 8, 6);
-  top->setSpacing(6);
-  top->addLayout(first);
-  top->addWidget(search_);
-  static_cast<QVBoxLayout*>(layout())->addLayout(top);
+  auto* top = inColumn({inRow({{folderButton_, 1}, refreshButton_}, Space::kNarrow), search_},
+                       around(Space::kUsual));
+  static_cast<QBoxLayout*>(layout())->addLayout(top);
   connect(folderButton_, &QToolButton::clicked, this, &LibraryPanel::chooseFolder);
   connect(refreshButton_, &QToolButton::clicked, this, &LibraryPanel::refresh);
   connect(search_, &QLineEdit::textChanged, this, [this](const QString& text) {
@@ -162,27 +146,20 @@ void LibraryPanel::buildEmpty() {
 }
 
 void LibraryPanel::buildBottom() {
-  summary_ = new QLabel(this);
-  summary_->setObjectName("librarySummary");
-  summary_->setProperty("role", "muted");
-  summary_->setTextFormat(Qt::PlainText);
+  summary_ = makeLabel(this, "librarySummary", "muted");
   summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  bar_ = new QProgressBar(this);
-  bar_->setObjectName("libraryProgress");
+  bar_ = named(new QProgressBar(this), "libraryProgress");
   bar_->setRange(0, kLibraryPanelSteps);
   bar_->setTextVisible(false);
   bar_->setFixedSize(90, 8);
-  stop_ = new QToolButton(this);
-  stop_->setObjectName("libraryStop");
-  stop_->setText("Stop reading");
+  stop_ = makeToolButton(this, "libraryStop", "Stop reading", "Stops reading the folder");
   stop_->setProperty("flat", true);
-  stop_->setToolTip("Stops reading the folder");
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(12, 4, 8, 4);
-  row->addWidget(summary_, 1);
-  row->addWidget(bar_);
-  row->addWidget(stop_);
-  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  auto* row = inRow({{summary_, 1}, bar_, stop_},
+                    {.left = Space::kWide,
+                     .top = Space::kNarrow,
+                     .right = Space::kUsual,
+                     .bottom = Space::kNarrow});
+  static_cast<QBoxLayout*>(layout())->addLayout(row);
   bar_->hide();
   stop_->hide();
   connect(stop_, &QToolButton::clicked, &scanner_, &LibraryScanner::cancel);

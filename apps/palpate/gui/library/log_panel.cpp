@@ -4,7 +4,6 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLineEdit>
@@ -20,6 +19,7 @@
 
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -154,28 +154,18 @@ LogPanel::LogPanel(ActivityLog& log, QWidget* parent)
 }
 
 void LogPanel::buildTop() {
-  severity_ = new QComboBox(this);
-  severity_->setObjectName("logSeverity");
+  severity_ = named(new QComboBox(this), "logSeverity", "Which lines are shown");
   severity_->addItems({"everything", "warnings and errors", "errors"});
-  severity_->setToolTip("Which lines are shown");
-  words_ = new QLineEdit(this);
-  words_->setObjectName("logSearch");
+  words_ = named(new QLineEdit(this), "logSearch");
   words_->setClearButtonEnabled(true);
   words_->setPlaceholderText("Search");
   constexpr int kAroundWord = 24;  // [px]
   fitToText(*words_, [words = words_] {
     words->setMinimumWidth(words->fontMetrics().horizontalAdvance("Search") + kAroundWord);
   });
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(8, 6, 8, 6);
-  row->setSpacing(6);
-  row->addWidget(severity_);
-  row->addWidget(words_, 1);
+  auto* row = inRow({severity_, {words_, 1}}, around(Space::kUsual));
   const auto button = [&](const QString& text, const char* name, const QString& tip) {
-    auto* made = new QToolButton(this);
-    made->setObjectName(name);
-    made->setText(text);
-    made->setToolTip(tip);
+    auto* made = makeToolButton(this, name, text, tip);
     made->setProperty("flat", true);
     row->addWidget(made);
     return made;
@@ -184,7 +174,7 @@ void LogPanel::buildTop() {
       button("Copy", "logCopy", "Copy the selected lines, or all lines that are shown");
   QToolButton* save =
       button("Save…", "logSave", "Save the selected lines, or all lines that are shown");
-  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  static_cast<QBoxLayout*>(layout())->addLayout(row);
   connect(severity_, &QComboBox::currentIndexChanged, this, [this](int index) {
     filter_->setLeast(static_cast<LogLine::Severity>(index));
     showState();
@@ -200,8 +190,7 @@ void LogPanel::buildTop() {
 
 void LogPanel::buildTable() {
   pages_ = new FittingPages(this);
-  table_ = new LogTable(pages_);
-  table_->setObjectName("logTable");
+  table_ = named(new LogTable(pages_), "logTable");
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -216,7 +205,7 @@ void LogPanel::buildTable() {
   empty_ = new EmptyPage("log", pages_);
   pages_->addWidget(table_);
   pages_->addWidget(empty_);
-  static_cast<QVBoxLayout*>(layout())->addWidget(pages_, 1);
+  static_cast<QBoxLayout*>(layout())->addWidget(pages_, 1);
   connect(table_, &LogTable::copyRequested, this, [this] {
     QApplication::clipboard()->setText(text());
   });

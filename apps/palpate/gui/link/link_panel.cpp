@@ -1,17 +1,16 @@
 #include "gui/link/link_panel.h"
 
 #include <QCheckBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPlainTextEdit>
 #include <QTime>
-#include <QVBoxLayout>
 
 #include <palpate/core/escaped_line.h>
 #include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -127,27 +126,16 @@ std::vector<Fact> factsOf(const StreamDevice& stream) {
 }
 
 LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
-  check_ = new QLabel(this);
-  check_->setObjectName("preflight");
-  check_->setWordWrap(true);
+  check_ = makeLines(this, "preflight");
   check_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  alarms_ = new QLabel(this);
-  alarms_->setObjectName("linkAlarms");
-  alarms_->setWordWrap(true);
-  alarms_->setTextFormat(Qt::PlainText);
-  sound_ = new QCheckBox("Sound for alarms", this);
-  sound_->setObjectName("alarmSound");
+  alarms_ = makeLines(this, "linkAlarms");
+  sound_ = named(new QCheckBox("Sound for alarms", this), "alarmSound");
   sound_->setFocusPolicy(Qt::TabFocus);
   sound_->setChecked(true);
   connect(sound_, &QCheckBox::toggled, this, [this](bool on) { emit mutedChanged(!on); });
-  facts_ = new FactsView(this);
-  facts_->setObjectName("linkFacts");
-  facts_->setAccessibleName("Link");
-  others_ = new FactsView(this);
-  others_->setObjectName("otherPrograms");
-  others_->setAccessibleName("Other programs");
-  log_ = new QPlainTextEdit(this);
-  log_->setObjectName("linkLog");
+  facts_ = named(new FactsView(this), "linkFacts", {}, "Link");
+  others_ = named(new FactsView(this), "otherPrograms", {}, "Other programs");
+  log_ = named(new QPlainTextEdit(this), "linkLog");
   log_->setReadOnly(true);
   log_->setMaximumBlockCount(kLinkPanelMostLines);
   log_->setLineWrapMode(QPlainTextEdit::WidgetWidth);
@@ -157,35 +145,28 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   log_->setAccessibleName("What happened");
 
   auto* content = new QWidget(this);
-  auto* top = new QVBoxLayout(content);
-  top->setContentsMargins(12, 10, 12, 6);
-  top->setSpacing(6);
-  top->addWidget(sectionHeading("Before a run", content));
-  top->addWidget(check_);
-  top->addSpacing(4);
-  auto* alarmRow = new QHBoxLayout;
-  alarmRow->addWidget(sectionHeading("Alarms", content), 1);
-  alarmRow->addWidget(sound_);
-  top->addLayout(alarmRow);
-  top->addWidget(alarms_);
-  top->addSpacing(4);
-  top->addWidget(sectionHeading("Link", content));
-  top->addWidget(facts_);
-  top->addSpacing(4);
   othersHeading_ = sectionHeading("Other programs", content);
-  top->addWidget(othersHeading_);
-  top->addWidget(others_);
-  top->addWidget(sectionHeading("What happened", content));
-  top->addWidget(log_, 1);
+  content->setLayout(inColumn({sectionHeading("Before a run", content),
+                               check_,
+                               Space::kNarrow,
+                               inRow({{sectionHeading("Alarms", content), 1}, sound_}),
+                               alarms_,
+                               Space::kNarrow,
+                               sectionHeading("Link", content),
+                               facts_,
+                               Space::kNarrow,
+                               othersHeading_,
+                               others_,
+                               sectionHeading("What happened", content),
+                               {log_, 1}},
+                              kPageEdges));
   auto* area = new QScrollArea(this);
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   area->setFocusPolicy(Qt::NoFocus);
   area->setWidget(content);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(area);
+  setLayout(inColumn({area}));
   showOtherPrograms({});
   clear();
   fitToTheme(*this, [this] {

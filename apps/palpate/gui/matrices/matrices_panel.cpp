@@ -8,12 +8,12 @@
 #include <QResizeEvent>
 #include <QSignalBlocker>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include "gui/appearance/hand_unit.h"
 #include "gui/widgets/fitting_row.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -32,17 +32,8 @@ double liveRangePart(const HandDescription& hand, double part) {
   return std::max(1.0, std::round(part * static_cast<double>(hand.maximumCounts) * scale)) / scale;
 }
 
-QToolButton* buttonFor(QAction* action, QWidget* parent) {
-  auto* button = new QToolButton(parent);
-  button->setDefaultAction(action);
-  button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  button->setFocusPolicy(Qt::TabFocus);
-  return button;
-}
-
 QDoubleSpinBox* rangeField(QWidget* parent, const char* name, const char* tip) {
-  auto* field = new QDoubleSpinBox(parent);
-  field->setObjectName(name);
+  auto* field = named(new QDoubleSpinBox(parent), name);
   field->setButtonSymbols(QAbstractSpinBox::NoButtons);
   field->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   fitToText(*field, [field] {
@@ -61,17 +52,14 @@ QDoubleSpinBox* rangeField(QWidget* parent, const char* name, const char* tip) {
 
 MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* parent)
     : QWidget(parent) {
-  auto* header = new FittingRow(this);
-  header->setObjectName("ViewHeader");
+  auto* header = named(new FittingRow(this), "ViewHeader");
   header->setAttribute(Qt::WA_StyledBackground);
   auto* title = new QLabel("<b>Matrices</b>", header);
-  map_ = new QComboBox(header);
-  map_->setObjectName("mapBox");
+  map_ = named(new QComboBox(header), "mapBox");
   map_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   map_->setToolTip("Colour map (M)");
   for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
-  range_ = new QComboBox(header);
-  range_->setObjectName("rangeBox");
+  range_ = named(new QComboBox(header), "rangeBox");
   range_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   for (QComboBox* box : {map_, range_}) {
     box->setMinimumHeight(kMatricesPanelControlHeight);
@@ -88,7 +76,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   row.setSpacing(6);
   row.addWidget(title);
   row.addStretch(1);
-  looks_ = {buttonFor(interpolated, header), buttonFor(values, header)};
+  looks_ = {makeToolButton(header, interpolated), makeToolButton(header, values)};
   for (QToolButton* button : looks_) row.addWidget(button);
   row.addSpacing(6);
   row.addWidget(map_);
@@ -99,13 +87,8 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   // They are in the menu View, too.
   header->setOptional({map_, looks_[0], looks_[1]});
 
-  view_ = new MatricesView(this);
-  view_->setObjectName("matricesView");
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(header);
-  column->addWidget(view_, 1);
+  view_ = named(new MatricesView(this), "matricesView");
+  setLayout(inColumn({header, {view_, 1}}, Space::kNone));
 
   connect(map_, &QComboBox::activated, this, [this](int index) {
     emit mapChosen(kAllColorMaps[static_cast<std::size_t>(index)]);

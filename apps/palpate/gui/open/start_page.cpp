@@ -2,7 +2,6 @@
 
 #include <QFileInfo>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
@@ -12,6 +11,7 @@
 
 #include "gui/appearance/icons.h"
 #include "gui/appearance/text_size.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -39,20 +39,12 @@ class RecentRow : public QPushButton {
     setAccessibleName(path);
     setToolTip(path);
     const QFileInfo file(path);
-    auto* name = new QLabel(file.fileName(), this);
-    name->setTextFormat(Qt::PlainText);
+    auto* name = makeLabel(this, {}, {}, file.fileName());
     name->setFont(scaled(font(), 1.0, true));
-    auto* folder = new QLabel(this);
-    folder->setTextFormat(Qt::PlainText);
-    folder->setProperty("role", "muted");
+    auto* folder = makeLabel(this, {}, "muted");
     folder->setText(fontMetrics().elidedText(file.path(), Qt::ElideMiddle, kColumnWidth - 150));
-    auto* lines = new QVBoxLayout;
-    lines->setSpacing(1);
-    lines->addWidget(name);
-    lines->addWidget(folder);
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(12, 4, 12, 4);
-    row->addLayout(lines, 1);
+    auto* row = inRow({{inColumn({name, folder}, Space::kNone), 1}}, kBarEdges);
+    setLayout(row);
     if (!exists) row->addWidget(new QLabel("missing", this));
     for (QLabel* label : findChildren<QLabel*>())
       label->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -67,18 +59,15 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   setAttribute(Qt::WA_StyledBackground);
   auto* title = new QLabel("Palpate", this);
   title->setFont(scaled(font(), 2.4, true));
-  auto* subtitle = new QLabel("See the pressure on a robot hand.", this);
-  subtitle->setProperty("role", "muted");
+  auto* subtitle = makeLabel(this, {}, "muted", "See the pressure on a robot hand.");
   subtitle->setFont(scaled(font(), 1.15, false));
   auto* buttons = new QGridLayout;
   buttons->setSpacing(10);
   buttons->setColumnStretch(0, 1);
   buttons->setColumnStretch(1, 1);
   const auto button = [&](const QString& text, const char* name, const QString& tip) {
-    auto* made = new QPushButton(text, this);
-    made->setObjectName(name);
+    auto* made = makeButton(this, name, text, tip);
     made->setMinimumHeight(38);
-    made->setToolTip(tip);
     buttons->addWidget(made, buttons->count() / 2, buttons->count() % 2);
     return made;
   };
@@ -107,17 +96,13 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
             &QPushButton::clicked,
             this,
             &StartPage::demoRequested);
-  dropHint_ = new QLabel(kDropText, this);
-  dropHint_->setObjectName("DropHint");
+  dropHint_ = makeLines(this, "DropHint", {}, kDropText);
   dropHint_->setAlignment(Qt::AlignCenter);
-  dropHint_->setWordWrap(true);
   dropHint_->setMinimumHeight(64);
-  recentHeading_ = new QLabel("RECENT", this);
-  recentHeading_->setProperty("role", "heading");
+  recentHeading_ = makeLabel(this, {}, "heading", "RECENT");
 
   // The page scrolls when ten recent files don't fit into the window.
-  auto* content = new QWidget(this);
-  content->setObjectName("StartPage");
+  auto* content = named(new QWidget(this), "StartPage");
   auto* middle = new QWidget(content);
   fitToText(*middle, [middle] { middle->setFixedWidth(qRound(textScale() * kColumnWidth)); });
   column_ = new QVBoxLayout(middle);
@@ -131,18 +116,13 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   column_->addWidget(dropHint_);
   column_->addSpacing(18);
   column_->addWidget(recentHeading_);
-  auto* page = new QVBoxLayout(content);
-  page->setContentsMargins(20, 20, 20, 20);
-  page->addStretch(2);
-  page->addWidget(middle, 0, Qt::AlignHCenter);
-  page->addStretch(3);
+  content->setLayout(
+      inColumn({Stretch{2}, {middle, 0, Qt::AlignHCenter}, Stretch{3}}, around(Space::kDialog)));
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);
   scroll->setFocusPolicy(Qt::NoFocus);
   scroll->setWidget(content);
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->addWidget(scroll);
+  setLayout(inColumn({scroll}));
   connect(&recent_, &RecentFiles::changed, this, &StartPage::listRecent);
 }
 
@@ -166,16 +146,13 @@ void StartPage::listRecent() {
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(5);
   for (const QString& path : recent_.paths()) {
-    auto* row = new QHBoxLayout;
-    row->setSpacing(4);
     auto* button = new RecentRow(path, RecentFiles::exists(path), list_);
     connect(button, &QPushButton::clicked, this, [this, path] { emit fileChosen(path); });
-    auto* remove = new QToolButton(list_);
-    remove->setObjectName("removeRecent");
+    auto* remove =
+        named(new QToolButton(list_), "removeRecent", "Remove from this list (the file is kept)");
     remove->setProperty("flat", true);
     remove->setIcon(makeIcon(IconShape::kClose));
     remove->setIconSize({10, 10});
-    remove->setToolTip("Remove from this list (the file is kept)");
     // The row deletes itself, which must not happen before the click is processed (queued
     // connection).
     connect(
@@ -184,9 +161,7 @@ void StartPage::listRecent() {
         &recent_,
         [this, path] { recent_.remove(path); },
         Qt::QueuedConnection);
-    row->addWidget(button, 1);
-    row->addWidget(remove);
-    rows->addLayout(row);
+    rows->addLayout(inRow({{button, 1}, remove}, Space::kNarrow));
   }
   recentHeading_->setVisible(!recent_.paths().isEmpty());
   column_->addWidget(list_);

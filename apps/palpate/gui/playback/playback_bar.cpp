@@ -1,6 +1,5 @@
 #include "gui/playback/playback_bar.h"
 
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/playback/seek_bar.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
 
@@ -25,8 +25,7 @@ int asInt(std::size_t value) {
 // A number field without arrows, which would only repeat the step buttons.
 template <class Field>
 Field* makeField(QWidget* parent, const char* name, int digits) {
-  auto* field = new Field(parent);
-  field->setObjectName(name);
+  auto* field = named(new Field(parent), name);
   fitToText(*field, [field, digits] {
     field->setFixedWidth(field->fontMetrics().horizontalAdvance(QString(digits, '0')) + 18);
   });
@@ -39,30 +38,19 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
     : QWidget(parent), playback_(playback) {
   setObjectName("PlaybackBar");
   setAttribute(Qt::WA_StyledBackground);
-  seekBar_ = new SeekBar(this);
-  seekBar_->setObjectName("seekBar");
+  seekBar_ = named(new SeekBar(this), "seekBar");
   frame_ = makeField<FrameField>(this, "frameField", 7);
   frame_->setToolTip("Number of the frame; the first is 0: type one and press Enter (Ctrl+G)");
   frame_->setAccessibleName("Frame");
-  ofFrames_ = new QLabel(this);
-  ofFrames_->setObjectName("ofFrames");
+  ofFrames_ = makeLabel(this, "ofFrames");
   time_ = makeField<SecondsField>(this, "timeField", 8);
   time_->setDecimals(kTimeDecimals);
   time_->setAccessibleName("Time in seconds");
-  ofTime_ = new QLabel(this);
-  ofTime_->setObjectName("ofTime");
+  ofTime_ = makeLabel(this, "ofTime");
 
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(12, 5, 12, 5);
-  row->setSpacing(6);
-  row->addWidget(seekBar_, 1);
-  row->addSpacing(3);
-  row->addWidget(new QLabel("frame", this));
-  row->addWidget(frame_);
-  row->addWidget(ofFrames_);
-  row->addSpacing(5);
-  row->addWidget(time_);
-  row->addWidget(ofTime_);
+  setLayout(inRow(
+      {{seekBar_, 1}, Space::kNarrow, "frame", frame_, ofFrames_, Space::kNarrow, time_, ofTime_},
+      kBarEdges));
 
   // The playback is the context: when the window closes, a field may emit a value after the
   // playback is destroyed.

@@ -3,11 +3,9 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include <palpate/recognition/training_choice.h>
@@ -15,6 +13,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/recognise/answer_view.h"
 #include "gui/widgets/long_word_label.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -27,11 +26,9 @@ constexpr double kButtonScale = 1.25;
 AskPage::AskPage(RecognitionController& controller, QWidget* parent)
     : QWidget(parent), controller_(controller) {
   setObjectName("askPage");
-  model_ = new LongWordLabel(this);
-  model_->setObjectName("recogniseModel");
+  model_ = named(new LongWordLabel(this), "recogniseModel");
   models_ = new QMenu(this);
-  auto* choose = new QPushButton("Model", this);
-  choose->setObjectName("recogniseModelButton");
+  auto* choose = makeButton(this, "recogniseModelButton", "Model");
   choose->setMenu(models_);
   connect(models_->addAction("&Open a model…"), &QAction::triggered, this, [this] {
     if (const auto path = askForModel(); !path.empty()) controller_.openModel(path);
@@ -40,8 +37,7 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
           &QAction::triggered,
           &controller_,
           &RecognitionController::useEmulatedModel);
-  ask_ = new QPushButton("What is it?  (Q)", this);
-  ask_->setObjectName("whatIsIt");
+  ask_ = makeButton(this, "whatIsIt", "What is it?  (Q)");
   ask_->setProperty("primary", true);
   QFont large = ask_->font();
   large.setPointSizeF(kButtonScale * large.pointSizeF());
@@ -50,45 +46,18 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
     constexpr int kLeastHeight = 44;  // [px]
     ask->setMinimumHeight(std::max(kLeastHeight, ask->sizeHint().height()));
   });
-  byItself_ = new QCheckBox("Automatic", this);
-  byItself_->setObjectName("recogniseByItself");
-  byItself_->setToolTip("Repeats while something is held");
-  auto* show = new QPushButton("Show", this);
-  show->setObjectName("showMode");
-  show->setToolTip("Full screen, for an audience (Shift+Q)");
-  view_ = new AnswerView(controller.photos(), 1.0, this);
-  view_->setObjectName("answerView");
-  classes_ = new QComboBox(this);
-  classes_->setObjectName("tellClass");
-  classes_->setAccessibleName("What it is");
+  byItself_ = named(
+      new QCheckBox("Automatic", this), "recogniseByItself", "Repeats while something is held");
+  auto* show = makeButton(this, "showMode", "Show", "Full screen, for an audience (Shift+Q)");
+  view_ = named(new AnswerView(controller.photos(), 1.0, this), "answerView");
+  classes_ = named(new QComboBox(this), "tellClass", {}, "What it is");
   classes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  tell_ = new QPushButton("Label", this);
-  tell_->setObjectName("tell");
+  tell_ = makeButton(this, "tell", "Label");
 
-  auto* top = new QHBoxLayout;
-  top->setSpacing(8);
-  top->addWidget(choose);
-  top->addWidget(model_, 1);
-  auto* asking = new QHBoxLayout;
-  asking->setSpacing(8);
-  asking->addWidget(ask_, 1);
-  auto* beside = new QVBoxLayout;
-  beside->setSpacing(4);
-  beside->addWidget(byItself_);
-  beside->addWidget(show);
-  asking->addLayout(beside);
-  auto* bottom = new QHBoxLayout;
-  bottom->setSpacing(8);
-  bottom->addWidget(new QLabel("It is", this));
-  bottom->addWidget(classes_, 1);
-  bottom->addWidget(tell_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(12, 8, 12, 10);
-  column->setSpacing(8);
-  column->addLayout(top);
-  column->addLayout(asking);
-  column->addWidget(view_, 1);
-  column->addLayout(bottom);
+  auto* asking = inRow({{ask_, 1}, inColumn({byItself_, show}, Space::kNarrow)});
+  setLayout(inColumn(
+      {inRow({choose, {model_, 1}}), asking, {view_, 1}, inRow({"It is", {classes_, 1}, tell_})},
+      kPageEdges));
 
   connect(ask_, &QPushButton::clicked, this, &AskPage::asked);
   connect(show, &QPushButton::clicked, this, &AskPage::showRequested);

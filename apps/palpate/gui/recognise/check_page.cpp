@@ -1,13 +1,11 @@
 #include "gui/recognise/check_page.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
 #include <QSplitter>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include <palpate/core/number_text.h>
@@ -16,6 +14,7 @@
 #include "gui/recognise/confusion_view.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -73,33 +72,21 @@ TextTable figureTable(const std::shared_ptr<const TrainingValidation>& check) {
 CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
     : QWidget(parent), controller_(controller) {
   setObjectName("checkPage");
-  protocol_ = new QComboBox(this);
-  protocol_->setObjectName("checkProtocol");
-  protocol_->setAccessibleName("Protocol");
-  protocol_->addItems({"five blocks in time (B)", "ten shuffles (S)"});
+  protocol_ = named(new QComboBox(this), "checkProtocol", {}, "Protocol");
   protocol_->setToolTip(
       "How test grasps are chosen. Neither choice shows the accuracy in another session.");
-  check_ = new QPushButton("Check", this);
-  check_->setObjectName("checkNow");
+  protocol_->addItems({"five blocks in time (B)", "ten shuffles (S)"});
+  check_ = makeButton(this, "checkNow", "Check");
   check_->setProperty("primary", true);
-  result_ = new QLabel(this);
-  result_->setObjectName("checkResult");
-  result_->setWordWrap(true);
+  result_ = makeLines(this, "checkResult");
   auto* content = new QWidget(this);
-  confusion_ = new ConfusionView(content);
-  confusion_->setObjectName("confusion");
-  caption_ = new QLabel(content);
-  caption_->setObjectName("checkCaption");
-  caption_->setProperty("role", "muted");
-  caption_->setWordWrap(true);
-  back_ = new QPushButton("All objects", content);
-  back_->setObjectName("checkBack");
+  confusion_ = named(new ConfusionView(content), "confusion");
+  caption_ = makeLines(content, "checkCaption", "muted");
+  back_ = makeButton(content, "checkBack", "All objects");
   lists_ = new QStackedWidget(content);
-  objects_ = new FiguresTable(checkPageObjectColumns(), lists_);
-  objects_->setObjectName("checkObjects");
+  objects_ = named(new FiguresTable(checkPageObjectColumns(), lists_), "checkObjects");
   objects_->setSingleLine();
-  grasps_ = new FiguresTable(graspColumns(), lists_);
-  grasps_->setObjectName("checkGrasps");
+  grasps_ = named(new FiguresTable(graspColumns(), lists_), "checkGrasps");
   grasps_->setSingleLine();
   lists_->addWidget(objects_);
   lists_->addWidget(grasps_);
@@ -108,36 +95,18 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   pages_->addWidget(empty_);
   pages_->addWidget(content);
 
-  auto* top = new QHBoxLayout;
-  top->setSpacing(8);
-  top->addWidget(protocol_, 1);
-  top->addWidget(check_);
-  auto* below = new QWidget(content);
-  auto* line = new QHBoxLayout;
-  line->addWidget(caption_, 1);
-  line->addWidget(back_);
-  auto* under = new QVBoxLayout(below);
-  under->setContentsMargins(0, 4, 0, 0);
-  under->setSpacing(6);
-  under->addLayout(line);
-  under->addWidget(lists_, 1);
+  auto* top = inRow({{protocol_, 1}, check_});
+  auto* below = makeBox(
+      inColumn({inRow({{caption_, 1}, back_}), {lists_, 1}}, {.top = Space::kNarrow}), content);
   // The border between the matrix and the lists can be dragged.
-  auto* parts = new QSplitter(Qt::Vertical, content);
-  parts->setObjectName("checkParts");
+  auto* parts = named(new QSplitter(Qt::Vertical, content), "checkParts");
   parts->setChildrenCollapsible(false);
   parts->addWidget(confusion_);
   parts->addWidget(below);
   parts->setStretchFactor(0, 3);
   parts->setStretchFactor(1, 2);
-  auto* inner = new QVBoxLayout(content);
-  inner->setContentsMargins(0, 0, 0, 0);
-  inner->addWidget(parts);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(12, 8, 12, 10);
-  column->setSpacing(8);
-  column->addLayout(top);
-  column->addWidget(result_);
-  column->addWidget(pages_, 1);
+  content->setLayout(inColumn({parts}));
+  setLayout(inColumn({top, result_, {pages_, 1}}, kPageEdges));
 
   connect(check_, &QPushButton::clicked, this, [this] {
     controller_.check(protocol_->currentIndex() == 0);

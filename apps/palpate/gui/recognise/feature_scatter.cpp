@@ -1,6 +1,5 @@
 #include "gui/recognise/feature_scatter.h"
 
-#include <QHBoxLayout>
 #include <QListWidget>
 #include <QPainter>
 #include <QPixmap>
@@ -15,6 +14,7 @@
 #include "gui/chart/chart_style.h"
 #include "gui/chart/plot.h"
 #include "gui/recognise/grasp_table_model.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -82,11 +82,7 @@ FeatureScatter::FeatureScatter(QWidget* parent)
   names_->setFixedWidth(kScatterNamesWidth);
   names_->setIconSize(QSize(kScatterIcon, kScatterIcon));
   names_->setSelectionMode(QAbstractItemView::SingleSelection);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(6);
-  row->addWidget(plot_, 1);
-  row->addWidget(names_);
+  setLayout(inRow({{plot_, 1}, names_}));
   connect(plot_, &QCustomPlot::mousePress, this, [this](QMouseEvent* event) {
     pressed_ = event->position();
   });
@@ -244,7 +240,7 @@ void FeatureScatter::paintPicture(QPainter& painter, const PictureLook& look) {
         {names_->item(object)->text(), QPen(color), scatterStyle(object, color, false)});
   }
   if (std::find(leftOut_.begin(), leftOut_.end(), true) != leftOut_.end()) {
-    const QColor color = colorsOf(theme).text;
+    const QColor color = colorsOf().text;
     options.legend.push_back({"left out", QPen(color), scatterStyle(0, color, true)});
   }
   paintChart(painter, look, *plot_, options);

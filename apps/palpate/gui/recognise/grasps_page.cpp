@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
@@ -13,7 +12,6 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QTableView>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -23,6 +21,7 @@
 #include "gui/recognise/feature_scatter.h"
 #include "gui/recognise/grasp_table_model.h"
 #include "gui/widgets/empty_page.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -65,8 +64,7 @@ GraspsPage::GraspsPage(TrainingController& controller, QSettings& settings, QWid
   sorted_->setSortCaseSensitivity(Qt::CaseInsensitive);
   empty_ = new EmptyPage("grasps", this);
   pages_ = new QStackedWidget(this);
-  parts_ = new QSplitter(Qt::Vertical, this);
-  parts_->setObjectName("graspsParts");
+  parts_ = named(new QSplitter(Qt::Vertical, this), "graspsParts");
   parts_->setChildrenCollapsible(false);
   parts_->addWidget(makeTable());
   parts_->addWidget(makePlot());
@@ -75,9 +73,7 @@ GraspsPage::GraspsPage(TrainingController& controller, QSettings& settings, QWid
   restoreParts(*parts_, settings, kGraspsPartsKey);
   pages_->addWidget(empty_);
   pages_->addWidget(parts_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(12, 8, 12, 10);
-  column->addWidget(pages_);
+  setLayout(inColumn({pages_}, kPageEdges));
   connect(parts_, &QSplitter::splitterMoved, this, [this] {
     storeParts(*parts_, settings_, kGraspsPartsKey);
   });
@@ -103,9 +99,7 @@ GraspsPage::GraspsPage(TrainingController& controller, QSettings& settings, QWid
 
 QWidget* GraspsPage::makeTable() {
   auto* part = new QWidget(parts_);
-  view_ = new QTableView(part);
-  view_->setObjectName("graspsTable");
-  view_->setAccessibleName("Grasps of the training folder");
+  view_ = named(new QTableView(part), "graspsTable", {}, "Grasps of the training folder");
   view_->setModel(sorted_);
   view_->setSelectionBehavior(QAbstractItemView::SelectRows);
   view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -122,42 +116,28 @@ QWidget* GraspsPage::makeTable() {
   view_->verticalHeader()->setDefaultSectionSize(view_->fontMetrics().height() + 8);
   view_->horizontalHeader()->setHighlightSections(false);
   view_->installEventFilter(this);
-  const auto button = [part](const char* name, const QString& text, const QString& tip) {
-    auto* made = new QPushButton(text, part);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    return made;
-  };
-  leave_ = button("graspsLeaveOut",
-                  "Leave out",
-                  "The chosen grasps neither train nor test; their recordings stay as they are");
-  undo_ = button("graspsUndo",
+  leave_ =
+      makeButton(part,
+                 "graspsLeaveOut",
+                 "Leave out",
+                 "The chosen grasps neither train nor test; their recordings stay as they are");
+  undo_ =
+      makeButton(part,
+                 "graspsUndo",
                  "Undo",
                  "Takes the last change of what is left out back (Ctrl+Z; again: Ctrl+Shift+Z)");
-  copy_ = button("graspsCopy", "Copy", "The chosen rows, else all, for a spreadsheet (Ctrl+C)");
-  state_ = new QLabel(part);
-  state_->setObjectName("graspsState");
-  state_->setProperty("role", "muted");
-  state_->setWordWrap(true);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
-  row->addWidget(state_, 1);
-  for (QPushButton* each : {leave_, undo_, copy_}) row->addWidget(each);
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(0, 0, 0, 4);
-  column->setSpacing(6);
-  column->addWidget(view_, 1);
-  column->addLayout(row);
+  copy_ = makeButton(
+      part, "graspsCopy", "Copy", "The chosen rows, else all, for a spreadsheet (Ctrl+C)");
+  state_ = makeLines(part, "graspsState", "muted");
+  part->setLayout(inColumn({{view_, 1}, inRow({{state_, 1}, leave_, undo_, copy_})},
+                           {.bottom = Space::kNarrow}));
   return part;
 }
 
 QWidget* GraspsPage::makePlot() {
   auto* part = new QWidget(parts_);
   const auto field = [part](const char* name, const char* accessible) {
-    auto* box = new QComboBox(part);
-    box->setObjectName(name);
-    box->setAccessibleName(accessible);
-    box->setToolTip(accessible);
+    auto* box = named(new QComboBox(part), name, accessible, accessible);
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(12);
     return box;
@@ -165,17 +145,8 @@ QWidget* GraspsPage::makePlot() {
   x_ = field("scatterX", "Feature along x");
   y_ = field("scatterY", "Feature along y");
   scatter_ = new FeatureScatter(part);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
-  row->addWidget(new QLabel("x", part));
-  row->addWidget(x_, 1);
-  row->addWidget(new QLabel("y", part));
-  row->addWidget(y_, 1);
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(0, 4, 0, 0);
-  column->setSpacing(6);
-  column->addLayout(row);
-  column->addWidget(scatter_, 1);
+  part->setLayout(
+      inColumn({inRow({"x", {x_, 1}, "y", {y_, 1}}), {scatter_, 1}}, {.top = Space::kNarrow}));
   return part;
 }
 

@@ -5,9 +5,9 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
-#include <QVBoxLayout>
 
 #include "gui/recognise/answer_view.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -33,15 +33,10 @@ PresentationWindow::PresentationWindow(RecognitionController& controller,
   plain.setColor(QPalette::Window, colorsOf().window);
   setPalette(plain);
   setAutoFillBackground(true);
-  view_ = new AnswerView(controller.photos(), 0.0, this);
-  view_->setObjectName("showAnswer");
+  view_ = named(new AnswerView(controller.photos(), 0.0, this), "showAnswer");
   showAnswer();
   connect(&controller, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(view_, 1);
-  column->addWidget(makeHandRow());
+  setLayout(inColumn({{view_, 1}, makeHandRow()}, Space::kNone));
   refusedTimer_.setSingleShot(true);
   refusedTimer_.setInterval(kShowRefusedMs);
   connect(&refusedTimer_, &QTimer::timeout, this, [this] {
@@ -64,14 +59,9 @@ PresentationWindow::PresentationWindow(RecognitionController& controller,
 }
 
 QWidget* PresentationWindow::makeHandRow() {
-  handRow_ = new QWidget(this);
-  handRow_->setObjectName("showHand");
-  handState_ = new QLabel(handRow_);
-  handState_->setObjectName("showHandState");
-  handState_->setTextFormat(Qt::PlainText);
-  handState_->setWordWrap(true);
-  auto* stop = new QPushButton("Stop  (Esc)", handRow_);
-  stop->setObjectName("showStop");
+  handRow_ = named(new QWidget(this), "showHand");
+  handState_ = makeLines(handRow_, "showHandState");
+  auto* stop = makeButton(handRow_, "showStop", "Stop  (Esc)");
   stop->setProperty("danger", true);
   // Return and Space, pressed for something else, don't press it, and Q still asks.
   stop->setFocusPolicy(Qt::NoFocus);

@@ -1,7 +1,6 @@
 #include "gui/recognise/recognise_panel.h"
 
 #include <QStackedWidget>
-#include <QVBoxLayout>
 
 #include "gui/appearance/captions.h"
 #include "gui/recognise/ask_page.h"
@@ -9,6 +8,7 @@
 #include "gui/recognise/grasps_page.h"
 #include "gui/recognise/today_page.h"
 #include "gui/recognise/training_page.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -31,11 +31,7 @@ RecognisePanel::RecognisePanel(QSettings& settings,
   addPage(teach_, "Teach", "Captures grasps of objects, and trains a model with them");
   addPage(grasps_, "Grasps", "The grasps that teach, and their features");
   addPage(check_, "Check", "How well they are distinguished");
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(strip_);
-  column->addWidget(&pages(), 1);
+  setLayout(inColumn({strip_, {&pages(), 1}}, Space::kNone));
   BackgroundJob& job = teaching_->job();
   connect(&job, &BackgroundJob::started, strip_, &OpeningStrip::begin);
   connect(&job, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);

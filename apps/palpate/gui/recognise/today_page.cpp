@@ -2,12 +2,10 @@
 
 #include <QComboBox>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStringList>
-#include <QVBoxLayout>
 #include <utility>
 
 #include <palpate/core/error.h>
@@ -15,6 +13,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 
 namespace palpate::gui {
@@ -37,57 +36,31 @@ std::vector<FigureColumn> todayPageColumns() {
 TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
     : QWidget(parent), controller_(controller) {
   setObjectName("todayPage");
-  offset_ = new QLabel(this);
-  offset_->setObjectName("todayOffset");
-  offset_->setWordWrap(true);
-  unsure_ = new QLabel(this);
-  unsure_->setObjectName("todayUnsure");
-  unsure_->setWordWrap(true);
-  unsure_->setProperty("role", "muted");
-  source_ = new QComboBox(this);
-  source_->setObjectName("todaySource");
-  source_->setAccessibleName("Where the offset comes from");
-  source_->addItems(
-      {"as the model says", "nothing is assumed", "from today's grasps, without labels", "typed"});
+  offset_ = makeLines(this, "todayOffset");
+  unsure_ = makeLines(this, "todayUnsure", "muted");
+  source_ = named(new QComboBox(this), "todaySource", {}, "Where the offset comes from");
   source_->setToolTip(
       "Labelled grasps and the zero of the empty hand come first, except before a typed offset");
-  typed_ = new SecondsField(this);
-  typed_->setObjectName("todayTyped");
+  source_->addItems(
+      {"as the model says", "nothing is assumed", "from today's grasps, without labels", "typed"});
+  typed_ = named(new SecondsField(this), "todayTyped");
   typed_->setRange(-kFarthestMm, kFarthestMm);
   typed_->setDecimals(1);
   typed_->setSuffix(" mm");
-  zero_ = new QPushButton("Zero: close the empty hand", this);
-  zero_->setObjectName("todayZero");
-  aboutZero_ = new QLabel(this);
-  aboutZero_->setObjectName("todayAboutZero");
-  aboutZero_->setWordWrap(true);
-  aboutZero_->setProperty("role", "muted");
-  grasps_ = new FiguresTable(todayPageColumns(), this);
-  grasps_->setObjectName("todayGrasps");
+  zero_ = makeButton(this, "todayZero", "Zero: close the empty hand");
+  aboutZero_ = makeLines(this, "todayAboutZero", "muted");
+  grasps_ = named(new FiguresTable(todayPageColumns(), this), "todayGrasps");
   grasps_->setSingleLine();
-  forget_ = new QPushButton("Forget today", this);
-  forget_->setObjectName("todayForget");
-  save_ = new QPushButton("Save as today's model…", this);
-  save_->setObjectName("todaySave");
-  auto* row = new QHBoxLayout;
-  row->setSpacing(8);
-  row->addWidget(source_, 1);
-  row->addWidget(typed_);
-  auto* bottom = new QHBoxLayout;
-  bottom->setSpacing(8);
-  bottom->addStretch(1);
-  bottom->addWidget(forget_);
-  bottom->addWidget(save_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(12, 8, 12, 10);
-  column->setSpacing(8);
-  column->addWidget(offset_);
-  column->addWidget(unsure_);
-  column->addLayout(row);
-  column->addWidget(zero_);
-  column->addWidget(aboutZero_);
-  column->addWidget(grasps_, 1);
-  column->addLayout(bottom);
+  forget_ = makeButton(this, "todayForget", "Forget today");
+  save_ = makeButton(this, "todaySave", "Save as today's model…");
+  setLayout(inColumn({offset_,
+                      unsure_,
+                      inRow({{source_, 1}, typed_}),
+                      zero_,
+                      aboutZero_,
+                      {grasps_, 1},
+                      inRow({Stretch{}, forget_, save_})},
+                     kPageEdges));
   connect(source_, &QComboBox::activated, this, &TodayPage::choose);
   connect(typed_, &QDoubleSpinBox::valueChanged, this, &TodayPage::choose);
   connect(zero_, &QPushButton::clicked, this, &TodayPage::zeroRequested);

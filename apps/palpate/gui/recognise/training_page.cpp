@@ -4,18 +4,17 @@
 #include <QCompleter>
 #include <QDir>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
 #include <QStandardPaths>
-#include <QVBoxLayout>
 #include <array>
 
 #include "gui/appearance/captions.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -98,24 +97,14 @@ QString stateText(const TrainingClip& clip) {
 TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
     : QWidget(parent), controller_(controller) {
   setObjectName("teachPage");
-  const auto button = [this](const char* name, const QString& text, const QString& tip) {
-    auto* made = new QPushButton(text, this);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    return made;
-  };
-  auto* choose = button(
-      "teachFolder", "Folder…", "A folder with a folder of recordings per object (\"golf_ball\")");
-  folder_ = new QLabel(this);
-  folder_->setObjectName("teachFolderName");
-  folder_->setTextFormat(Qt::PlainText);
+  auto* choose = makeButton(this,
+                            "teachFolder",
+                            "Folder…",
+                            "A folder with a folder of recordings per object (\"golf_ball\")");
+  folder_ = makeLabel(this, "teachFolderName");
   folder_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   const auto field = [this](const char* name, const char* accessible, const char* tip) {
-    auto* box = new QComboBox(this);
-    box->setObjectName(name);
-    box->setAccessibleName(accessible);
-    box->setToolTip(tip);
-    return box;
+    return named(new QComboBox(this), name, tip, accessible);
   };
   set_ = field("teachSet", "Features", "What is measured of each grasp; Train and Check use it");
   set_->addItem("automatic");
@@ -135,64 +124,36 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
     classifier_->addItem(taughtName(classifierName(each.kind)));
     classifier_->setItemData(classifier_->count() - 1, each.tip, Qt::ToolTipRole);
   }
-  bound_ = new QLabel(this);
-  bound_->setObjectName("teachBound");
-  bound_->setProperty("role", "muted");
-  bound_->setTextFormat(Qt::PlainText);
-  bound_->setWordWrap(true);
-  objects_ = new FiguresTable(teachPageObjectColumns(), this);
-  objects_->setObjectName("teachObjects");
+  bound_ = makeLines(this, "teachBound", "muted");
+  objects_ = named(new FiguresTable(teachPageObjectColumns(), this), "teachObjects");
   objects_->setSingleLine();
-  object_ = new QLineEdit(this);
-  object_->setObjectName("teachObject");
+  object_ = named(new QLineEdit(this), "teachObject");
   object_->setPlaceholderText("name of the object");
   object_->setMaxLength(60);
-  capture_ = button(
-      "teachCapture", "Capture", "From now on each finished grasp is saved as an example of it");
+  capture_ = makeButton(this,
+                        "teachCapture",
+                        "Capture",
+                        "From now on each finished grasp is saved as an example of it");
   capture_->setCheckable(true);
-  state_ = new QLabel(this);
-  state_->setObjectName("teachState");
-  state_->setProperty("role", "muted");
-  state_->setWordWrap(true);
-  clips_ = new FiguresTable(clipColumns(), this);
-  clips_->setObjectName("teachClips");
+  state_ = makeLines(this, "teachState", "muted");
+  clips_ = named(new FiguresTable(clipColumns(), this), "teachClips");
   clips_->setSingleLine();
-  act_ = button("teachAct",
-                "Undo",
-                "Moves the chosen or newest grasp out of the folder; Put back restores it");
-  train_ = button("teachTrain", "Train", "A model of what the folder holds");
+  act_ = makeButton(this,
+                    "teachAct",
+                    "Undo",
+                    "Moves the chosen or newest grasp out of the folder; Put back restores it");
+  train_ = makeButton(this, "teachTrain", "Train", "A model of what the folder holds");
   train_->setProperty("primary", true);
 
-  auto* top = new QHBoxLayout;
-  top->setSpacing(8);
-  top->addWidget(choose);
-  top->addWidget(folder_, 1);
-  top->addWidget(train_);
-  auto* choices = new QHBoxLayout;
-  choices->setSpacing(8);
-  choices->addWidget(new QLabel("Features", this));
-  choices->addWidget(set_, 1);
-  choices->addWidget(new QLabel("Classifier", this));
-  choices->addWidget(classifier_, 1);
-  auto* middle = new QHBoxLayout;
-  middle->setSpacing(8);
-  middle->addWidget(object_, 1);
-  middle->addWidget(capture_);
-  auto* bottom = new QHBoxLayout;
-  bottom->setSpacing(8);
-  bottom->addWidget(state_, 1);
-  bottom->addWidget(act_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(12, 8, 12, 10);
-  column->setSpacing(8);
-  column->addLayout(top);
-  column->addLayout(choices);
-  column->addWidget(bound_);
-  column->addWidget(objects_, 3);
-  column->addWidget(sectionHeading("Capture", this));
-  column->addLayout(middle);
-  column->addWidget(clips_, 2);
-  column->addLayout(bottom);
+  setLayout(inColumn({inRow({choose, {folder_, 1}, train_}),
+                      inRow({"Features", {set_, 1}, "Classifier", {classifier_, 1}}),
+                      bound_,
+                      {objects_, 3},
+                      sectionHeading("Capture", this),
+                      inRow({{object_, 1}, capture_}),
+                      {clips_, 2},
+                      inRow({{state_, 1}, act_})},
+                     kPageEdges));
 
   connect(choose, &QPushButton::clicked, this, [this] {
     if (const auto path = askForFolder(); !path.empty()) controller_.setFolder(path);

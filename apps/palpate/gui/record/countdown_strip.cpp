@@ -1,8 +1,9 @@
 #include "gui/record/countdown_strip.h"
 
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -14,30 +15,19 @@ constexpr double kCountdownDigits = 2.6;  // their size, of that of usual text
 CountdownStrip::CountdownStrip(QWidget* parent) : QWidget(parent) {
   setObjectName("CountdownStrip");
   setAttribute(Qt::WA_StyledBackground);
-  digits_ = new QLabel(this);
-  digits_->setObjectName("countdownDigits");
+  digits_ = makeLabel(this, "countdownDigits");
   QFont large = digits_->font();
   large.setPointSizeF(large.pointSizeF() * kCountdownDigits);
   large.setBold(true);
   digits_->setFont(large);
   digits_->setMinimumWidth(QFontMetrics(large).horizontalAdvance("00"));
   digits_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  text_ = new QLabel(this);
-  text_->setObjectName("countdownText");
-  text_->setTextFormat(Qt::PlainText);
-  text_->setWordWrap(true);
-  auto* cancel = new QPushButton("Cancel  (Esc)", this);
-  cancel->setObjectName("countdownCancel");
-  cancel->setToolTip("Nothing is recorded");
+  text_ = makeLines(this, "countdownText");
+  auto* cancel = makeButton(this, "countdownCancel", "Cancel  (Esc)", "Nothing is recorded");
   cancel->setFocusPolicy(Qt::TabFocus);
   cancel->setAutoDefault(false);
   connect(cancel, &QPushButton::clicked, this, &CountdownStrip::cancelRequested);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(14, 4, 14, 4);
-  row->setSpacing(12);
-  row->addWidget(digits_);
-  row->addWidget(text_, 1);
-  row->addWidget(cancel);
+  setLayout(inRow({digits_, {text_, 1}, cancel}, Space::kWide, kBarEdges));
   hide();
 }
 

@@ -1,9 +1,9 @@
 #include "gui/record/folding_part.h"
 
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
-#include <QVBoxLayout>
+
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 
@@ -13,32 +13,17 @@ FoldingPart::FoldingPart(const QString& name,
                          QWidget* parent)
     : QWidget(parent) {
   setStyleSheet("#" + name + "Header { padding: 4px 6px 4px 2px; }");
-  header_ = new QToolButton(this);
-  header_->setObjectName(name + "Header");
-  header_->setText(title);
-  header_->setToolTip(tip);
+  header_ = makeToolButton(this, name + "Header", title, tip);
   header_->setCheckable(true);
   header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   header_->setProperty("flat", true);
   header_->setFocusPolicy(Qt::StrongFocus);
   header_->setArrowType(Qt::RightArrow);
-  summary_ = new QLabel(this);
-  summary_->setObjectName(name + "Summary");
-  summary_->setTextFormat(Qt::PlainText);
-  summary_->setProperty("role", "muted");
+  summary_ = makeLabel(this, name + "Summary", "muted");
   summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  auto* head = new QHBoxLayout;
-  head->setSpacing(8);
-  head->addWidget(header_);
-  head->addWidget(summary_, 1);
-  body_ = new QWidget(this);
-  body_->setObjectName(name + "Grid");
+  body_ = named(new QWidget(this), name + "Grid");
   body_->hide();
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addLayout(head);
-  column->addWidget(body_);
+  setLayout(inColumn({inRow({header_, {summary_, 1}}), body_}, Space::kNarrow));
   connect(header_, &QToolButton::toggled, this, [this](bool open) {
     fold(open);
     // Updates the layout at once, so that parent widgets get the new height.

@@ -29,6 +29,7 @@
 #include "gui/record/plan_limits.h"
 #include "gui/widgets/dialog_properties.h"
 #include "gui/widgets/elided_text.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/offer_strip.h"
 #include "gui/widgets/text_fit.h"
 
@@ -67,24 +68,17 @@ PlanDialog::PlanDialog(WindowState& windowState,
   setStyleSheet(kPlanDialogStyle);
   setSizeGripEnabled(true);
   setProperty(kWantsStopProperty, true);
-  progress_ = new QLabel(this);
-  progress_->setObjectName("planProgress");
+  progress_ = makeLabel(this, "planProgress");
   QFont bold = progress_->font();
   bold.setBold(true);
   progress_->setFont(bold);
-  next_ = new QLabel(this);
-  next_->setObjectName("planNext");
-  next_->setTextFormat(Qt::PlainText);
+  next_ = makeLabel(this, "planNext");
   next_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  bar_ = new QProgressBar(this);
-  bar_->setObjectName("planBar");
+  bar_ = named(new QProgressBar(this), "planBar");
   bar_->setTextVisible(false);
   bar_->setMaximumWidth(180);
   bar_->setMaximumHeight(10);
-  said_ = new QLabel(this);
-  said_->setObjectName("planSaid");
-  said_->setTextFormat(Qt::PlainText);
-  said_->setWordWrap(true);
+  said_ = makeLines(this, "planSaid");
   question_ = new OfferStrip(this);
   auto* top = new QHBoxLayout;
   top->setContentsMargins(kPlanDialogMargin, 12, kPlanDialogMargin, 0);
@@ -92,13 +86,7 @@ PlanDialog::PlanDialog(WindowState& windowState,
   top->addWidget(progress_);
   top->addWidget(next_, 1);
   top->addWidget(bar_);
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->setSpacing(10);
-  whole->addLayout(top);
-  whole->addWidget(question_);
-  whole->addWidget(makeRows(), 1);
-  whole->addWidget(makeFoot());
+  setLayout(inColumn({top, question_, {makeRows(), 1}, makeFoot()}, Space::kWide));
   connect(model_, &PlanModel::refused, this, &PlanDialog::say);
   connect(&controller, &PlanController::changed, this, &PlanDialog::showState);
   connect(&controller, &PlanController::imported, this, [this](const QString& problem) {
@@ -125,10 +113,8 @@ PlanDialog::~PlanDialog() {
   for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
 }
 
-QPushButton* PlanDialog::makeButton(const char* name, const QString& text, const QString& tip) {
-  auto* button = new QPushButton(text, this);
-  button->setObjectName(name);
-  button->setToolTip(tip);
+QPushButton* PlanDialog::planButton(const char* name, const QString& text, const QString& tip) {
+  auto* button = makeButton(this, name, text, tip);
   button->setAutoDefault(false);
   return button;
 }
@@ -136,9 +122,7 @@ QPushButton* PlanDialog::makeButton(const char* name, const QString& text, const
 QWidget* PlanDialog::makeRows() {
   auto* part = new QWidget(this);
   model_ = new PlanModel(controller_, this);
-  table_ = new QTableView(part);
-  table_->setObjectName("planTable");
-  table_->setAccessibleName("Plan of recordings");
+  table_ = named(new QTableView(part), "planTable", {}, "Plan of recordings");
   table_->setModel(model_);
   table_->setItemDelegate(new PlanCells(table_));
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -152,21 +136,17 @@ QWidget* PlanDialog::makeRows() {
   header->setHighlightSections(false);
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setStretchLastSection(true);
-  add_ = makeButton("planAdd", "&Add row", "One more row below");
-  remove_ = makeButton("planRemove", "Re&move row", "Removes the chosen row; its files stay");
-  import_ = makeButton(
+  add_ = planButton("planAdd", "&Add row", "One more row below");
+  remove_ = planButton("planRemove", "Re&move row", "Removes the chosen row; its files stay");
+  import_ = planButton(
       "planImport", "&Import…", "A table (CSV) with the columns object, run, repetitions, notes");
-  export_ = makeButton("planExport", "&Export…", "The plan as a table (CSV)");
-  anew_ = makeButton("planAnew", "&Begin anew…", "All takes are to be made again; files stay");
+  export_ = planButton("planExport", "&Export…", "The plan as a table (CSV)");
+  anew_ = planButton("planAnew", "&Begin anew…", "All takes are to be made again; files stay");
   connect(add_, &QPushButton::clicked, this, &PlanDialog::addRow);
   connect(remove_, &QPushButton::clicked, this, &PlanDialog::removeRow);
   connect(import_, &QPushButton::clicked, this, &PlanDialog::importTable);
   connect(export_, &QPushButton::clicked, this, &PlanDialog::exportTable);
   connect(anew_, &QPushButton::clicked, this, &PlanDialog::beginAnew);
-  auto* buttons = new QHBoxLayout;
-  buttons->setSpacing(8);
-  for (QPushButton* button : {add_, remove_, import_, export_, anew_}) buttons->addWidget(button);
-  buttons->addStretch(1);
   auto* column = new QVBoxLayout(part);
   column->setContentsMargins(kPlanDialogMargin, 0, kPlanDialogMargin, 0);
   column->setSpacing(8);
@@ -175,23 +155,21 @@ QWidget* PlanDialog::makeRows() {
   limits_->fill(controller_.limits());
   connect(limits_, &PlanLimits::edited, this, [this] { controller_.setLimits(limits_->limits()); });
   column->addWidget(said_);
-  column->addLayout(buttons);
+  column->addLayout(inRow({add_, remove_, import_, export_, anew_, Stretch{}}));
   column->addWidget(limits_);
   return part;
 }
 
 QWidget* PlanDialog::makeFoot() {
-  auto* foot = new QFrame(this);
-  foot->setObjectName("planFoot");
-  follow_ = new QCheckBox("&Follow the plan", foot);
-  follow_->setObjectName("planFollow");
+  auto* foot = named(new QFrame(this), "planFoot");
+  follow_ = named(new QCheckBox("&Follow the plan", foot), "planFollow");
   follow_->setToolTip("Record (Ctrl+R) makes the next recording of the plan, without asking");
   connect(follow_, &QCheckBox::toggled, &controller_, &PlanController::setFollowed);
-  repeat_ = makeButton("planRepeat", "Re&peat last take", {});
+  repeat_ = planButton("planRepeat", "Re&peat last take", {});
   connect(repeat_, &QPushButton::clicked, this, &PlanDialog::repeatLast);
-  auto* close = makeButton("planClose", "&Close", "The plan is kept");
+  auto* close = planButton("planClose", "&Close", "The plan is kept");
   connect(close, &QPushButton::clicked, this, &QDialog::reject);
-  recordNext_ = makeButton("planRecord", "&Record next", "Records what comes next");
+  recordNext_ = planButton("planRecord", "&Record next", "Records what comes next");
   recordNext_->setProperty("primary", true);
   connect(recordNext_, &QPushButton::clicked, this, &PlanDialog::recordNext);
   auto* row = new QHBoxLayout(foot);

@@ -7,6 +7,7 @@
 #include <QSpinBox>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -18,10 +19,7 @@ constexpr int kMostPlanTaxels = 10'000;
 
 template <class Field>
 Field* planField(const char* name, const QString& tip, QWidget* parent) {
-  auto* field = new Field(parent);
-  field->setObjectName(name);
-  field->setToolTip(tip);
-  field->setAccessibleName(tip);
+  auto* field = named(new Field(parent), name, tip, tip);
   field->setButtonSymbols(QAbstractSpinBox::NoButtons);
   return field;
 }
@@ -59,18 +57,14 @@ PlanLimits::PlanLimits(QWidget* parent)
   quality_->setDecimals(2);
   quality_->setSingleStep(0.05);
   quality_->setSpecialValueText("any");
-  usual_ = new QPushButton("Us&ual", made);
-  usual_->setObjectName("planUsualLimits");
-  usual_->setToolTip("The limits of a new plan");
+  usual_ = makeButton(made, "planUsualLimits", "Us&ual", "The limits of a new plan");
   usual_->setAutoDefault(false);
   auto* grid = new QGridLayout(made);
   grid->setContentsMargins(0, 2, 0, 0);
   grid->setHorizontalSpacing(10);
   grid->setVerticalSpacing(6);
   const auto add = [&](int row, int column, const QString& text, QWidget* field) {
-    auto* label = new QLabel(text, made);
-    label->setBuddy(field);
-    grid->addWidget(label, row, 2 * column);
+    grid->addWidget(makeTitle(text, field), row, 2 * column);
     grid->addWidget(field, row, 2 * column + 1);
   };
   add(0, 0, "S&hortest", least_);

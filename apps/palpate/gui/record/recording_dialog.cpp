@@ -14,7 +14,6 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "gui/appearance/captions.h"
@@ -22,13 +21,13 @@
 #include "gui/record/recording_timing.h"
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/elided_text.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr int kRecordingDialogWidth = 580;  // [px]
-constexpr int kRecordingDialogMargin = 20;  // [px]
 // Largest number of letters in a field; the file name is shortened to less.
 constexpr int kRecordingDialogMostLetters = 200;
 constexpr int kNoteLines = 3;
@@ -76,12 +75,7 @@ constexpr std::array kPlaceholders = {Placeholder{"{date}", "Date"},
                                       Placeholder{"{object}", "Object"},
                                       Placeholder{"{run}", "Run number"}};
 
-QLabel* muted(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text, parent);
-  label->setTextFormat(Qt::PlainText);
-  label->setProperty("role", "muted");
-  return label;
-}
+QLabel* muted(const QString& text, QWidget* parent) { return makeLabel(parent, {}, "muted", text); }
 
 // Lets the label become narrower than its text, which is elided.
 void letShrink(QLabel* label) {
@@ -102,26 +96,23 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
     return QFileDialog::getExistingDirectory(this, "Folder for recordings", begin);
   };
   auto* content = new QWidget;
-  auto* middle = new QVBoxLayout(content);
-  middle->setContentsMargins(
-      kRecordingDialogMargin, kRecordingDialogMargin, kRecordingDialogMargin, 4);
-  middle->setSpacing(12);
-  middle->addWidget(makeFields(), 1);
+  auto* fields = makeFields();
   timing_ = new RecordingTiming(content);
-  middle->addWidget(timing_);
   marks_ = new KeyLabels(content);
-  middle->addWidget(marks_);
+  content->setLayout(inColumn({{fields, 1}, timing_, marks_},
+                              Space::kWide,
+                              {.left = Space::kDialog,
+                               .top = Space::kDialog,
+                               .right = Space::kDialog,
+                               .bottom = Space::kNarrow}));
   scroll_ = new ContentScroll(content, {0, kRecordingDialogLeastScroll}, this);
-  auto* preview = new QVBoxLayout;
-  preview->setContentsMargins(kRecordingDialogMargin, 8, kRecordingDialogMargin, 14);
-  preview->addWidget(makePreview());
-  auto* whole = new QVBoxLayout(this);
-  whole->setContentsMargins(0, 0, 0, 0);
-  whole->setSpacing(0);
+  auto* preview = inColumn({makePreview()},
+                           {.left = Space::kDialog,
+                            .top = Space::kUsual,
+                            .right = Space::kDialog,
+                            .bottom = Space::kWide});
   // On a small screen the fields are scrolled; the name and the buttons stay.
-  whole->addWidget(scroll_, 1);
-  whole->addLayout(preview);
-  whole->addWidget(makeFoot(okText));
+  setLayout(inColumn({{scroll_, 1}, preview, makeFoot(okText)}, Space::kNone));
   fill(settings);
   for (QLineEdit* field : {operator_, object_, template_, folder_})
     connect(field, &QLineEdit::textChanged, this, &RecordingDialog::refresh);
@@ -139,8 +130,7 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
 }
 
 QLineEdit* RecordingDialog::makeField(const char* name, int maxLetters) {
-  auto* field = new QLineEdit(this);
-  field->setObjectName(name);
+  auto* field = named(new QLineEdit(this), name);
   field->setMaxLength(maxLetters);
   return field;
 }
@@ -154,8 +144,7 @@ QWidget* RecordingDialog::makeFields() {
   grid->setColumnStretch(1, 1);
   int row = 0;
   const auto add = [&](const QString& title, QWidget* field, QWidget* button = nullptr) {
-    auto* label = new QLabel(title, fields);
-    label->setBuddy(field);
+    auto* label = makeTitle(title, field);
     if (qobject_cast<QPlainTextEdit*>(field)) label->setContentsMargins(0, 5, 0, 0);
     grid->addWidget(
         label, row, 0, qobject_cast<QPlainTextEdit*>(field) ? Qt::AlignTop : Qt::Alignment());
@@ -169,32 +158,31 @@ QWidget* RecordingDialog::makeFields() {
   object_ = makeField("recordingObject", kRecordingDialogMostLetters);
   object_->setPlaceholderText("what is grasped");
   add("&Object", object_);
-  notes_ = new NotesField(fields);
-  notes_->setObjectName("recordingNotes");
+  notes_ = named(new NotesField(fields), "recordingNotes");
+  notes_->setToolTip("Kept in this recording, not in the next ones. Ctrl+Enter: done");
   notes_->setTabChangesFocus(true);
   notes_->setPlaceholderText("any other notes");
-  notes_->setToolTip("Kept in this recording, not in the next ones. Ctrl+Enter: done");
   notes_->installEventFilter(this);
   notes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   add("No&tes", notes_);
   grid->setRowStretch(row - 1, 1);
   template_ = makeField("recordingTemplate", kRecordingDialogMostLetters);
-  auto* placeholders = new QPushButton("&Insert", fields);
-  placeholders->setObjectName("recordingInsert");
+  auto* placeholders = makeButton(fields,
+                                  "recordingInsert",
+                                  "&Insert",
+                                  "Adds a part to the name that changes with each recording");
   placeholders->setAutoDefault(false);
-  placeholders->setToolTip("Adds a part to the name that changes with each recording");
   placeholders_ = makePlaceholders();
   placeholders->setMenu(placeholders_);
   add("File &name", template_, placeholders);
   folder_ = makeField("recordingFolder", 4096);
-  auto* browse = new QPushButton("&Browse…", fields);
-  browse->setObjectName("recordingBrowse");
+  auto* browse = makeButton(fields, "recordingBrowse", "&Browse…");
   browse->setAutoDefault(false);
   connect(browse, &QPushButton::clicked, this, &RecordingDialog::browse);
   add("&Folder", folder_, browse);
-  mcap_ = new QCheckBox("Also an M&CAP file, for Foxglove and ROS 2", fields);
-  mcap_->setObjectName("recordingMcap");
-  mcap_->setToolTip("Written beside the recording, under its name");
+  mcap_ = named(new QCheckBox("Also an M&CAP file, for Foxglove and ROS 2", fields),
+                "recordingMcap",
+                "Written beside the recording, under its name");
   grid->addWidget(mcap_, row, 1, 1, 2);
   return fields;
 }
@@ -216,12 +204,10 @@ QMenu* RecordingDialog::makePlaceholders() {
 }
 
 QWidget* RecordingDialog::makePreview() {
-  auto* frame = new QFrame(this);
-  frame->setObjectName("recordingPreview");
+  auto* frame = named(new QFrame(this), "recordingPreview");
   caption_ = muted({}, frame);
   caption_->setObjectName("recordingCaption");
-  name_ = new QLabel(frame);
-  name_->setObjectName("recordingNextName");
+  name_ = makeLabel(frame, "recordingNextName");
   QFont bold = name_->font();
   bold.setBold(true);
   name_->setFont(bold);
@@ -229,46 +215,29 @@ QWidget* RecordingDialog::makePreview() {
   place_ = muted({}, frame);
   place_->setObjectName("recordingNextFolder");
   letShrink(place_);
-  problem_ = new QLabel(frame);
-  problem_->setObjectName("recordingProblem");
-  problem_->setTextFormat(Qt::PlainText);
-  problem_->setWordWrap(true);
+  problem_ = makeLines(frame, "recordingProblem");
   // A path may be of any length.
   problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   problem_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   // A problem replaces both lines, so that nothing moves.
   problem_->setFixedHeight(2 * fontMetrics().lineSpacing() + 3);
-  auto* column = new QVBoxLayout(frame);
-  column->setContentsMargins(12, 9, 12, 10);
-  column->setSpacing(3);
-  column->addWidget(caption_);
-  column->addWidget(name_);
-  column->addWidget(place_);
-  column->addWidget(problem_);
+  frame->setLayout(inColumn({caption_, name_, place_, problem_}, Space::kNarrow, kPageEdges));
   return frame;
 }
 
 QWidget* RecordingDialog::makeFoot(const QString& okText) {
-  auto* foot = new QFrame(this);
-  foot->setObjectName("recordingFoot");
-  ask_ = new QCheckBox("&Ask before each recording", foot);
-  ask_->setObjectName("recordingAsk");
-  ask_->setToolTip("Off: Record starts at once, with what is written here");
-  auto* cancel = new QPushButton("Cancel", foot);
-  cancel->setObjectName("recordingCancel");
+  auto* foot = named(new QFrame(this), "recordingFoot");
+  ask_ = named(new QCheckBox("&Ask before each recording", foot),
+               "recordingAsk",
+               "Off: Record starts at once, with what is written here");
+  auto* cancel = makeButton(foot, "recordingCancel", "Cancel");
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-  ok_ = new QPushButton(okText, foot);
-  ok_->setObjectName("recordingOk");
+  ok_ = makeButton(foot, "recordingOk", okText);
   ok_->setProperty("primary", true);
   ok_->setDefault(true);
   keepWide(*ok_, 110);
   connect(ok_, &QPushButton::clicked, this, &RecordingDialog::accept);
-  auto* row = new QHBoxLayout(foot);
-  row->setContentsMargins(kRecordingDialogMargin, 12, kRecordingDialogMargin, 12);
-  row->setSpacing(8);
-  row->addWidget(ask_, 1);
-  row->addWidget(cancel);
-  row->addWidget(ok_);
+  foot->setLayout(inRow({{ask_, 1}, cancel, ok_}, kFootEdges));
   return foot;
 }
 

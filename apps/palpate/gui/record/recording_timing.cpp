@@ -8,6 +8,8 @@
 #include <QSpinBox>
 #include <algorithm>
 
+#include "gui/widgets/make.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -46,14 +48,11 @@ QDoubleSpinBox* timingField(const char* name,
                             const QString& none,
                             const QString& tip,
                             QWidget* parent) {
-  auto* field = new TimingField(least, parent);
-  field->setObjectName(name);
+  auto* field = named(new TimingField(least, parent), name, tip, tip);
   field->setRange(0.0, most);
   field->setDecimals(decimals);
   field->setSuffix(suffix);
   field->setSpecialValueText(none);
-  field->setToolTip(tip);
-  field->setAccessibleName(tip);
   field->setButtonSymbols(QAbstractSpinBox::NoButtons);
   return field;
 }
@@ -87,17 +86,16 @@ RecordingTiming::RecordingTiming(QWidget* parent)
   form->setContentsMargins(0, 2, 0, 0);
   form->setHorizontalSpacing(12);
   form->setVerticalSpacing(6);
-  countdown_ = new QSpinBox(made);
-  countdown_->setObjectName("recordingCountdown");
+  countdown_ = named(new QSpinBox(made),
+                     "recordingCountdown",
+                     "Seconds that are counted down before it begins; Esc cancels");
   countdown_->setRange(0, RecordingSettings::kMostCountdownS);
   countdown_->setSuffix(" s");
   countdown_->setSpecialValueText("none");
   countdown_->setButtonSymbols(QAbstractSpinBox::NoButtons);
-  countdown_->setToolTip("Seconds that are counted down before it begins; Esc cancels");
   countdown_->setAccessibleName(countdown_->toolTip());
   form->addRow("Count&down", countdown_);
-  onContact_ = new QCheckBox("When touc&hed", made);
-  onContact_->setObjectName("recordingOnContact");
+  onContact_ = named(new QCheckBox("When touc&hed", made), "recordingOnContact");
   onContact_->setToolTip(
       "It waits until 3 taxels are touched in 3 frames; the two seconds before are in it, too");
   threshold_ = timingField("recordingContactThreshold",

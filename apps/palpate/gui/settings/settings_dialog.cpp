@@ -7,25 +7,23 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QScreen>
 #include <QSpinBox>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/text_size.h"
 #include "gui/source/recording_settings.h"
 #include "gui/widgets/content_scroll.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
 
-constexpr int kSettingsMargin = 20;   // [px]
 constexpr int kSettingsWidth = 560;   // [px]
 constexpr int kSettingsBetween = 14;  // [px] between fields and their titles
 constexpr int kSettingsFrame = 60;    // [px] of the window manager and of a panel
@@ -92,13 +90,11 @@ SettingsDialog::SettingsDialog(const WindowChoices& choices,
   buttons_ = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
   connect(buttons_, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons_, &QDialogButtonBox::rejected, this, &SettingsDialog::reject);
-  auto* page = new QVBoxLayout(this);
-  page->setContentsMargins(kSettingsMargin, kSettingsMargin, kSettingsMargin, 14);
-  page->setSpacing(14);
   // With large text on a small screen the fields scroll: OK and Cancel stay in reach.
   constexpr int kLeastHeight = 160;  // [px]
-  page->addWidget(new ContentScroll(fields, QSize(0, kLeastHeight)), 1);
-  page->addWidget(buttons_);
+  setLayout(inColumn({{new ContentScroll(fields, QSize(0, kLeastHeight)), 1}, buttons_},
+                     Space::kWide,
+                     around(Space::kDialog)));
   fill(choices);
   resize(kSettingsWidth, 0);
   grow();
@@ -111,24 +107,20 @@ void SettingsDialog::grow() {
 
 void SettingsDialog::addLook(QFormLayout& form) {
   form.addRow(sectionHeading("Look", this));
-  theme_ = new QComboBox(this);
-  theme_->setObjectName("settingsTheme");
+  theme_ = named(new QComboBox(this), "settingsTheme");
   theme_->addItems({"as the desktop", "dark", "light"});
   form.addRow("&Theme", theme_);
-  textPt_ = new QSpinBox(this);
-  textPt_->setObjectName("settingsTextPt");
+  textPt_ = named(new QSpinBox(this), "settingsTextPt");
   // The value below the least one stands for the desktop's size.
   textPt_->setRange(kLeastTextPt - 1, kMostTextPt);
   textPt_->setSpecialValueText("as the desktop");
   textPt_->setSuffix(" pt");
   textPt_->setToolTip("Size of all text, 7 to 18 pt");
   form.addRow("Te&xt size", textPt_);
-  map_ = new QComboBox(this);
-  map_->setObjectName("settingsMap");
+  map_ = named(new QComboBox(this), "settingsMap");
   for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
   form.addRow("&Colour map", map_);
-  range_ = new QComboBox(this);
-  range_->setObjectName("settingsRange");
+  range_ = named(new QComboBox(this), "settingsRange");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   range_->setToolTip("Upper end of the colour range of the heat maps");
   form.addRow("Colour ran&ge", range_);
@@ -140,10 +132,8 @@ void SettingsDialog::addLook(QFormLayout& form) {
 void SettingsDialog::addUnits(QFormLayout& form) {
   form.addRow(sectionHeading("Units", this));
   const auto box = [this](const char* name, const QStringList& units, const QString& tip) {
-    auto* made = new QComboBox(this);
-    made->setObjectName(name);
+    auto* made = named(new QComboBox(this), name, tip);
     made->addItems(units);
-    made->setToolTip(tip);
     connect(made, &QComboBox::currentIndexChanged, this, &SettingsDialog::tell);
     return made;
   };
@@ -151,16 +141,9 @@ void SettingsDialog::addUnits(QFormLayout& form) {
   const auto add =
       [this, &form](
           const QString& left, QComboBox* leftBox, const QString& right, QComboBox* rightBox) {
-        auto* leftTitle = new QLabel(left, this);
-        leftTitle->setBuddy(leftBox);
-        auto* rightTitle = new QLabel(right, this);
-        rightTitle->setBuddy(rightBox);
-        auto* row = new QHBoxLayout;
-        row->setSpacing(kSettingsBetween);
-        row->addWidget(leftBox, 1);
-        row->addWidget(rightTitle);
-        row->addWidget(rightBox, 1);
-        form.addRow(leftTitle, row);
+        auto* rightTitle = makeTitle(right, rightBox);
+        auto* row = inRow({{leftBox, 1}, rightTitle, {rightBox, 1}}, Space::kWide);
+        form.addRow(makeTitle(left, leftBox), row);
         return rightTitle;
       };
   angle_ = box("settingsAngle",
@@ -177,11 +160,11 @@ void SettingsDialog::addUnits(QFormLayout& form) {
   unitTitles_ = {add("A&ngles", angle_, "Te&mperatures", temperature_),
                  add("&Areas", area_, "&Pressures", pressure_)};
   alignUnits();
-  auto* note = new QLabel(
-      "Only what is shown: motions, files and command lines keep °, °C, mm² and kPa.", this);
-  note->setObjectName("settingsUnitsNote");
-  note->setProperty("role", "muted");
-  note->setWordWrap(true);
+  auto* note =
+      makeLines(this,
+                "settingsUnitsNote",
+                "muted",
+                "Only what is shown: motions, files and command lines keep °, °C, mm² and kPa.");
   form.addRow(note);
 }
 
@@ -193,17 +176,12 @@ void SettingsDialog::alignUnits() {
 }
 
 QLineEdit* SettingsDialog::addFolder(QFormLayout& form, const QString& label, const char* name) {
-  auto* field = new QLineEdit(this);
-  field->setObjectName(name);
+  auto* field = named(new QLineEdit(this), name);
   auto* browse = new QPushButton("Browse…", this);
   browse->setAutoDefault(false);
   browse->setAccessibleName("Browse for the folder of " + QString(label).remove('&').toLower());
-  auto* row = new QHBoxLayout;
-  row->addWidget(field, 1);
-  row->addWidget(browse);
-  auto* title = new QLabel(label, this);
-  title->setBuddy(field);
-  form.addRow(title, row);
+  auto* row = inRow({{field, 1}, browse});
+  form.addRow(makeTitle(label, field), row);
   connect(browse, &QPushButton::clicked, this, [this, field, label] {
     const QString chosen =
         askForFolder("Folder of " + QString(label).remove('&').toLower(), field->text());
@@ -220,25 +198,22 @@ void SettingsDialog::addFolders(QFormLayout& form) {
       "Where new recordings are written; the folder is created when it is needed");
   exports_ = addFolder(form, "&Exports", "settingsExports");
   exports_->setToolTip("Where pictures, movies and tables are written");
-  problem_ = new QLabel(this);
-  problem_->setObjectName("settingsProblem");
-  problem_->setTextFormat(Qt::PlainText);
-  problem_->setWordWrap(true);
+  problem_ = makeLines(this, "settingsProblem");
   problem_->setStyleSheet("color: palette(bright-text)");
   form.addRow(problem_);
 }
 
 void SettingsDialog::addMemory(QFormLayout& form) {
   form.addRow(sectionHeading("Memory", this));
-  reopen_ = new QCheckBox("At the &start, open the recordings that were open last time", this);
-  reopen_->setObjectName("settingsReopen");
+  reopen_ =
+      named(new QCheckBox("At the &start, open the recordings that were open last time", this),
+            "settingsReopen");
   form.addRow(reopen_);
   connect(reopen_, &QCheckBox::toggled, this, &SettingsDialog::tell);
   form.addRow(new QLabel("Forget when the window closes:", this));
   for (const Forgettable& each : forgettable()) {
-    auto* box = new QCheckBox(each.text, this);
-    box->setObjectName(QString("settingsForget_") + each.name);
-    box->setToolTip(each.explanation);
+    auto* box = named(
+        new QCheckBox(each.text, this), QString("settingsForget_") + each.name, each.explanation);
     form.addRow(box);
     connect(box, &QCheckBox::toggled, this, &SettingsDialog::tell);
     forgotten_.push_back(box);

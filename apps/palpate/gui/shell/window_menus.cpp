@@ -15,6 +15,7 @@
 
 #include "gui/shell/hand_chip.h"
 #include "gui/widgets/eliding_box.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 #include "gui/window_state/action_registry.h"
 
@@ -233,16 +234,13 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   bar->addActions({at("open"), at("exportPicture")});
   bar->addSeparator();
   menus_.connections->setToolTipsVisible(true);
-  auto* connectButton = new QToolButton(bar);
-  connectButton->setObjectName("connectButton");
+  auto* connectButton = named(new QToolButton(bar), "connectButton");
   connectButton->setDefaultAction(at("connectHand"));
   connectButton->setMenu(menus_.connections);
   connectButton->setPopupMode(QToolButton::InstantPopup);
   connectButton->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   bar->addWidget(connectButton);
-  link_ = new QLabel(bar);
-  link_->setObjectName("LinkPill");
-  link_->setTextFormat(Qt::PlainText);
+  link_ = makeLabel(bar, "LinkPill");
   linkAction_ = bar->addWidget(link_);
   bar->addAction(at("record"));
   record_ = qobject_cast<QToolButton*>(bar->widgetForAction(at("record")));
@@ -272,8 +270,7 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
 // Stop is at the beginning of the tool bar, where nothing covers it, whatever the window shows, as
 // long as a hand is connected that can be moved.
 void WindowMenus::addStop(QToolBar& bar, QAction* stop) {
-  auto* button = new QPushButton("Stop", &bar);
-  button->setObjectName("toolBarStop");
+  auto* button = makeButton(&bar, "toolBarStop", "Stop");
   button->setProperty("danger", true);
   button->setFocusPolicy(Qt::NoFocus);  // has a key instead
   button->setMinimumHeight(kWindowMenusControlHeight);

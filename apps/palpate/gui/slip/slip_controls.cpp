@@ -2,12 +2,11 @@
 
 #include <QComboBox>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
 
@@ -51,9 +50,7 @@ QString tipOf(SlipMethod method) {
 SlipControls::SlipControls(QSettings& settings, QWidget* parent)
     : QWidget(parent), settings_(settings) {
   const auto box = [this](const char* name, const QString& label) {
-    auto* made = new QComboBox(this);
-    made->setObjectName(name);
-    made->setAccessibleName(label);
+    auto* made = named(new QComboBox(this), name, {}, label);
     made->setFocusPolicy(Qt::StrongFocus);
     made->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     return made;
@@ -71,10 +68,11 @@ SlipControls::SlipControls(QSettings& settings, QWidget* parent)
   reference_->setToolTip("Where motion is measured from");
   reference_->setCurrentIndex(settings.value(kReference).toString() == "first" ? kFirstRow
                                                                                : kRestRow);
-  set_ = new QPushButton("Set reference", this);
-  set_->setObjectName("slipSetReference");
+  set_ = makeButton(this,
+                    "slipSetReference",
+                    "Set reference",
+                    "Motion is measured from the frame that is shown (O)");
   set_->setFocusPolicy(Qt::TabFocus);
-  set_->setToolTip("Motion is measured from the frame that is shown (O)");
   const SlipSeriesOptions usual;
   step_ = field("slipStep", "Step, in taxels per frame", kStep, 2.0, 0.01, 2, usual.stepTaxels);
   whole_ = field(
@@ -87,35 +85,18 @@ SlipControls::SlipControls(QSettings& settings, QWidget* parent)
                     1,
                     usual.rotationDeg);
 
-  const auto muted = [this](const QString& text) {
-    auto* label = new QLabel(text, this);
-    label->setProperty("role", "muted");
-    return label;
-  };
-  auto* how = new QHBoxLayout;
-  how->setSpacing(6);
-  how->addWidget(muted("Method"));
-  how->addWidget(method_);
-  how->addSpacing(8);
-  how->addWidget(muted("from"));
-  how->addWidget(reference_);
-  how->addStretch(1);
-  how->addWidget(set_);
-  auto* limits = new QHBoxLayout;
-  limits->setSpacing(6);
-  limits->addWidget(muted("Slip: step over"));
-  limits->addWidget(step_);
-  limits->addWidget(muted("in all"));
-  limits->addWidget(whole_);
-  limits->addWidget(muted("taxels, turned"));
-  limits->addWidget(rotation_);
-  limits->addWidget(muted("deg"));
-  limits->addStretch(1);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(6);
-  column->addLayout(how);
-  column->addLayout(limits);
+  const auto muted = [this](const QString& text) { return makeLabel(this, {}, "muted", text); };
+  auto* how =
+      inRow({muted("Method"), method_, Space::kUsual, muted("from"), reference_, Stretch{}, set_});
+  auto* limits = inRow({muted("Slip: step over"),
+                        step_,
+                        muted("in all"),
+                        whole_,
+                        muted("taxels, turned"),
+                        rotation_,
+                        muted("deg"),
+                        Stretch{}});
+  setLayout(inColumn({how, limits}));
 
   setLive(false);
   connect(method_, &QComboBox::activated, this, [this] {
@@ -145,10 +126,7 @@ QDoubleSpinBox* SlipControls::field(const char* name,
                                     double step,
                                     int decimals,
                                     double usual) {
-  auto* made = new SecondsField(this);
-  made->setObjectName(name);
-  made->setAccessibleName(label);
-  made->setToolTip(label);
+  auto* made = named(new SecondsField(this), name, label, label);
   made->setDecimals(decimals);
   made->setRange(step, most);
   made->setSingleStep(step);

@@ -3,7 +3,6 @@
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSplitter>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +18,7 @@
 #include "gui/slip/slip_tables.h"
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/text_fit.h"
 
@@ -71,9 +71,7 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   top().addWidget(controls_);
   auto* all = new QWidget(this);
   auto* left = new QWidget(all);
-  list_ = new FiguresTable(slipPanelColumns(), left);
-  list_->setObjectName("slipList");
-  list_->setAccessibleName("Slip of every matrix");
+  list_ = named(new FiguresTable(slipPanelColumns(), left), "slipList", {}, "Slip of every matrix");
   list_->setSingleLine();
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
@@ -83,11 +81,7 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   // The list gets its height first; the notes scroll in the rest.
   const int threeLines = 3 * notes_->fontMetrics().lineSpacing() + 2 * notes_->margin();
   auto* notes = new ContentScroll(notes_, QSize(0, threeLines), left);
-  auto* leftColumn = new QVBoxLayout(left);
-  leftColumn->setContentsMargins(0, 0, 0, 0);
-  leftColumn->setSpacing(0);
-  leftColumn->addWidget(list_);
-  leftColumn->addWidget(notes, 1);
+  left->setLayout(inColumn({list_, {notes, 1}}, Space::kNone));
   drawing_ = new SlipView(all);
   chart_ = new SlipChart(all);
   auto* beside = new QSplitter(Qt::Horizontal, all);
@@ -97,11 +91,7 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   beside->setStretchFactor(0, 5);
   beside->setStretchFactor(1, 4);
   beside->setSizes({kListWidth, kDrawingWidth});
-  auto* column = new QVBoxLayout(all);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(beside, 3);
-  column->addWidget(chart_, 2);
+  all->setLayout(inColumn({{beside, 3}, {chart_, 2}}, Space::kNone));
   setContent(all);
   connect(list_, &FiguresTable::rowChosen, this, [this](int row) {
     chosenByUser_ = true;

@@ -1,13 +1,13 @@
 #include "gui/spectrum/spectrum_header.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <algorithm>
 
 #include <palpate/signals/welch.h>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
 
@@ -36,16 +36,11 @@ SpectrumOptions usualOptions(SpectrumView view) {
 }
 
 SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
-  name_ = new QLabel(this);
-  name_->setObjectName("spectrumName");
-  name_->setTextFormat(Qt::PlainText);
+  name_ = makeLabel(this, "spectrumName");
   name_->setMinimumWidth(30);
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   const auto field = [this](const char* name, const QString& tip) {
-    auto* made = new FrameField(this);
-    made->setObjectName(name);
-    made->setAccessibleName(tip.section('\n', 0, 0));
-    made->setToolTip(tip);
+    auto* made = named(new FrameField(this), name, tip, tip.section('\n', 0, 0));
     fitToText(*made,
               [made] { made->setFixedWidth(made->fontMetrics().horizontalAdvance("65536") + 18); });
     made->setFocusPolicy(Qt::StrongFocus);
@@ -57,45 +52,40 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   overlap_ =
       field("spectrumOverlap", "Samples that a segment shares with the next, 0 to window - 1");
   overlap_->setRange(0, kLongest - 1);
-  view_ = new QComboBox(this);
-  view_->setObjectName("spectrumView");
-  view_->setAccessibleName("Kind of spectrum");
+  view_ = named(new QComboBox(this), "spectrumView", {}, "Kind of spectrum");
   view_->setToolTip(
       "Spectra over time, their mean with its peaks, or the coherence with another signal.\nMean "
       "and coherence are of the selected range; without one, of the visible part.");
   view_->setFocusPolicy(Qt::TabFocus);
   for (const SpectrumView each : kAllSpectrumViews) view_->addItem(nameOf(each));
-  signal_ = new QComboBox(this);
-  signal_->setObjectName("spectrumSignal");
-  signal_->setAccessibleName("Of which signal");
-  signal_->setToolTip("Of which signal: the chosen taxels, or a curve by a formula");
+  signal_ = named(new QComboBox(this),
+                  "spectrumSignal",
+                  "Of which signal: the chosen taxels, or a curve by a formula",
+                  "Of which signal");
   signal_->setFocusPolicy(Qt::TabFocus);
   signal_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   signal_->setMinimumContentsLength(12);
   signal_->addItem("chosen taxels");
   signal_->hide();
   connect(signal_, &QComboBox::activated, this, &SpectrumHeader::changed);
-  scale_ = new QComboBox(this);
-  scale_->setObjectName("spectrumScale");
-  scale_->setAccessibleName("Quantity shown as colour");
-  scale_->setToolTip("Power spectral density in dB, or the amplitude of a sine");
+  scale_ = named(new QComboBox(this),
+                 "spectrumScale",
+                 "Power spectral density in dB, or the amplitude of a sine",
+                 "Quantity shown as colour");
   scale_->setFocusPolicy(Qt::TabFocus);
   for (const SpectrumScale each : kAllSpectrumScales) scale_->addItem(nameOf(each));
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(6);
-  row->addWidget(name_, 1);
-  row->addSpacing(4);
-  row->addWidget(signal_);
-  row->addWidget(view_);
-  row->addSpacing(4);
-  row->addWidget(new QLabel("Window", this));
-  row->addWidget(window_);
-  row->addSpacing(4);
-  row->addWidget(new QLabel("Overlap", this));
-  row->addWidget(overlap_);
-  row->addSpacing(4);
-  row->addWidget(scale_);
+  setLayout(inRow({{name_, 1},
+                   Space::kNarrow,
+                   signal_,
+                   view_,
+                   Space::kNarrow,
+                   "Window",
+                   window_,
+                   Space::kNarrow,
+                   "Overlap",
+                   overlap_,
+                   Space::kNarrow,
+                   scale_}));
   show(setting_);
   connect(window_, &QSpinBox::valueChanged, this, [this](int window) {
     SpectrumSetting setting = setting_;

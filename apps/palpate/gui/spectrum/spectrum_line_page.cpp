@@ -1,11 +1,9 @@
 #include "gui/spectrum/spectrum_line_page.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +13,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -73,18 +72,13 @@ const QString kKeepTaxels = "the taxels chosen now";
 SpectrumLinePage::SpectrumLinePage(QWidget* parent) : QWidget(parent) {
   chart_ = new SpectrumLineChart(this);
   otherLabel_ = new QLabel("With", this);
-  other_ = new QComboBox(this);
-  other_->setObjectName("coherenceWith");
-  other_->setAccessibleName("The other signal");
+  other_ = named(new QComboBox(this), "coherenceWith", {}, "The other signal");
   other_->setToolTip(
       "The other signal: the mean of a matrix, a curve by a formula, taxels,\nor a name or formula "
       "that is typed: m1_max, m5_x2_y9, angle3, m1_sum-m3_sum");
   other_->setEditable(true);
   other_->setInsertPolicy(QComboBox::NoInsert);
-  problem_ = new QLabel(this);
-  problem_->setObjectName("coherenceProblem");
-  problem_->setTextFormat(Qt::PlainText);
-  problem_->setWordWrap(true);
+  problem_ = makeLines(this, "coherenceProblem");
   problem_->hide();
   other_->setFocusPolicy(Qt::StrongFocus);
   other_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -108,31 +102,17 @@ SpectrumLinePage::SpectrumLinePage(QWidget* parent) : QWidget(parent) {
       this);
   common_->setObjectName("coherencePeaks");
   common_->setAccessibleName("Common frequencies");
-  none_ = new QLabel(this);
-  none_->setWordWrap(true);
+  none_ = makeLines(this, {}, "muted");
   none_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  none_->setProperty("role", "muted");
   for (FiguresTable* table : {peaks_, common_}) {
     table->setSingleLine();
     pages_->addWidget(table);
     connect(table, &FiguresTable::rowChosen, chart_, &SpectrumLineChart::setChosenPeak);
   }
   pages_->addWidget(none_);
-  auto* with = new QHBoxLayout;
-  with->setSpacing(6);
-  with->addWidget(otherLabel_);
-  with->addWidget(other_, 1);
-  auto* side = new QVBoxLayout;
-  side->setContentsMargins(0, 8, 8, 8);
-  side->setSpacing(6);
-  side->addLayout(with);
-  side->addWidget(problem_);
-  side->addWidget(pages_, 1);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(4);
-  row->addWidget(chart_, 3);
-  row->addLayout(side, 2);
+  auto* side = inColumn({inRow({otherLabel_, {other_, 1}}), problem_, {pages_, 1}},
+                        {.top = Space::kUsual, .right = Space::kUsual, .bottom = Space::kUsual});
+  setLayout(inRow({{chart_, 3}, {side, 2}}, Space::kNarrow));
   connect(other_, &QComboBox::activated, this, &SpectrumLinePage::choose);
   connect(other_->lineEdit(), &QLineEdit::editingFinished, this, &SpectrumLinePage::choose);
   setChoosing(false);

@@ -2,7 +2,6 @@
 
 #include <QCoreApplication>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include <palpate/core/number_text.h>
@@ -10,6 +9,7 @@
 #include "gui/spectrum/spectrum_line_page.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -94,11 +94,7 @@ SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
   linePage_->chart().setScale(header_->setting().scale);
   pages_->addWidget(chart_);
   pages_->addWidget(linePage_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(strip_);
-  column->addWidget(pages_, 1);
+  setLayout(inColumn({strip_, {pages_, 1}}, Space::kNone));
   later_.setSingleShot(true);
   later_.setInterval(kSpectrumPanelCalmMs);
   connect(&later_, &QTimer::timeout, this, &SpectrumPanel::ask);

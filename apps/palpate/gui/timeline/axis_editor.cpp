@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "gui/chart/plot.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 
 namespace palpate::gui {
@@ -53,11 +54,11 @@ void AxisEditor::rebuild() {
     const QString name = axes_->nameOf(unit);
     const bool byHand = axes_->byHand().contains(unit);
     const QCPRange range = axes_->of(unit)->range();
-    auto* automatic = new QCheckBox("automatic", rows_);
-    automatic->setObjectName("automaticAxis");
+    auto* automatic = named(new QCheckBox("automatic", rows_),
+                            "automaticAxis",
+                            "The axis follows the values that are visible",
+                            name + ": automatic");
     automatic->setChecked(!byHand);
-    automatic->setAccessibleName(name + ": automatic");
-    automatic->setToolTip("The axis follows the values that are visible");
     constexpr int kUsualDecimals = 2;
     const int decimals = kUsualDecimals + axes_->conversionOf(unit).moreDecimals;
     auto* from = endField(rows_, range.lower, decimals, name + ": begin of the axis");
@@ -69,11 +70,11 @@ void AxisEditor::rebuild() {
     grid->addWidget(from, row, 2);
     grid->addWidget(new QLabel("to", rows_), row, 3);
     grid->addWidget(to, row, 4);
-    auto* log = new QCheckBox("log", rows_);
-    log->setObjectName("logAxis");
+    auto* log = named(new QCheckBox("log", rows_),
+                      "logAxis",
+                      "A logarithmic axis: it shows only values above 0",
+                      name + ": logarithmic");
     log->setChecked(axes_->logarithmic().contains(unit));
-    log->setAccessibleName(name + ": logarithmic");
-    log->setToolTip("A logarithmic axis: it shows only values above 0");
     connect(log, &QCheckBox::toggled, this, [this, unit](bool on) {
       if (axes_) axes_->setLogarithmic(unit, on);
     });
@@ -110,10 +111,7 @@ void AxisEditor::rebuild() {
       say({});
     });
   }
-  problem_ = new QLabel(rows_);
-  problem_->setObjectName("axisProblem");
-  problem_->setTextFormat(Qt::PlainText);
-  problem_->setWordWrap(true);
+  problem_ = makeLines(rows_, "axisProblem");
   problem_->hide();
   constexpr int kColumns = 6;
   grid->addWidget(problem_, row, 0, 1, kColumns);

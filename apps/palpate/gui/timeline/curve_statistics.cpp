@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QTabWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -20,6 +19,7 @@
 #include "gui/timeline/histogram_page.h"
 #include "gui/timeline/relation_page.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -129,14 +129,10 @@ StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
                                    QWidget* parent)
     : QDialog(parent) {
   setWindowTitle("Statistics of the selection");
-  auto* heading = new QLabel(range, this);
-  heading->setTextFormat(Qt::PlainText);
-  heading->setWordWrap(true);
-  auto* tabs = new QTabWidget(this);
-  tabs->setObjectName("statisticsTabs");
+  auto* heading = makeLines(this, {}, {}, range);
+  auto* tabs = named(new QTabWidget(this), "statisticsTabs");
   const auto table = [&](const char* name, const TextTable& of, const auto& columns) {
-    auto* figures = new FiguresTable(columns, tabs);
-    figures->setObjectName(name);
+    auto* figures = named(new FiguresTable(columns, tabs), name);
     figures->setSingleLine();
     std::vector<std::vector<FigureCell>> rows;
     for (std::size_t i = 0; i < of.numRows; ++i) {
@@ -194,10 +190,7 @@ StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
     QGuiApplication::clipboard()->setText(QString::fromStdString(tabbedText(shown, shown.numRows)));
   });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  auto* page = new QVBoxLayout(this);
-  page->addWidget(heading);
-  page->addWidget(tabs, 1);
-  page->addWidget(buttons);
+  setLayout(inColumn({heading, {tabs, 1}, buttons}, kPageEdges));
   constexpr int kWidth = 900, kHeight = 420;  // [px]
   resize(kWidth, kHeight);
 }

@@ -3,11 +3,9 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <array>
 
 #include <palpate/signals/signal_name.h>
@@ -15,6 +13,7 @@
 #include "gui/appearance/hand_unit.h"
 #include "gui/appearance/plotted_signal.h"
 #include "gui/chart/plotted_curve.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -75,10 +74,7 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
   setObjectName("FormulaDialog");
   setWindowTitle(before.name.isEmpty() ? "Curve by a formula or filter" : "Change " + before.name);
   const auto box = [this](const char* name, const QString& tip) {
-    auto* made = new QComboBox(this);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    made->setAccessibleName(tip);
+    auto* made = named(new QComboBox(this), name, tip, tip);
     made->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     made->setMinimumContentsLength(18);
     return made;
@@ -98,11 +94,7 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
     connect(each, &QComboBox::activated, this, &FormulaDialog::write);
   other_->setEnabled(false);
   const auto field = [this](const char* name, const QString& tip, const QString& text) {
-    auto* made = new QLineEdit(text, this);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    made->setAccessibleName(tip.section('\n', 0, 0));
-    return made;
+    return named(new QLineEdit(text, this), name, tip, tip.section('\n', 0, 0));
   };
   formula_ =
       field("formulaText",
@@ -117,32 +109,21 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
   name_ = field("formulaName", "Its name in the legend", before.name);
   name_->setMaxLength(FormulaCurves::kMaxNameLength);
   unit_ = field("formulaUnit", "Its unit; curves of one unit share an axis", before.unit);
-  problem_ = new QLabel(this);
-  problem_->setObjectName("formulaProblem");
-  problem_->setTextFormat(Qt::PlainText);
-  problem_->setWordWrap(true);
+  problem_ = makeLines(this, "formulaProblem");
   problem_->setMinimumHeight(2 * problem_->fontMetrics().lineSpacing());
   problem_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
   good_ = buttons->button(QDialogButtonBox::Ok);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  auto* made = new QHBoxLayout;
-  made->setSpacing(6);
-  made->addWidget(of_, 1);
-  made->addWidget(operation_);
-  made->addWidget(other_, 1);
+  auto* made = inRow({{of_, 1}, operation_, {other_, 1}});
   auto* form = new QFormLayout;
   form->addRow("&Make of", made);
   static_cast<QLabel*>(form->labelForField(made))->setBuddy(of_);
   form->addRow("&Formula", formula_);
   form->addRow("&Name", name_);
   form->addRow("&Unit", unit_);
-  auto* column = new QVBoxLayout(this);
-  column->addLayout(form);
-  column->addWidget(problem_);
-  column->addStretch(1);
-  column->addWidget(buttons);
+  setLayout(inColumn({form, problem_, Stretch{}, buttons}, kPageEdges));
   connect(formula_, &QLineEdit::textChanged, this, &FormulaDialog::check);
   connect(name_, &QLineEdit::textChanged, this, &FormulaDialog::check);
   connect(name_, &QLineEdit::textEdited, this, [this] { ownName_ = true; });

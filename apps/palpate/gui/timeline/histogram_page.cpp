@@ -1,10 +1,8 @@
 #include "gui/timeline/histogram_page.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSpinBox>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include <palpate/core/number_text.h>
@@ -13,27 +11,26 @@
 #include "gui/chart/chart_style.h"
 #include "gui/chart/plot.h"
 #include "gui/timeline/curve_statistics.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 
-HistogramPage::HistogramPage(const SelectedCurves& selected, QWidget* parent) : QWidget(parent) {
-  curve_ = new QComboBox(this);
-  curve_->setObjectName("histogramCurve");
-  curve_->setAccessibleName("Curve of the histogram");
+HistogramPage::HistogramPage(const SelectedCurves& selected, QWidget* parent)
+    : QWidget(parent) {
+  curve_ = named(new QComboBox(this), "histogramCurve", {}, "Curve of the histogram");
   for (const SelectedCurves::Curve& curve : selected.curves) {
     curve_->addItem(curve.name);
     values_.push_back(curve.values);
     units_.push_back(curve.unit);
   }
-  bins_ = new QSpinBox(this);
-  bins_->setObjectName("histogramBins");
-  bins_->setAccessibleName("Number of bins");
+  bins_ = named(new QSpinBox(this),
+                "histogramBins",
+                "0: automatic, after Freedman and Diaconis",
+                "Number of bins");
   bins_->setRange(0, static_cast<int>(kMostHistogramBins));
   bins_->setSpecialValueText("automatic");
-  bins_->setToolTip("0: automatic, after Freedman and Diaconis");
   bins_->setKeyboardTracking(false);
-  words_ = new QLabel(this);
-  words_->setObjectName("histogramWords");
+  words_ = makeLabel(this, "histogramWords");
   plot_ = new QCustomPlot(this);
   plot_->setMinimumSize(240, 140);
   plot_->setAccessibleName("Histogram");
@@ -46,19 +43,11 @@ HistogramPage::HistogramPage(const SelectedCurves& selected, QWidget* parent) : 
   bars_->setBrush(fill);
   bars_->setPen(QPen(colors.accent));
   plot_->yAxis->setLabel("frames");
-  auto* row = new QHBoxLayout;
-  auto* curveLabel = new QLabel("C&urve", this);
-  curveLabel->setBuddy(curve_);
-  auto* binsLabel = new QLabel("&Bins", this);
-  binsLabel->setBuddy(bins_);
-  row->addWidget(curveLabel);
-  row->addWidget(curve_, 1);
-  row->addWidget(binsLabel);
-  row->addWidget(bins_);
-  auto* column = new QVBoxLayout(this);
-  column->addLayout(row);
-  column->addWidget(plot_, 1);
-  column->addWidget(words_);
+  setLayout(
+      inColumn({inRow({makeTitle("C&urve", curve_), {curve_, 1}, makeTitle("&Bins", bins_), bins_}),
+                {plot_, 1},
+                words_},
+               kPageEdges));
   connect(curve_, &QComboBox::currentIndexChanged, this, &HistogramPage::show);
   connect(bins_, &QSpinBox::valueChanged, this, &HistogramPage::show);
   show();

@@ -1,9 +1,7 @@
 #include "gui/timeline/relation_page.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "gui/chart/chart_style.h"
 #include "gui/chart/plot.h"
 #include "gui/timeline/curve_statistics.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -45,9 +44,7 @@ RelationPage::RelationPage(const SelectedCurves& selected, QWidget* parent)
     names_.push_back(curve.name + " in " + curve.unit);
   }
   const auto field = [this](const char* name, const char* accessible) {
-    auto* box = new QComboBox(this);
-    box->setObjectName(name);
-    box->setAccessibleName(accessible);
+    auto* box = named(new QComboBox(this), name, {}, accessible);
     for (const QString& curve : names_) box->addItem(curve);
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(14);
@@ -56,9 +53,7 @@ RelationPage::RelationPage(const SelectedCurves& selected, QWidget* parent)
   x_ = field("relationX", "Curve along x");
   y_ = field("relationY", "Curve along y");
   if (names_.size() > 1) y_->setCurrentIndex(1);
-  words_ = new QLabel(this);
-  words_->setObjectName("relationWords");
-  words_->setWordWrap(true);
+  words_ = makeLines(this, "relationWords");
   plot_ = new QCustomPlot(this);
   plot_->setMinimumSize(240, 140);
   plot_->setAccessibleName("XY plot");
@@ -70,19 +65,9 @@ RelationPage::RelationPage(const SelectedCurves& selected, QWidget* parent)
   points_->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, colors.accent, 3));
   line_ = plot_->addGraph();
   line_->setPen(QPen(colors.text, 1.2, Qt::DashLine));
-  auto* row = new QHBoxLayout;
-  auto* xLabel = new QLabel("&x", this);
-  xLabel->setBuddy(x_);
-  auto* yLabel = new QLabel("&y", this);
-  yLabel->setBuddy(y_);
-  row->addWidget(xLabel);
-  row->addWidget(x_, 1);
-  row->addWidget(yLabel);
-  row->addWidget(y_, 1);
-  auto* column = new QVBoxLayout(this);
-  column->addLayout(row);
-  column->addWidget(plot_, 1);
-  column->addWidget(words_);
+  setLayout(inColumn(
+      {inRow({makeTitle("&x", x_), {x_, 1}, makeTitle("&y", y_), {y_, 1}}), {plot_, 1}, words_},
+      kPageEdges));
   for (QComboBox* box : {x_, y_})
     connect(box, &QComboBox::currentIndexChanged, this, &RelationPage::show);
   show();

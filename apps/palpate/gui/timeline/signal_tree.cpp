@@ -5,11 +5,11 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QTreeWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -68,25 +68,17 @@ SignalTree::SignalTree(TaxelGroups& groups, FormulaCurves& formulas, QWidget* pa
     : QFrame(parent, Qt::Popup), groups_(groups), formulas_(formulas) {
   setObjectName("SignalTree");
   setFrameShape(QFrame::StyledPanel);
-  tree_ = new QTreeWidget(this);
-  tree_->setObjectName("signalList");
+  tree_ = named(new QTreeWidget(this), "signalList", {}, "Curves in the timeline");
   tree_->setHeaderHidden(true);
   tree_->setRootIsDecorated(false);
   tree_->setIndentation(14);
   tree_->setFrameShape(QFrame::NoFrame);
   tree_->setEditTriggers(QAbstractItemView::EditKeyPressed);
-  tree_->setAccessibleName("Curves in the timeline");
-  group_ = new QPushButton("Name the chosen taxels…", this);
-  group_->setObjectName("groupButton");
+  group_ = makeButton(this, "groupButton", "Name the chosen taxels…");
   group_->setToolTip("Keeps them as a group, for other recordings too (Ctrl+Shift+G)");
-  formula_ = new QPushButton("New formula or filter…", this);
-  formula_->setObjectName("formulaButton");
+  formula_ = makeButton(this, "formulaButton", "New formula or filter…");
   formula_->setToolTip("A slope, a difference, a filtered curve, or any formula of signals");
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(6, 6, 6, 6);
-  column->addWidget(tree_, 1);
-  column->addWidget(group_);
-  column->addWidget(formula_);
+  setLayout(inColumn({{tree_, 1}, group_, formula_}, around(Space::kUsual)));
   connect(formula_, &QPushButton::clicked, this, [this] {
     hide();
     emit formulaRequested({});

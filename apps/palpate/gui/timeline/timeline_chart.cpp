@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gui/chart/chart_style.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 #include "gui/window_state/selection.h"
 
@@ -38,11 +39,8 @@ TimelineChart::TimelineChart(QWidget* parent)
   clockTicker_->setTickCount(secondsTicker_->tickCount());
   nameTime();
   addCursor();
-  notes_ = new QLabel(this);
-  notes_->setObjectName("chartNotes");
-  notes_->setWordWrap(true);
+  notes_ = makeLines(this, "chartNotes");
   notes_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  notes_->setTextFormat(Qt::PlainText);
   notes_->setAttribute(Qt::WA_TransparentForMouseEvents);
   notes_->hide();
   const auto rescale = [this] {

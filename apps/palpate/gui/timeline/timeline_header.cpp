@@ -1,12 +1,13 @@
 #include "gui/timeline/timeline_header.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
 #include <QToolButton>
 #include <algorithm>
 #include <utility>
+
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -124,32 +125,23 @@ void Legend::paintEvent(QPaintEvent*) {
 }
 
 TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidget(parent) {
-  signal_ = new QComboBox(this);
-  signal_->setObjectName("signalBox");
+  signal_ = named(new QComboBox(this), "signalBox");
   signal_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   signal_->setToolTip("What is plotted of each ticked matrix (S)");
   for (const PlottedSignal signal : kAllPlottedSignals) {
     signal_->addItem(nameOf(signal));
     signal_->setItemData(signal_->count() - 1, meaningOf(signal), Qt::ToolTipRole);
   }
-  curves_ = new QToolButton(this);
-  curves_->setObjectName("curvesButton");
-  curves_->setText("Curves");
+  curves_ = makeToolButton(this, "curvesButton", "Curves");
   curves_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   curves_->setToolTip("Taxels, joint angles, temperatures and forces in the timeline (C)");
   legend_ = new Legend(this);
-  reading_ = new QLabel(this);
-  reading_->setObjectName("readingWords");
+  reading_ = makeLabel(this, "readingWords");
   reading_->hide();
-  selection_ = new QWidget(this);
-  selection_->setObjectName("selectionStrip");
-  auto* strip = new QHBoxLayout(selection_);
-  strip->setContentsMargins(0, 0, 0, 0);
-  strip->setSpacing(4);
-  selectionWords_ = new QLabel(selection_);
-  selectionWords_->setObjectName("selectionWords");
-  strip->addWidget(selectionWords_);
-  strip->addSpacing(4);
+  selection_ = named(new QWidget(this), "selectionStrip");
+  selectionWords_ = makeLabel(selection_, "selectionWords");
+  auto* strip = inRow({selectionWords_, Space::kNarrow}, Space::kNarrow);
+  selection_->setLayout(strip);
   const auto buttonFor = [](QAction* action, QWidget* of) {
     auto* button = new QToolButton(of);
     button->setDefaultAction(action);
@@ -163,15 +155,8 @@ TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidge
     if (!actions.ofCursors.contains(action)) ofRecording_.append(button);
   }
   selection_->hide();
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(8);
-  row->addWidget(signal_);
-  row->addWidget(curves_);
-  row->addSpacing(6);
-  row->addWidget(legend_, 1);
-  row->addWidget(reading_);
-  row->addWidget(selection_);
+  auto* row = inRow({signal_, curves_, Space::kUsual, {legend_, 1}, reading_, selection_});
+  setLayout(row);
   for (QAction* action : actions.ofLive) {
     ofLive_.append(buttonFor(action, this));
     ofLive_.last()->hide();

@@ -1,16 +1,15 @@
 #include "gui/timeline/timeline_panel.h"
 
-#include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 
 TimelinePanel::TimelinePanel(QWidget* parent) : QWidget(parent) {
   chart_ = new TimelineChart(this);
-  rowsScroll_ = new QScrollArea(this);
-  rowsScroll_->setObjectName("eventRowsScroll");
+  rowsScroll_ = named(new QScrollArea(this), "eventRowsScroll");
   rowsScroll_->setFrameShape(QFrame::NoFrame);
   rowsScroll_->setFocusPolicy(Qt::NoFocus);
   rowsScroll_->setWidgetResizable(true);
@@ -18,11 +17,7 @@ TimelinePanel::TimelinePanel(QWidget* parent) : QWidget(parent) {
   rows_ = new EventRows;
   rowsScroll_->setWidget(rows_);
   rowsScroll_->hide();
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addWidget(chart_, 1);
-  column->addWidget(rowsScroll_);
+  setLayout(inColumn({{chart_, 1}, rowsScroll_}, Space::kNone));
   fitToText(*rows_, [this] { fitRows(); });
   connect(rows_, &EventRows::marksChanged, this, &TimelinePanel::fitRows);
   connect(rows_, &EventRows::chosenChanged, this, [this] {

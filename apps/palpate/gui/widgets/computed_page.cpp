@@ -7,6 +7,7 @@
 
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -19,15 +20,10 @@ ComputedPage::ComputedPage(const QString& part, QWidget* parent) : QWidget(paren
   pages_->setObjectName(kDockPages);
   empty_ = new EmptyPage(part, pages_);
   pages_->addWidget(empty_);
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
   top_ = new QVBoxLayout;
   top_->setContentsMargins(12, 8, 12, 8);
   top_->setSpacing(6);
-  column->addLayout(top_);
-  column->addWidget(strip_);
-  column->addWidget(pages_, 1);
+  setLayout(inColumn({top_, strip_, {pages_, 1}}, Space::kNone));
   connect(&job_, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
   connect(&job_, &BackgroundJob::finished, strip_, &OpeningStrip::end);
   connect(&job_, &BackgroundJob::failed, this, [this](const QString& message) {

@@ -2,12 +2,12 @@
 
 #include <QAccessible>
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
 
 #include "gui/appearance/icons.h"
 #include "gui/widgets/long_word_label.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -20,21 +20,19 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
     : QWidget(parent) {
   setObjectName(name);
   setAttribute(Qt::WA_StyledBackground);
-  text_ = new LongWordLabel(this);
-  text_->setObjectName(part + "Text");
+  text_ = named(new LongWordLabel(this), part + "Text");
   text_->installEventFilter(this);
-  auto* close = new QToolButton(this);
-  close->setObjectName(part + "Close");
+  auto* close = named(new QToolButton(this), part + "Close", "Close this message (Esc)");
   close->setProperty("flat", true);
   close->setIcon(makeIcon(IconShape::kClose));
   close->setIconSize({12, 12});
   close->setFocusPolicy(Qt::NoFocus);
-  close->setToolTip("Close this message (Esc)");
   connect(close, &QToolButton::clicked, this, &MessageBanner::dismiss);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(14, 8, 8, 8);
-  row->addWidget(text_, 1);
-  row->addWidget(close, 0, Qt::AlignTop);
+  setLayout(inRow({{text_, 1}, {close, 0, Qt::AlignTop}},
+                  {.left = Space::kWide,
+                   .top = Space::kUsual,
+                   .right = Space::kUsual,
+                   .bottom = Space::kUsual}));
   hide();
 }
 

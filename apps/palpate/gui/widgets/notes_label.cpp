@@ -5,6 +5,8 @@
 #include <palpate/calibration/calibration.h>
 #include <palpate/core/time.h>
 
+#include "gui/widgets/make.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -22,11 +24,7 @@ QString linesOf(const std::vector<std::string>& notes, const std::vector<std::st
 }
 
 QLabel* notesLabel(const char* name, QWidget* parent) {
-  auto* label = new QLabel(parent);
-  label->setObjectName(name);
-  label->setProperty("role", "muted");
-  label->setTextFormat(Qt::PlainText);
-  label->setWordWrap(true);
+  auto* label = makeLines(parent, name, "muted");
   // setMargin(), because contents margins don't count for the height of a label.
   label->setMargin(kNotesMargin);
   return label;

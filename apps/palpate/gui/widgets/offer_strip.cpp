@@ -4,31 +4,26 @@
 #include <QPushButton>
 #include <QStyle>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <utility>
 
 #include "gui/appearance/icons.h"
 #include "gui/widgets/long_word_label.h"
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 
 OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   setObjectName("OfferStrip");
   setAttribute(Qt::WA_StyledBackground);
-  text_ = new LongWordLabel(this);
-  text_->setObjectName("offerText");
-  accept_ = new QPushButton(this);
-  accept_->setObjectName("offerAccept");
+  text_ = named(new LongWordLabel(this), "offerText");
+  accept_ = named(new QPushButton(this), "offerAccept");
   accept_->setFocusPolicy(Qt::TabFocus);
   accept_->setAutoDefault(false);
-  auto* close = new QToolButton(this);
-  close->setObjectName("offerClose");
+  auto* close = named(new QToolButton(this), "offerClose", "Not now", "Not now");
   close->setProperty("flat", true);
   close->setIcon(makeIcon(IconShape::kClose));
   close->setIconSize({12, 12});
   close->setFocusPolicy(Qt::TabFocus);
-  close->setAccessibleName("Not now");
-  close->setToolTip("Not now");
   connect(accept_, &QPushButton::clicked, this, [this] {
     const auto accept = std::exchange(onAccept_, {});
     onDecline_ = {};
@@ -40,21 +35,16 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
     dismiss();
     if (decline) decline();
   });
-  auto* row = new QHBoxLayout;
-  row->setSpacing(12);
-  row->addWidget(text_, 1);
-  row->addWidget(accept_);
+  auto* row = inRow({{text_, 1}, accept_}, Space::kWide);
   others_ = new QHBoxLayout;
   others_->setSpacing(12);
   // Below, so that the window needs no more width for them.
-  auto* below = new QHBoxLayout;
-  below->addStretch(1);
-  below->addLayout(others_);
-  auto* lines = new QVBoxLayout(this);
-  lines->setContentsMargins(14, 6, 8, 6);
-  lines->setSpacing(4);
-  lines->addLayout(row);
-  lines->addLayout(below);
+  setLayout(inColumn({row, inRow({Stretch{}, others_})},
+                     Space::kNarrow,
+                     {.left = Space::kWide,
+                      .top = Space::kUsual,
+                      .right = Space::kUsual,
+                      .bottom = Space::kUsual}));
   row->addWidget(close);
   hide();
 }
@@ -76,9 +66,7 @@ void OfferStrip::offer(const QString& text,
 void OfferStrip::offerAlso(const QString& button,
                            const QString& tip,
                            std::function<void()> action) {
-  auto* made = new QPushButton(button, this);
-  made->setObjectName("offerOther");
-  made->setToolTip(tip);
+  auto* made = makeButton(this, "offerOther", button, tip);
   made->setFocusPolicy(Qt::TabFocus);
   made->setAutoDefault(false);
   connect(made, &QPushButton::clicked, this, std::move(action));

@@ -1,10 +1,11 @@
 #include "gui/widgets/opening_strip.h"
 
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+
+#include "gui/widgets/make.h"
 
 namespace palpate::gui {
 namespace {
@@ -19,24 +20,18 @@ OpeningStrip::OpeningStrip(QWidget* parent, const QString& verb, const QString& 
     : QWidget(parent), verb_(verb) {
   setObjectName("OpeningStrip");
   setAttribute(Qt::WA_StyledBackground);
-  name_ = new QLabel(this);
-  name_->setTextFormat(Qt::PlainText);
-  bar_ = new QProgressBar(this);
-  bar_->setObjectName(part + "Progress");
+  name_ = makeLabel(this, {});
+  bar_ = named(new QProgressBar(this), part + "Progress");
   bar_->setRange(0, kOpeningStripSteps);
   bar_->setTextVisible(false);
   bar_->setFixedHeight(8);
-  auto* cancel = new QPushButton("Cancel", this);
-  cancel->setObjectName("cancel" + part.left(1).toUpper() + part.mid(1));
+  auto* cancel = makeButton(this,
+                            "cancel" + part.left(1).toUpper() + part.mid(1),
+                            "Cancel",
+                            "Cancel " + verb.toLower() + " (Esc)");
   cancel->setFocusPolicy(Qt::NoFocus);
-  cancel->setToolTip("Cancel " + verb.toLower() + " (Esc)");
   connect(cancel, &QPushButton::clicked, this, &OpeningStrip::cancelRequested);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(14, 5, 10, 5);
-  row->setSpacing(12);
-  row->addWidget(name_);
-  row->addWidget(bar_, 1);
-  row->addWidget(cancel);
+  setLayout(inRow({name_, {bar_, 1}, cancel}, Space::kWide, kBarEdges));
   appear_.setSingleShot(true);
   appear_.setInterval(kAppearAfterMs);
   connect(&appear_, &QTimer::timeout, this, &QWidget::show);

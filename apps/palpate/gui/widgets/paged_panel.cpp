@@ -2,7 +2,6 @@
 
 #include <QButtonGroup>
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QMenu>
 #include <QStackedWidget>
 #include <QToolButton>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -17,34 +17,22 @@ namespace palpate::gui {
 PagedPanel::PagedPanel(QSettings& settings, QString key, QWidget* parent)
     : QWidget(parent), settings_(settings), key_(std::move(key)) {
   header_ = new QWidget(this);
-  auto* row = new QHBoxLayout(header_);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(4);
-  row->addStretch(1);
-  list_ = new QToolButton(header_);
-  list_->setObjectName(key_ + "Pages");
-  list_->setToolTip("Another page of this dock");
+  list_ = named(new QToolButton(header_), key_ + "Pages", "Another page of this dock");
   list_->setPopupMode(QToolButton::InstantPopup);
-  list_->setFocusPolicy(Qt::TabFocus);
   list_->setMenu(new QMenu(list_));
   list_->hide();
-  row->addWidget(list_);
+  header_->setLayout(inRow({Stretch{}, list_}, Space::kNarrow));
   header_->installEventFilter(this);
   chooser_ = new QButtonGroup(this);
-  pages_ = new FittingPages(this);
-  pages_->setObjectName(kDockPages);
+  pages_ = named(new FittingPages(this), kDockPages);
   fitToText(*list_, [this] {
     if (!chooser_->buttons().isEmpty()) fitHeader();
   });
 }
 
 void PagedPanel::addPage(QWidget* page, const QString& name, const QString& tip) {
-  auto* button = new QToolButton(header_);
-  button->setText(name);
-  button->setToolTip(tip);
-  button->setObjectName(key_ + name);
+  auto* button = makeToolButton(header_, key_ + name, name, tip);
   button->setCheckable(true);
-  button->setFocusPolicy(Qt::TabFocus);
   chooser_->addButton(button, pages_->addWidget(page));
   header_->layout()->addWidget(button);
   connect(list_->menu()->addAction(name), &QAction::triggered, button, &QToolButton::click);

@@ -1,7 +1,6 @@
 #include "gui/widgets/value_slider.h"
 
 #include <QDoubleSpinBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 
 namespace palpate::gui {
@@ -46,15 +46,12 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
     field_->refused().setSaidUnit(range.saidUnit);
   else if (!range.unit.trimmed().isEmpty())
     field_->refused().setSaidUnit(" " + range.unit);
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(6);
-  layout->addWidget(slider_, 1);
-  layout->addWidget(field_);
+  auto* row = inRow({{slider_, 1}, field_});
+  setLayout(row);
   if (!range.unit.isEmpty()) {
     auto* unit = new UnitLabel(range.unit, this);
     unit->setProperty("role", "muted");
-    layout->addWidget(unit);
+    row->addWidget(unit);
   }
   connect(slider_, &QSlider::valueChanged, this, [this](int ticks) {
     field_->refused().end();
