@@ -37,7 +37,6 @@ constexpr int kBatchMargin = 14;
 constexpr int kFirstNames = 4;  // lines of the preview
 constexpr int kCalmMs = 200;    // without changes, before the names are looked for
 constexpr int kBarSteps = 1000;
-constexpr int kMostThreadsShown = 256;
 constexpr const char* kBatchFoldersKey = "batch/lastFolder";
 
 constexpr const char* kBatchStyle = R"(
@@ -231,7 +230,7 @@ QWidget* BatchDialog::makePlace() {
   replace_->setToolTip("Replace files that exist already, also those that no batch has made");
   threads_ = new QSpinBox;
   threads_->setObjectName("batchThreads");
-  threads_->setRange(0, kMostThreadsShown);
+  threads_->setRange(0, kMostBatchThreads);
   threads_->setSpecialValueText("one per core");
   threads_->setToolTip("Recordings at the same time");
   auto* options = new QHBoxLayout;

@@ -20,8 +20,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kMostMatrix = 999;
-
 QComboBox* batchComboBox(const char* name, const std::vector<std::pair<QString, QString>>& items) {
   auto* box = new QComboBox;
   box->setObjectName(name);
@@ -105,7 +103,7 @@ BatchFields::BatchFields(QWidget* parent)
   smooth_->setToolTip("Filters over time of the signals themselves");
   matrix_ = new QSpinBox;
   matrix_->setObjectName("batchMatrix");
-  matrix_->setRange(-1, kMostMatrix);
+  matrix_->setRange(-1, kMostBatchMatrix);
   matrix_->setSpecialValueText("all");
   matrix_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   method_ = batchComboBox("batchMethod", methodItems());
@@ -184,9 +182,12 @@ QWidget* BatchFields::makeLimits() {
   auto* row = new QWidget;
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
-  step_ = limitBox("batchStep", 1e-3, 100.0, "Threshold per frame [taxels]");
-  limit_ = limitBox("batchLimit", 1e-3, 100.0, "Threshold since the reference [taxels]");
-  rotation_ = limitBox("batchRotation", 0.1, 360.0, "Threshold of turning [deg]");
+  step_ =
+      limitBox("batchStep", kLeastBatchTaxels, kMostBatchTaxels, "Threshold per frame [taxels]");
+  limit_ = limitBox(
+      "batchLimit", kLeastBatchTaxels, kMostBatchTaxels, "Threshold since the reference [taxels]");
+  rotation_ =
+      limitBox("batchRotation", kLeastBatchDeg, kMostBatchDeg, "Threshold of turning [deg]");
   rotation_->setSuffix("°");
   for (QDoubleSpinBox* box : {step_, limit_, rotation_}) layout->addWidget(box, 1);
   return row;
