@@ -121,7 +121,7 @@ QWidget* ExportDialog::makeForm() {
   fields_->addRow("&Size", preset_);
   size_ = makeSize();
   fields_->addRow("", size_);
-  text_ = spinBox("exportText", 4.0, 40.0, 1);
+  text_ = spinBox("exportText", kMinTextPt, kMaxTextPt, 1);
   text_->setSingleStep(0.5);
   text_->setSuffix(" pt");
   fields_->addRow("&Text", text_);
@@ -159,8 +159,8 @@ QWidget* ExportDialog::makeSize() {
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
-  width_ = spinBox("exportWidth", 20.0, 1200.0, 1);
-  height_ = spinBox("exportHeight", 20.0, 1200.0, 1);
+  width_ = spinBox("exportWidth", kMinPaperMm, kMaxPaperMm, 1);
+  height_ = spinBox("exportHeight", kMinPaperMm, kMaxPaperMm, 1);
   width_->setAccessibleName("Width in mm");
   height_->setAccessibleName("Height in mm");
   layout->addWidget(width_, 1);
