@@ -15,6 +15,7 @@
 #include <palpate/model/hand_file.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/settings_table.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/grasp_options.h"
 #include "gui/hand/motion_button.h"
@@ -52,13 +53,6 @@ bool isWarned(const GraspForecast& forecast) {
   return std::round(10.0 * forecast.timesLimit) > 10.0 * kWarnedLimit;
 }
 
-double remembered(
-    const QSettings& settings, const char* key, double least, double most, double usual) {
-  bool ok = false;
-  const double value = settings.value(key).toDouble(&ok);
-  return ok && value >= least && value <= most ? value : usual;
-}
-
 QPushButton* button(const QString& text, const QString& name, QWidget* parent) {
   auto* made = new QPushButton(text, parent);
   made->setObjectName(name);
@@ -85,7 +79,7 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
   close_->setObjectName("closeRatio");
   close_->setToolTip(
       "How far the hand closes: 0 open, 1 closed. A reactive grasp goes to 1 at most");
-  close_->showValue(remembered(settings, kClose, 0.0, 1.0, usual.closeRatio));
+  close_->showValue(storedNumber(settings, kClose, 0.0, 1.0).value_or(usual.closeRatio));
   velocity_ = new ValueSlider(
       "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 0.2, 1, "deg/s"}, this);
   velocity_->setObjectName("velocity");
@@ -99,14 +93,14 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
       {kMinGraspLimitCounts, kMaxGraspLimitCounts, kMaxGraspLimitCounts, 1.0, 0, "counts"},
       this);
   limit_->setObjectName("limit");
-  limit_->showValue(
-      remembered(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts, usual.limitCounts));
+  limit_->showValue(storedNumber(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts)
+                        .value_or(usual.limitCounts));
 
   forceLimit_ = new ValueSlider(
       "Force limit", {kMinForceLimitN, kMaxForceLimitN, kSliderForceLimitN, 0.05, 2, "N"}, this);
   forceLimit_->setObjectName("forceLimit");
-  forceLimit_->showValue(
-      remembered(settings, kForceLimit, kMinForceLimitN, kMaxForceLimitN, kUsualForceLimitN));
+  forceLimit_->showValue(storedNumber(settings, kForceLimit, kMinForceLimitN, kMaxForceLimitN)
+                             .value_or(kUsualForceLimitN));
   auto* limits = new QWidget(this);
   auto* limitsRow = new QHBoxLayout(limits);
   limitsRow->setContentsMargins(0, 0, 0, 0);
