@@ -39,7 +39,7 @@ class JointPanelTest : public HandDockBench {
     click("savePose");
   }
   std::vector<double> saved(const QString& name) {
-    const auto pose = panel_->poses().load(sdh2().name, name);
+    const auto pose = panel_->saved().load(name);
     return pose ? pose->anglesDeg : std::vector<double>{};
   }
   JointPanel* panel_ = nullptr;
@@ -236,7 +236,7 @@ TEST_F(JointPanelTest, TheListDropsTheNameWhenTargetsAreChanged) {
 TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {
   connectAndOpen();
   SavedPose far{"far", sdh2().name, {0, 0, 120, 0, 0, 0, 0}};
-  panel_->poses().save(far);
+  panel_->saved().save(QString::fromStdString(far.name), far);
   QString why;
   QObject::connect(panel_, &JointPanel::refused, panel_, [&](const QString& said) { why = said; });
   auto* names = find<QComboBox>("ownPoses");
@@ -261,7 +261,7 @@ TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {
   import(posesText({good, foreign}));
   EXPECT_TRUE(why.startsWith("nothing imported: the pose 'foreign' is of another hand"))
       << why.toStdString();
-  EXPECT_FALSE(panel_->poses().load(sdh2().name, "good")) << "all or none";
+  EXPECT_FALSE(panel_->saved().load("good")) << "all or none";
   import("{");
   EXPECT_TRUE(why.contains("poses.json")) << why.toStdString();
   import(posesText({good, good}));
@@ -270,10 +270,10 @@ TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {
   for (std::size_t i = 0; i < many.size(); ++i) many[i].name += std::to_string(i);
   import(posesText(many));
   EXPECT_EQ(why, "nothing imported: more than 1000 poses");
-  EXPECT_FALSE(panel_->poses().load(sdh2().name, "good")) << "all or none";
+  EXPECT_FALSE(panel_->saved().load("good")) << "all or none";
   import(posesText({good}));
   EXPECT_EQ(why, "");
-  EXPECT_TRUE(panel_->poses().load(sdh2().name, "good"));
+  EXPECT_TRUE(panel_->saved().load("good"));
 }
 
 }  // namespace

@@ -7,24 +7,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kAngleKey = "units/angle";
-constexpr const char* kTemperatureKey = "units/temperature";
-constexpr const char* kAreaKey = "units/area";
-constexpr const char* kPressureKey = "units/pressure";
-
 constexpr double kShownRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kKelvinAtZeroDegC = 273.15;
 constexpr double kCm2PerMm2 = 0.01;
 // 1 kPa = 1000 N/m^2 = 0.1 N/cm^2.
 constexpr double kNewtonPerCm2PerKpa = 0.1;
-
-template <class Units>
-auto unitNamed(const Units& all, const QSettings& settings, const char* key) {
-  const QString name = settings.value(key).toString();
-  for (const auto unit : all)
-    if (name == nameOf(unit)) return unit;
-  return all.front();
-}
 
 }  // namespace
 
@@ -33,20 +20,6 @@ QString nameOf(TemperatureUnit unit) { return unit == TemperatureUnit::kKelvin ?
 QString nameOf(AreaUnit unit) { return unit == AreaUnit::kSquareCentimetre ? "cm2" : "mm2"; }
 QString nameOf(PressureUnit unit) {
   return unit == PressureUnit::kNewtonPerSquareCentimetre ? "N/cm2" : "kPa";
-}
-
-DisplayUnits loadDisplayUnits(const QSettings& settings) {
-  return {.angle = unitNamed(kAllAngleUnits, settings, kAngleKey),
-          .temperature = unitNamed(kAllTemperatureUnits, settings, kTemperatureKey),
-          .area = unitNamed(kAllAreaUnits, settings, kAreaKey),
-          .pressure = unitNamed(kAllPressureUnits, settings, kPressureKey)};
-}
-
-void saveDisplayUnits(const DisplayUnits& units, QSettings& settings) {
-  settings.setValue(kAngleKey, nameOf(units.angle));
-  settings.setValue(kTemperatureKey, nameOf(units.temperature));
-  settings.setValue(kAreaKey, nameOf(units.area));
-  settings.setValue(kPressureKey, nameOf(units.pressure));
 }
 
 QString ShownUnit::number(double base, int decimals) const {

@@ -3,7 +3,6 @@
 // converted. Nothing that moves a hand, and no file, depends on this choice.
 #pragma once
 
-#include <QSettings>
 #include <QString>
 #include <array>
 
@@ -37,10 +36,6 @@ QString nameOf(AngleUnit unit);
 QString nameOf(TemperatureUnit unit);
 QString nameOf(AreaUnit unit);
 QString nameOf(PressureUnit unit);
-
-// Names that aren't known read as the defaults.
-DisplayUnits loadDisplayUnits(const QSettings& settings);
-void saveDisplayUnits(const DisplayUnits& units, QSettings& settings);
 
 // From a base unit to the one that is shown: shown = factor * base + offset.
 struct UnitConversion {

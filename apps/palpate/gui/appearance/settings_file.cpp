@@ -6,7 +6,6 @@
 #include <QScreen>
 #include <QSplitter>
 #include <QTemporaryDir>
-#include <QUrl>
 #include <QWidget>
 #include <algorithm>
 #include <cstdint>
@@ -18,6 +17,8 @@
 #include <palpate/core/error.h>
 #include <palpate/core/output_file.h>
 #include <palpate/core/text_file.h>
+
+#include "gui/appearance/named_items.h"
 
 namespace palpate::gui {
 namespace fs = std::filesystem;
@@ -194,10 +195,7 @@ bool isOrder(QList<int> order) {
 
 }  // namespace
 
-QString leftOutKeyOf(const QString& folder) {
-  // Names of keys must not contain '/'.
-  return "recognise/leftOut/" + QString::fromLatin1(QUrl::toPercentEncoding(folder));
-}
+QString leftOutKeyOf(const QString& folder) { return "recognise/leftOut/" + keyPartOf(folder); }
 
 SettingsPlace readableSettings(const QString& path) {
   const fs::path file = path.toStdString();

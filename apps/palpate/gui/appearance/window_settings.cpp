@@ -1,9 +1,10 @@
 #include "gui/appearance/window_settings.h"
 
 #include <QStandardPaths>
-#include <cmath>
 
 #include <palpate/capture/playback.h>
+
+#include "gui/appearance/settings_table.h"
 
 namespace palpate::gui {
 namespace {
@@ -11,14 +12,24 @@ namespace {
 // Largest end of a manual range [counts].
 constexpr double kLargestValue = 1e9;
 
-double windowSettingsNumberIn(const QSettings& settings,
-                              const char* key,
-                              double lowest,
-                              double highest,
-                              double defaultValue) {
-  bool isNumber = false;
-  const double value = settings.value(key, defaultValue).toDouble(&isNumber);
-  return isNumber && value >= lowest && value <= highest ? value : defaultValue;
+void viewFields(SettingsTable& table, ViewSettings& view) {
+  table.choice("view/theme", view.theme, kAllThemeChoices);
+  table.choice("view/map", view.map, kAllColorMaps);
+  table.flag("view/interpolated", view.interpolated);
+  table.flag("view/values", view.values);
+  table.choice("view/range", view.range, kAllRangeModes);
+  table.number("view/manual_min", view.manualMin, 0.0, kLargestValue);
+  table.number("view/manual_max", view.manualMax, 0.0, kLargestValue);
+  QString signal = nameOf(view.signal);
+  table.text("view/signal", signal);
+  view.signal = plottedSignalFrom(signal);
+  table.choice("units/angle", view.units.angle, kAllAngleUnits);
+  table.choice("units/temperature", view.units.temperature, kAllTemperatureUnits);
+  table.choice("units/area", view.units.area, kAllAreaUnits);
+  table.choice("units/pressure", view.units.pressure, kAllPressureUnits);
+  table.number("playback/speed", view.speed, Playback::kMinimumSpeed, Playback::kMaximumSpeed);
+  table.flag("playback/loop", view.loop);
+  table.flag("playback/skip_gaps", view.skipGaps);
 }
 
 }  // namespace
@@ -43,46 +54,16 @@ QString settingsPath() {
 }
 
 ViewSettings loadViewSettings(const QSettings& settings) {
-  const ViewSettings usual;
-  ViewSettings view;
-  view.theme = themeChoiceFrom(settings.value("view/theme").toString());
-  const std::string map = settings.value("view/map").toString().toStdString();
-  view.map = colorMapFrom(map).value_or(usual.map);
-  view.interpolated = settings.value("view/interpolated", usual.interpolated).toBool();
-  view.values = settings.value("view/values", usual.values).toBool();
-  const QString range = settings.value("view/range").toString();
-  for (const RangeMode mode : kAllRangeModes)
-    if (range == nameOf(mode)) view.range = mode;
-  view.manualMin =
-      windowSettingsNumberIn(settings, "view/manual_min", 0.0, kLargestValue, usual.manualMin);
-  view.manualMax =
-      windowSettingsNumberIn(settings, "view/manual_max", 0.0, kLargestValue, usual.manualMax);
+  auto view = loadFields<ViewSettings>(settings, viewFields);
   if (!(view.manualMax > view.manualMin)) {
-    view.manualMin = usual.manualMin;
-    view.manualMax = usual.manualMax;
+    view.manualMin = ViewSettings().manualMin;
+    view.manualMax = ViewSettings().manualMax;
   }
-  view.signal = plottedSignalFrom(settings.value("view/signal").toString());
-  view.units = loadDisplayUnits(settings);
-  view.speed = windowSettingsNumberIn(
-      settings, "playback/speed", Playback::kMinimumSpeed, Playback::kMaximumSpeed, usual.speed);
-  view.loop = settings.value("playback/loop", usual.loop).toBool();
-  view.skipGaps = settings.value("playback/skip_gaps", usual.skipGaps).toBool();
   return view;
 }
 
 void saveViewSettings(const ViewSettings& view, QSettings& settings) {
-  settings.setValue("view/theme", nameOf(view.theme));
-  settings.setValue("view/map", QString(nameOf(view.map)));
-  settings.setValue("view/interpolated", view.interpolated);
-  settings.setValue("view/values", view.values);
-  settings.setValue("view/range", nameOf(view.range));
-  settings.setValue("view/manual_min", view.manualMin);
-  settings.setValue("view/manual_max", view.manualMax);
-  settings.setValue("view/signal", nameOf(view.signal));
-  saveDisplayUnits(view.units, settings);
-  settings.setValue("playback/speed", view.speed);
-  settings.setValue("playback/loop", view.loop);
-  settings.setValue("playback/skip_gaps", view.skipGaps);
+  saveFields(settings, view, viewFields);
 }
 
 }  // namespace palpate::gui

@@ -11,14 +11,13 @@
 #include <palpate/core/escaped_line.h>
 #include <palpate/filter/recipe.h>
 
+#include "gui/appearance/settings_table.h"
 #include "gui/batch/batch_pictures.h"
 #include "gui/source/recording_settings.h"
 
 namespace palpate::gui {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr int kMostBatchThreads = 256;
 
 Recipe recipeFromText(const QString& text, const char* what) {
   if (text.trimmed().isEmpty()) return {};
@@ -217,87 +216,59 @@ QString countsText(const BatchStatus& status) {
   return parts.join(", ");
 }
 
+namespace {
+
+void batchFields(SettingsTable& table, BatchChoices& choices) {
+  const auto forms = recordingForms();
+  table.texts("paths", choices.paths);
+  table.number("work", choices.work, 0, static_cast<int>(BatchWork::kRender));
+  table.text("filters", choices.filters);
+  table.text("form", choices.form, [&](const QString& text) {
+    return std::any_of(forms.begin(), forms.end(), [&](const RecordingForm& form) {
+      return text == form.ending + 1;
+    });
+  });
+  table.flag("eachGrasp", choices.eachGrasp);
+  table.text("picture", choices.picture, [](const QString& text) {
+    return batchPictureForms().contains(text);
+  });
+  table.text("map", choices.map, [](const QString& text) {
+    return colorMapFrom(text.toStdString()).has_value();
+  });
+  table.flag("interpolated", choices.interpolated);
+  table.flag("printedValues", choices.printedValues);
+  table.number("speed", choices.speed, kLeastBatchSpeed, kMostBatchSpeed);
+  table.flag("signals", choices.withSignals);
+  table.flag("slip", choices.withSlip);
+  table.flag("unitsRow", choices.unitsRow);
+  table.text("smooth", choices.smooth);
+  table.number("matrix", choices.matrix, -1, kMostBatchMatrix);
+  table.text("method", choices.method, [](const QString& text) {
+    return slipMethodNamed(text.toStdString()).has_value();
+  });
+  table.text("reference", choices.reference);
+  table.flag("segments", choices.segments);
+  table.number("step", choices.stepTaxels, kLeastBatchTaxels, kMostBatchTaxels);
+  table.number("limit", choices.limitTaxels, kLeastBatchTaxels, kMostBatchTaxels);
+  table.number("rotation", choices.rotationDeg, kLeastBatchDeg, kMostBatchDeg);
+  table.text("set", choices.featureSet, [](const QString& text) {
+    return text.isEmpty() || featureSetNamed(text.toStdString());
+  });
+  table.text("folder", choices.folder);
+  table.text("names", choices.names);
+  table.flag("resume", choices.resume);
+  table.flag("replace", choices.replace);
+  table.number("threads", choices.threads, 0, kMostBatchThreads);
+}
+
+}  // namespace
+
 void saveBatchChoices(const BatchChoices& choices, QSettings& settings) {
-  settings.beginGroup("batch");
-  settings.setValue("paths", choices.paths);
-  settings.setValue("work", static_cast<int>(choices.work));
-  settings.setValue("filters", choices.filters);
-  settings.setValue("form", choices.form);
-  settings.setValue("eachGrasp", choices.eachGrasp);
-  settings.setValue("picture", choices.picture);
-  settings.setValue("map", choices.map);
-  settings.setValue("interpolated", choices.interpolated);
-  settings.setValue("printedValues", choices.printedValues);
-  settings.setValue("speed", choices.speed);
-  settings.setValue("signals", choices.withSignals);
-  settings.setValue("slip", choices.withSlip);
-  settings.setValue("unitsRow", choices.unitsRow);
-  settings.setValue("smooth", choices.smooth);
-  settings.setValue("matrix", choices.matrix);
-  settings.setValue("method", choices.method);
-  settings.setValue("reference", choices.reference);
-  settings.setValue("segments", choices.segments);
-  settings.setValue("step", choices.stepTaxels);
-  settings.setValue("limit", choices.limitTaxels);
-  settings.setValue("rotation", choices.rotationDeg);
-  settings.setValue("set", choices.featureSet);
-  settings.setValue("folder", choices.folder);
-  settings.setValue("names", choices.names);
-  settings.setValue("resume", choices.resume);
-  settings.setValue("replace", choices.replace);
-  settings.setValue("threads", choices.threads);
-  settings.endGroup();
+  saveFields(settings, choices, batchFields, "batch/");
 }
 
 BatchChoices loadBatchChoices(const QSettings& settings) {
-  BatchChoices choices;
-  const auto read = [&](const char* name, auto& value) {
-    using Value = std::remove_reference_t<decltype(value)>;
-    const QVariant stored = settings.value(QString("batch/") + name);
-    if (stored.canConvert<Value>()) value = stored.value<Value>();
-  };
-  int work = 0;
-  read("paths", choices.paths);
-  read("work", work);
-  if (work >= 0 && work <= static_cast<int>(BatchWork::kRender))
-    choices.work = static_cast<BatchWork>(work);
-  read("filters", choices.filters);
-  read("form", choices.form);
-  const auto forms = recordingForms();
-  if (std::none_of(forms.begin(), forms.end(), [&](const RecordingForm& form) {
-        return choices.form == form.ending + 1;
-      }))
-    choices.form = BatchChoices().form;
-  read("eachGrasp", choices.eachGrasp);
-  read("picture", choices.picture);
-  if (!batchPictureForms().contains(choices.picture)) choices.picture = BatchChoices().picture;
-  read("map", choices.map);
-  if (!colorMapFrom(choices.map.toStdString())) choices.map = BatchChoices().map;
-  read("interpolated", choices.interpolated);
-  read("printedValues", choices.printedValues);
-  read("speed", choices.speed);
-  if (!(choices.speed >= kLeastBatchSpeed && choices.speed <= kMostBatchSpeed)) choices.speed = 1.0;
-  read("signals", choices.withSignals);
-  read("slip", choices.withSlip);
-  read("unitsRow", choices.unitsRow);
-  read("smooth", choices.smooth);
-  read("matrix", choices.matrix);
-  read("method", choices.method);
-  if (!slipMethodNamed(choices.method.toStdString())) choices.method = BatchChoices().method;
-  read("reference", choices.reference);
-  read("segments", choices.segments);
-  read("step", choices.stepTaxels);
-  read("limit", choices.limitTaxels);
-  read("rotation", choices.rotationDeg);
-  read("set", choices.featureSet);
-  if (!featureSetNamed(choices.featureSet.toStdString())) choices.featureSet.clear();
-  read("folder", choices.folder);
-  read("names", choices.names);
-  read("resume", choices.resume);
-  read("replace", choices.replace);
-  read("threads", choices.threads);
-  choices.threads = std::clamp(choices.threads, 0, kMostBatchThreads);
-  return choices;
+  return loadFields<BatchChoices>(settings, batchFields, "batch/");
 }
 
 }  // namespace palpate::gui

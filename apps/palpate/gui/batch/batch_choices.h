@@ -15,6 +15,11 @@ namespace palpate::gui {
 // What a batch makes of each recording; the work is that of the commands of these names.
 enum class BatchWork { kConvert, kSignals, kSlip, kFeatures, kRender };
 
+// Ranges of fields below.
+inline constexpr int kMostBatchMatrix = 999, kMostBatchThreads = 256;
+inline constexpr double kLeastBatchTaxels = 1e-3, kMostBatchTaxels = 100.0;  // [taxels]
+inline constexpr double kLeastBatchDeg = 0.1, kMostBatchDeg = 360.0;         // [deg]
+
 struct BatchChoices {
   // Recordings and folders.
   QStringList paths = {};

@@ -37,7 +37,6 @@ constexpr QSize kBatchDialogSize(900, 600);
 constexpr int kFirstNames = 4;  // lines of the preview
 constexpr int kCalmMs = 200;    // without changes, before the names are looked for
 constexpr int kBarSteps = 1000;
-constexpr int kMostThreadsShown = 256;
 constexpr const char* kBatchFoldersKey = "batch/lastFolder";
 
 constexpr const char* kBatchStyle = R"(
@@ -181,7 +180,7 @@ QWidget* BatchDialog::makePlace() {
   replace_ = named(new QCheckBox("Rep&lace other files"), "batchReplace");
   replace_->setToolTip("Replace files that exist already, also those that no batch has made");
   threads_ = named(new QSpinBox, "batchThreads", "Recordings at the same time");
-  threads_->setRange(0, kMostThreadsShown);
+  threads_->setRange(0, kMostBatchThreads);
   threads_->setSpecialValueText("one per core");
   threads_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   auto* options = inRow({resume_,

@@ -20,8 +20,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kMostMatrix = 999;
-
 QComboBox* batchComboBox(const char* name, const std::vector<std::pair<QString, QString>>& items) {
   auto* box = named(new QComboBox, name);
   // A long item must not widen the dialog.
@@ -95,7 +93,7 @@ BatchFields::BatchFields(QWidget* parent)
   smooth_ = named(new QLineEdit, "batchSmooth", "Filters over time of the signals themselves");
   smooth_->setPlaceholderText("none; as kalman:q=0.05");
   matrix_ = named(new QSpinBox, "batchMatrix");
-  matrix_->setRange(-1, kMostMatrix);
+  matrix_->setRange(-1, kMostBatchMatrix);
   matrix_->setSpecialValueText("all");
   matrix_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   method_ = batchComboBox("batchMethod", methodItems());
@@ -165,9 +163,9 @@ QWidget* BatchFields::makeFilters() {
 }
 
 QWidget* BatchFields::makeLimits() {
-  step_ = limitBox("batchStep", 1e-3, 100.0, "Threshold per frame [taxels]");
-  limit_ = limitBox("batchLimit", 1e-3, 100.0, "Threshold since the reference [taxels]");
-  rotation_ = limitBox("batchRotation", 0.1, 360.0, "Threshold of turning [deg]");
+  step_ = limitBox("batchStep", kLeastBatchTaxels, kMostBatchTaxels, "Threshold per frame [taxels]");
+  limit_ = limitBox("batchLimit", kLeastBatchTaxels, kMostBatchTaxels, "Threshold since the reference [taxels]");
+  rotation_ = limitBox("batchRotation", kLeastBatchDeg, kMostBatchDeg, "Threshold of turning [deg]");
   rotation_->setSuffix("°");
   return makeBox(inRow({{step_, 1}, {limit_, 1}, {rotation_, 1}}));
 }

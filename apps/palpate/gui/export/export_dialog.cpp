@@ -105,7 +105,7 @@ QWidget* ExportDialog::makeForm() {
   fields_->addRow("&Size", preset_);
   size_ = makeSize();
   fields_->addRow("", size_);
-  text_ = spinBox("exportText", 4.0, 40.0, 1);
+  text_ = spinBox("exportText", kMinTextPt, kMaxTextPt, 1);
   text_->setSingleStep(0.5);
   text_->setSuffix(" pt");
   fields_->addRow("&Text", text_);
@@ -139,8 +139,8 @@ QWidget* ExportDialog::makeForm() {
 }
 
 QWidget* ExportDialog::makeSize() {
-  width_ = spinBox("exportWidth", 20.0, 1200.0, 1);
-  height_ = spinBox("exportHeight", 20.0, 1200.0, 1);
+  width_ = spinBox("exportWidth", kMinPaperMm, kMaxPaperMm, 1);
+  height_ = spinBox("exportHeight", kMinPaperMm, kMaxPaperMm, 1);
   width_->setAccessibleName("Width in mm");
   height_->setAccessibleName("Height in mm");
   return makeBox(inRow({{width_, 1}, "×", {height_, 1}, "mm"}));

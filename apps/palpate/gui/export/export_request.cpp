@@ -10,6 +10,7 @@
 #include <palpate/capture/recorder.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/settings_table.h"
 #include "gui/picture/ffmpeg.h"
 
 namespace palpate::gui {
@@ -21,37 +22,43 @@ constexpr double kScreenPerInch = 96.0;
 // halves of a point; lines of one pixel on screen are half a point wide on paper.
 constexpr double kPaperPerInch = 144.0;
 constexpr double kUnitsPerPt = 2.0;
-constexpr double kExportRequestMinMm = 20.0, kExportRequestMaxMm = 1200.0;
-constexpr double kMinPt = 4.0, kMaxPt = 40.0;
 constexpr int kMaxPixels = 16384;  // largest side
 
-const QString kExportRequestGroup = "export/";
 const QString kExportSizesGroup = "export/sizes/";  // and the name of the view
 
-ExportSize loadExportSize(const QSettings& settings,
-                          const QString& group,
-                          const ExportSize& usual) {
-  const auto number = [&](const char* key, double otherwise, double minimum, double maximum) {
-    bool good = false;
-    const double read = settings.value(group + key, otherwise).toDouble(&good);
-    return good && read >= minimum && read <= maximum ? read : otherwise;
-  };
-  ExportSize size = usual;
-  const QString preset = settings.value(group + "size").toString();
+void sizeFields(SettingsTable& table, ExportSize& size) {
+  QString preset = kPaperPresets[static_cast<std::size_t>(size.preset)].name;
+  table.text("size", preset);
   for (std::size_t i = 0; i < kPaperPresets.size(); ++i)
     if (kPaperPresets[i].name == preset) size.preset = static_cast<int>(i);
-  size.sizeMm = {
-      number("width_mm", usual.sizeMm.width(), kExportRequestMinMm, kExportRequestMaxMm),
-      number("height_mm", usual.sizeMm.height(), kExportRequestMinMm, kExportRequestMaxMm)};
-  size.textPt = number("text_pt", usual.textPt, kMinPt, kMaxPt);
-  return size;
+  table.number("width_mm", size.sizeMm.rwidth(), kMinPaperMm, kMaxPaperMm);
+  table.number("height_mm", size.sizeMm.rheight(), kMinPaperMm, kMaxPaperMm);
+  table.number("text_pt", size.textPt, kMinTextPt, kMaxTextPt);
 }
 
-void saveExportSize(const ExportSize& size, const QString& group, QSettings& settings) {
-  settings.setValue(group + "size", kPaperPresets[static_cast<std::size_t>(size.preset)].name);
-  settings.setValue(group + "width_mm", size.sizeMm.width());
-  settings.setValue(group + "height_mm", size.sizeMm.height());
-  settings.setValue(group + "text_pt", size.textPt);
+void exportFields(SettingsTable& table, ExportRequest& request) {
+  const auto oneOf = [&table](const char* key, auto& value, const auto& known) {
+    auto kept = value;
+    table.number(key, kept, known.front(), known.back());
+    if (std::find(known.begin(), known.end(), kept) != known.end()) value = kept;
+  };
+  ExportSize size = request.size();
+  sizeFields(table, size);
+  request.setSize(size);
+  table.text("view", request.view);
+  table.choice("form", request.form, kAllExportForms);
+  oneOf("dpi", request.dpi, kExportDpi);
+  table.flag("for_print", request.forPrint);
+  table.flag("titled", request.titled);
+  table.number("frames", request.frames, 0, static_cast<int>(ExportFrames::kAll));
+  oneOf("movie_speed", request.movieSpeed, kMovieSpeeds);
+  oneOf("movie_pictures_per_s", request.moviePicturesPerS, kMovieRates);
+  oneOf("movie_height_px", request.movieHeightPx, kMovieHeights);
+  table.text("table", request.table);
+  table.text("folder", request.folder);
+  table.text("name", request.name);
+  table.flag("name_is_own", request.nameIsOwn);
+  table.text("source", request.source);
 }
 
 // The problem with the file of a request that has a name.
@@ -100,70 +107,29 @@ QString descriptionOf(ExportFormat form) {
 }
 
 ExportRequest loadExportRequest(const QSettings& settings) {
-  ExportRequest request;
-  const auto value = [&](const char* key, const QVariant& usual) {
-    return settings.value(kExportRequestGroup + key, usual);
-  };
-  request.view = value("view", "").toString();
-  const QString form = value("form", "").toString();
-  for (const ExportFormat each : kAllExportForms)
-    if (nameOf(each) == form) request.form = each;
-  request.setSize(loadExportSize(settings, kExportRequestGroup, request.size()));
-  const int dpi = value("dpi", request.dpi).toInt();
-  if (std::find(kExportDpi.begin(), kExportDpi.end(), dpi) != kExportDpi.end()) request.dpi = dpi;
-  request.forPrint = value("for_print", request.forPrint).toBool();
-  request.titled = value("titled", request.titled).toBool();
-  const int frames = value("frames", 0).toInt();
-  if (frames == 1) request.frames = ExportFrames::kSelected;
-  if (frames == 2) request.frames = ExportFrames::kAll;
-  const auto oneOf = [&](const char* key, auto& usual, const auto& known) {
-    const double read = value(key, usual).toDouble();
-    for (const auto each : known)
-      if (static_cast<double>(each) == read) usual = each;
-  };
-  oneOf("movie_speed", request.movieSpeed, kMovieSpeeds);
-  oneOf("movie_pictures_per_s", request.moviePicturesPerS, kMovieRates);
-  oneOf("movie_height_px", request.movieHeightPx, kMovieHeights);
-  request.table = value("table", "").toString();
-  request.folder = value("folder", "").toString();
+  auto request = loadFields<ExportRequest>(settings, exportFields, "export/");
   if (!QDir::isAbsolutePath(request.folder)) {
     request.folder = QStandardPaths::writableLocation(QStandardPaths::PicturesLocation);
     if (request.folder.isEmpty() || !QFileInfo::exists(request.folder))
       request.folder = QDir::homePath();
   }
-  request.nameIsOwn = value("name_is_own", false).toBool();
-  if (request.nameIsOwn) request.name = value("name", "").toString();
-  if (request.name.isEmpty()) request.nameIsOwn = false;
-  request.source = value("source", "").toString();
+  if (!request.nameIsOwn) request.name.clear();
+  request.nameIsOwn = !request.name.isEmpty();
   for (const QString& key : settings.allKeys()) {
     const QString view = key.section('/', 2, -2);
-    if (key == kExportSizesGroup + view + "/size" && !view.isEmpty())
-      request.sizes[view] =
-          loadExportSize(settings, kExportSizesGroup + view + "/", request.size());
+    if (key != kExportSizesGroup + view + "/size" || view.isEmpty()) continue;
+    // What this view has none of is as in the last export.
+    ExportSize size = request.size();
+    SettingsTable table(settings, nullptr, kExportSizesGroup + view + "/");
+    sizeFields(table, size);
+    request.sizes[view] = size;
   }
   return request;
 }
 
 void saveExportRequest(const ExportRequest& request, QSettings& settings) {
-  const auto set = [&](const char* key, const QVariant& value) {
-    settings.setValue(kExportRequestGroup + key, value);
-  };
-  set("view", request.view);
-  set("form", nameOf(request.form));
-  saveExportSize(request.size(), kExportRequestGroup, settings);
-  saveExportSize(request.size(), kExportSizesGroup + request.view + "/", settings);
-  set("dpi", request.dpi);
-  set("for_print", request.forPrint);
-  set("titled", request.titled);
-  set("frames", static_cast<int>(request.frames));
-  set("movie_speed", request.movieSpeed);
-  set("movie_pictures_per_s", request.moviePicturesPerS);
-  set("movie_height_px", request.movieHeightPx);
-  set("table", request.table);
-  set("folder", request.folder);
-  set("name", request.name);
-  set("name_is_own", request.nameIsOwn);
-  set("source", request.source);
+  saveFields(settings, request, exportFields, "export/");
+  saveFields(settings, request.size(), sizeFields, kExportSizesGroup + request.view + "/");
 }
 
 std::optional<QSizeF> sizeOfPreset(int preset, const ExportedView& view) {

@@ -55,6 +55,10 @@ inline constexpr std::array kMovieSpeeds = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
 inline constexpr std::array kMovieRates = {24, 25, 30, 50, 60};            // [pictures/s]
 inline constexpr std::array kMovieHeights = {480, 720, 1080, 1440, 2160};  // [px]
 
+// Ranges of a size on paper [mm], [pt].
+inline constexpr double kMinPaperMm = 20.0, kMaxPaperMm = 1200.0;
+inline constexpr double kMinTextPt = 4.0, kMaxTextPt = 40.0;
+
 // A size on paper, as it was exported last.
 struct ExportSize {
   int preset = kScreenPreset;  // index into kPaperPresets

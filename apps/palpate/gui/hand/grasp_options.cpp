@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/settings_table.h"
 #include "gui/hand/object_fields.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
@@ -39,9 +40,7 @@ QString fingerKey(const char* unit, std::size_t finger) {
 
 // The stored value, if it is one within the range of the field.
 void recall(const QSettings& settings, const QString& key, QDoubleSpinBox& field, double usual) {
-  bool ok = false;
-  const double value = settings.value(key).toDouble(&ok);
-  field.setValue(ok && value >= field.minimum() && value <= field.maximum() ? value : usual);
+  field.setValue(storedNumber(settings, key, field.minimum(), field.maximum()).value_or(usual));
 }
 
 }  // namespace

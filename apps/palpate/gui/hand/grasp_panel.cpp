@@ -14,6 +14,7 @@
 #include <palpate/model/hand_file.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/settings_table.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/grasp_options.h"
 #include "gui/hand/motion_button.h"
@@ -52,12 +53,7 @@ bool isWarned(const GraspForecast& forecast) {
   return std::round(10.0 * forecast.timesLimit) > 10.0 * kWarnedLimit;
 }
 
-double remembered(
-    const QSettings& settings, const char* key, double least, double most, double usual) {
-  bool ok = false;
-  const double value = settings.value(key).toDouble(&ok);
-  return ok && value >= least && value <= most ? value : usual;
-}
+
 
 }  // namespace
 
@@ -74,7 +70,7 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
   close_ = named(new ValueSlider("Close ratio", {0.0, 1.0, 1.0, 0.01, 2, " "}, this), "closeRatio");
   close_->setToolTip(
       "How far the hand closes: 0 open, 1 closed. A reactive grasp goes to 1 at most");
-  close_->showValue(remembered(settings, kClose, 0.0, 1.0, usual.closeRatio));
+  close_->showValue(storedNumber(settings, kClose, 0.0, 1.0).value_or(usual.closeRatio));
   velocity_ = new ValueSlider(
       "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 0.2, 1, "deg/s"}, this);
   velocity_->setObjectName("velocity");
@@ -90,7 +86,8 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
           this),
       "limit");
   limit_->showValue(
-      remembered(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts, usual.limitCounts));
+      storedNumber(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts)
+                        .value_or(usual.limitCounts));
 
   forceLimit_ =
       named(new ValueSlider("Force limit",
@@ -98,7 +95,8 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
                             this),
             "forceLimit");
   forceLimit_->showValue(
-      remembered(settings, kForceLimit, kMinForceLimitN, kMaxForceLimitN, kUsualForceLimitN));
+      storedNumber(settings, kForceLimit, kMinForceLimitN, kMaxForceLimitN)
+                             .value_or(kUsualForceLimitN));
   auto* limits = makeBox(inRow({limit_, forceLimit_}), this);
 
   auto* form = new QFormLayout;

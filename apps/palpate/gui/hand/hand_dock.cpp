@@ -230,9 +230,8 @@ void HandDock::connectMotions() {
   sequence_->poseVelocity = [this] { return joint_->velocityDegPerS(); };
   sequence_->poses = [this] {
     std::vector<SavedPose> poses;
-    const std::string& hand = movableHand().name;
-    for (const QString& name : joint_->poses().names(hand))
-      if (auto pose = joint_->poses().load(hand, name)) poses.push_back(std::move(*pose));
+    for (const QString& name : joint_->saved().names())
+      if (auto pose = joint_->saved().load(name)) poses.push_back(std::move(*pose));
     return poses;
   };
 }

@@ -45,7 +45,7 @@ QString angleText(double value, const AxisDescription& axis) {
 }  // namespace
 
 JointPanel::JointPanel(QSettings& settings, QWidget* parent)
-    : QWidget(parent), store_(settings), settings_(settings) {
+    : QWidget(parent), settings_(settings) {
   askForName = [this](const QString& suggestion) {
     return QInputDialog::getText(this, "Pose", "Name", QLineEdit::Normal, suggestion);
   };
@@ -162,17 +162,28 @@ QWidget* JointPanel::makePoses() {
   return part;
 }
 
+NamedItems<SavedPose> JointPanel::saved() const {
+  return {settings_,
+          "poses/" + keyPartOf(QString::fromStdString(movableHand().name)),
+          [](const SavedPose& pose) { return posesText({pose}); },
+          [](const std::string& text) {
+            const std::vector<SavedPose> poses = parsePoses(text, "settings");
+            if (poses.size() != 1) throw FormatError("settings", "isn't one pose");
+            return poses[0];
+          }};
+}
+
 void JointPanel::listPoses(const QString& chosen) {
   names_->clear();
   names_->addItem(kOwnPoses);
-  names_->addItems(store_.names(movableHand().name));
+  names_->addItems(saved().names());
   names_->setCurrentIndex(std::max(0, names_->findText(chosen)));
   showPresent();
   emit posesChanged();
 }
 
 void JointPanel::choosePose(const QString& name) {
-  const auto pose = store_.load(movableHand().name, name);
+  const auto pose = saved().load(name);
   if (!pose) return emit refused("the pose '" + name + "' can't be read");
   if (const std::string problem = problemOf(*pose, movableHand()); !problem.empty())
     return emit refused(QString::fromStdString(problem));
@@ -207,10 +218,10 @@ void JointPanel::savePose() {
   }
   if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
     return emit refused(QString::fromStdString(problem));
-  if (store_.names(movableHand().name).contains(name) &&
+  if (saved().names().contains(name) &&
       !confirmed("Replace the pose \"" + name + "\" by the present angles?", "Replace"))
     return;
-  store_.save(pose);
+  saved().save(QString::fromStdString(pose.name), pose);
   // The name says what the targets are: those that were set before are other ones.
   const bool targetsSet =
       std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.changed; });
@@ -221,22 +232,21 @@ void JointPanel::removePose() {
   if (names_->currentIndex() <= 0) return;
   const QString name = names_->currentText();
   if (!confirmed("Delete the pose \"" + name + "\"?", "Delete")) return;
-  store_.remove(movableHand().name, name);
+  saved().remove(name);
   listPoses();
 }
 
 void JointPanel::renamePose() {
   if (names_->currentIndex() <= 0) return;
   const QString before = names_->currentText();
-  auto pose = store_.load(movableHand().name, before);
+  auto pose = saved().load(before);
   if (!pose) return emit refused("the pose '" + before + "' can't be read");
   const QString name = askForName(before).trimmed();
   if (name.isEmpty() || name == before) return;
-  if (store_.names(movableHand().name).contains(name))
-    return emit refused("a pose '" + name + "' exists already");
+  if (saved().names().contains(name)) return emit refused("a pose '" + name + "' exists already");
   pose->name = name.toStdString();
-  store_.save(*pose);
-  store_.remove(movableHand().name, before);
+  saved().save(name, *pose);
+  saved().remove(before);
   listPoses(name);
 }
 
@@ -263,20 +273,20 @@ void JointPanel::importPoses() {
 }
 
 void JointPanel::takePoses(const std::vector<SavedPose>& poses) {
-  const QStringList names = store_.names(movableHand().name);
+  const QStringList names = saved().names();
   const QSet<QString> there(names.begin(), names.end());
   for (const SavedPose& pose : poses)
     if (there.contains(QString::fromStdString(pose.name)))
       return emit refused("nothing imported: a pose '" + QString::fromStdString(pose.name) +
                           "' exists already");
-  for (const SavedPose& pose : poses) store_.save(pose);
+  for (const SavedPose& pose : poses) saved().save(QString::fromStdString(pose.name), pose);
   listPoses();
 }
 
 void JointPanel::exportPoses() {
   std::vector<SavedPose> poses;
-  for (const QString& name : store_.names(movableHand().name))
-    if (auto pose = store_.load(movableHand().name, name)) poses.push_back(std::move(*pose));
+  for (const QString& name : saved().names())
+    if (auto pose = saved().load(name)) poses.push_back(std::move(*pose));
   if (poses.empty()) return emit refused("there is no pose to export");
   const QString path = askForFileToSave();
   if (path.isEmpty()) return;

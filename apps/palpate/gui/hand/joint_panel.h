@@ -9,8 +9,9 @@
 #include <vector>
 
 #include <palpate/control/grasp_control.h>
+#include <palpate/control/saved_pose.h>
 
-#include "gui/hand/pose_store.h"
+#include "gui/appearance/named_items.h"
 #include "gui/source/file_reading.h"
 
 class QCheckBox;
@@ -33,8 +34,8 @@ class JointPanel : public QWidget {
   // Call this repeatedly: shows present angles, and what is possible now. `phase`: what the hand
   // does; status.phase may say that a sequence occupies it.
   void showStatus(const GraspStatus& status, GraspPhase phase);
-  // Own poses: names, and one by its name with the reason when the hand can't take it.
-  PoseStore& poses() noexcept { return store_; }
+  // The poses of this hand that the user has saved.
+  NamedItems<SavedPose> saved() const;
   double velocityDegPerS() const;
 
   // The limits of a reactive grasp, for moving under tactile control.
@@ -80,7 +81,6 @@ class JointPanel : public QWidget {
   // The user set a target: the targets are no longer those of the chosen pose.
   void setChangedByHand(Row& row);
 
-  PoseStore store_;
   QSettings& settings_;
   GraspControl* control_ = nullptr;
   QString whyNot_ = "No hand is connected";

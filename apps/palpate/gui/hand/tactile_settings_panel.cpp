@@ -35,7 +35,7 @@ QLabel* tactileSettingsPanelCaption(const QString& text, QWidget* parent) {
 }  // namespace
 
 TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
-    : QWidget(parent), store_(settings) {
+    : QWidget(parent), settings_(settings) {
   askForName = [this](const QString& suggestion) {
     return QInputDialog::getText(this, "Save settings", "Name", QLineEdit::Normal, suggestion);
   };
@@ -160,7 +160,7 @@ void TactileSettingsPanel::makeButtons() {
   });
   connect(names_, &QComboBox::activated, this, [this](int index) {
     if (index <= 0) return;
-    if (const auto values = store_.load(serial(), names_->currentText())) {
+    if (const auto values = saved().load(names_->currentText())) {
       applySettings(*values);
       names_->setCurrentIndex(index);
     } else
@@ -174,7 +174,7 @@ void TactileSettingsPanel::makeButtons() {
     if (names_->findText(name, Qt::MatchExactly | Qt::MatchCaseSensitive) > 0 &&
         !confirmed("Replace the settings \"" + name + "\" by the present ones?", "Replace"))
       return;
-    store_.save(serial(), name, session_->device().facts().matrices);
+    saved().save(name, session_->device().facts().matrices);
     listNames();
     names_->setCurrentText(name);
   });
@@ -182,7 +182,7 @@ void TactileSettingsPanel::makeButtons() {
     if (names_->currentIndex() <= 0 ||
         !confirmed("Delete the settings \"" + names_->currentText() + "\"?", "Delete"))
       return;
-    store_.remove(serial(), names_->currentText());
+    saved().remove(names_->currentText());
     listNames();
   });
 }
@@ -203,11 +203,16 @@ QString TactileSettingsPanel::serial() const {
   return session_ ? QString::fromStdString(session_->device().facts().serial) : QString();
 }
 
+NamedItems<TactileSettings> TactileSettingsPanel::saved() const {
+  const QString hand = serial().isEmpty() ? "unknown" : serial();
+  return {settings_, "hands/" + keyPartOf(hand) + "/settings", toJson, parseTactileSettings};
+}
+
 void TactileSettingsPanel::listNames() {
   names_->clear();
   names_->addItem(kPick);
   listedFor_ = serial();
-  if (session_) names_->addItems(store_.names(listedFor_));
+  if (session_) names_->addItems(saved().names());
 }
 
 void TactileSettingsPanel::send(const std::vector<DeviceCommand>& commands) {

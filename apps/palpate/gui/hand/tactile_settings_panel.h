@@ -11,8 +11,8 @@
 #include <palpate/control/tactile_settings.h>
 #include <palpate/control/tactile_settings_history.h>
 
+#include "gui/appearance/named_items.h"
 #include "gui/appearance/theme.h"
-#include "gui/hand/hand_settings_store.h"
 
 class QComboBox;
 class QLabel;
@@ -69,8 +69,10 @@ class TactileSettingsPanel : public QWidget {
   void listNames();
   void pollReplies();
   QString serial() const;
+  // Those that were saved for this hand.
+  NamedItems<TactileSettings> saved() const;
 
-  HandSettingsStore store_;
+  QSettings& settings_;
   CaptureSession* session_ = nullptr;
   GraspControl* control_ = nullptr;
   // The first row sets all matrices.

@@ -1,6 +1,6 @@
 #include "gui/hand3d/hand_look.h"
 
-#include <algorithm>
+#include "gui/appearance/settings_table.h"
 
 namespace palpate::gui {
 
@@ -40,48 +40,27 @@ QString nameOf(SphereLook look) {
 
 namespace {
 
-constexpr const char* kHandLookGroup = "hand_view/";
-
-template <class All, class Value>
-Value named(const QSettings& settings, const char* key, const All& all, Value usual) {
-  const QString name = settings.value(kHandLookGroup + QString(key)).toString();
-  const auto* found =
-      std::find_if(all.begin(), all.end(), [&](Value v) { return nameOf(v) == name; });
-  return found == all.end() ? usual : *found;
-}
-
-bool handLookFlag(const QSettings& settings, const char* key, bool usual) {
-  return settings.value(kHandLookGroup + QString(key), usual).toBool();
+void handLookFields(SettingsTable& table, HandLook& look) {
+  table.choice("hand_view/taxels", look.taxels, kAllTaxelShapes);
+  table.choice("hand_view/sphere", look.sphere, kAllSphereLooks);
+  bool ofCentroids = look.sphereOf == SphereOf::kCentroids;
+  table.flag("hand_view/sphere_of_centroids", ofCentroids);
+  look.sphereOf = ofCentroids ? SphereOf::kCentroids : SphereOf::kTaxels;
+  table.flag("hand_view/normals", look.normals);
+  table.flag("hand_view/wire", look.wire);
+  table.flag("hand_view/contacts", look.contacts);
+  table.flag("hand_view/slip", look.slip);
+  table.flag("hand_view/axes", look.axes);
 }
 
 }  // namespace
 
 HandLook loadHandLook(const QSettings& settings) {
-  HandLook look;
-  look.taxels = named(settings, "taxels", kAllTaxelShapes, look.taxels);
-  look.sphere = named(settings, "sphere", kAllSphereLooks, look.sphere);
-  look.sphereOf = handLookFlag(settings, "sphere_of_centroids", false) ? SphereOf::kCentroids
-                                                                       : SphereOf::kTaxels;
-  look.normals = handLookFlag(settings, "normals", look.normals);
-  look.wire = handLookFlag(settings, "wire", look.wire);
-  look.contacts = handLookFlag(settings, "contacts", look.contacts);
-  look.slip = handLookFlag(settings, "slip", look.slip);
-  look.axes = handLookFlag(settings, "axes", look.axes);
-  return look;
+  return loadFields<HandLook>(settings, handLookFields);
 }
 
 void saveHandLook(const HandLook& look, QSettings& settings) {
-  const auto put = [&settings](const char* key, const QVariant& value) {
-    settings.setValue(kHandLookGroup + QString(key), value);
-  };
-  put("taxels", nameOf(look.taxels));
-  put("sphere", nameOf(look.sphere));
-  put("sphere_of_centroids", look.sphereOf == SphereOf::kCentroids);
-  put("normals", look.normals);
-  put("wire", look.wire);
-  put("contacts", look.contacts);
-  put("slip", look.slip);
-  put("axes", look.axes);
+  saveFields(settings, look, handLookFields);
 }
 
 }  // namespace palpate::gui

@@ -117,13 +117,13 @@ QWidget* ImportDialog::makeFile() {
     const QString now = preset_->currentData().toString();
     const QString name = askForName(now).trimmed();
     if (name.isEmpty()) return;
-    saveImportPreset(settings_, name, request().mapping);
+    importPresets(settings_).save(name, request().mapping);
     listPresets(name);
   });
   removePreset_ = named(new QPushButton("Forget"), "importRemovePreset");
   removePreset_->setAutoDefault(false);
   connect(removePreset_, &QPushButton::clicked, this, [this] {
-    removeImportPreset(settings_, preset_->currentData().toString());
+    importPresets(settings_).remove(preset_->currentData().toString());
     listPresets("");
   });
   presets->addWidget(removePreset_);
@@ -217,7 +217,7 @@ void ImportDialog::connectFields() {
 // A rate that was typed belongs to the file before.
 void ImportDialog::takeRateOfMapping() {
   if (std::exchange(dataBefore_, data_->text()) == data_->text()) return;
-  const auto chosen = importPreset(settings_, preset_->currentData().toString());
+  const auto chosen = importPresets(settings_).load(preset_->currentData().toString());
   filling_ = true;
   rate_->setValue(chosen ? chosen->time.rateHz.value_or(0.0) : 0.0);
   filling_ = false;
@@ -254,7 +254,9 @@ void ImportDialog::setHand(const QString& nameOrFolder) {
 void ImportDialog::listPresets(const QString& chosen) {
   preset_->clear();
   preset_->addItem("none", "");
-  for (const QString& name : importPresets(settings_)) preset_->addItem(name, name);
+  const auto presets = importPresets(settings_);
+  for (const QString& name : presets.names())
+    if (presets.load(name)) preset_->addItem(name, name);
   chooseImportValue(*preset_, chosen);
   removePreset_->setEnabled(preset_->currentIndex() > 0);
 }
@@ -262,7 +264,7 @@ void ImportDialog::listPresets(const QString& chosen) {
 void ImportDialog::usePreset() {
   const QString name = preset_->currentData().toString();
   removePreset_->setEnabled(!name.isEmpty());
-  if (const auto mapping = importPreset(settings_, name)) {
+  if (const auto mapping = importPresets(settings_).load(name)) {
     showMapping(*mapping);
     look();
   }

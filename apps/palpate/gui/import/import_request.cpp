@@ -1,7 +1,6 @@
 #include "gui/import/import_request.h"
 
 #include <QFileInfo>
-#include <QUrl>
 
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
@@ -17,24 +16,8 @@ constexpr const char* kImportHand = "import/hand";
 constexpr const char* kImportMapping = "import/mapping";
 constexpr const char* kImportFolder = "import/folder";
 constexpr const char* kImportStrict = "import/strict";
-constexpr const char* kImportPresets = "import_presets";
 
-QString keyOf(const QString& name) {
-  return QString(kImportPresets) + "/" + QString::fromLatin1(QUrl::toPercentEncoding(name));
-}
-
-std::optional<ImportMapping> mappingIn(const QVariant& value) {
-  if (!value.isValid()) return std::nullopt;
-  try {
-    return mappingFromJson(value.toString().toStdString(), "settings");
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
-
-QString jsonOf(const ImportMapping& mapping) {
-  return QString::fromStdString(mappingJson(mapping).text(-1));
-}
+std::string mappingText(const ImportMapping& mapping) { return mappingJson(mapping).text(-1); }
 
 }  // namespace
 
@@ -78,7 +61,7 @@ QString textOf(const ImportReport& report, const QString& out) {
 
 void saveImportRequest(const ImportRequest& request, QSettings& settings) {
   settings.setValue(kImportHand, request.hand);
-  settings.setValue(kImportMapping, jsonOf(request.mapping));
+  settings.setValue(kImportMapping, QString::fromStdString(mappingText(request.mapping)));
   settings.setValue(kImportFolder, QFileInfo(request.data).absolutePath());
   settings.setValue(kImportStrict, request.strict);
 }
@@ -86,33 +69,22 @@ void saveImportRequest(const ImportRequest& request, QSettings& settings) {
 ImportRequest loadImportRequest(const QSettings& settings) {
   ImportRequest request;
   request.hand = settings.value(kImportHand).toString();
-  request.mapping = mappingIn(settings.value(kImportMapping)).value_or(ImportMapping());
+  try {
+    request.mapping =
+        mappingFromJson(settings.value(kImportMapping).toString().toStdString(), "settings");
+  } catch (const Error&) {
+    // None is kept, or one that can't be read.
+  }
   request.mapping.time.rateHz.reset();  // of the file that was imported
   request.data = settings.value(kImportFolder).toString();
   request.strict = settings.value(kImportStrict, false).toBool();
   return request;
 }
 
-QStringList importPresets(QSettings& settings) {
-  QStringList names;
-  settings.beginGroup(kImportPresets);
-  const QStringList keys = settings.childKeys();
-  settings.endGroup();
-  for (const QString& key : keys) {
-    const QString name = QUrl::fromPercentEncoding(key.toLatin1());
-    if (importPreset(settings, name)) names << name;
-  }
-  return names;
+NamedItems<ImportMapping> importPresets(QSettings& settings) {
+  return {settings, "import_presets", mappingText, [](const std::string& text) {
+            return mappingFromJson(text, "settings");
+          }};
 }
-
-std::optional<ImportMapping> importPreset(const QSettings& settings, const QString& name) {
-  return mappingIn(settings.value(keyOf(name)));
-}
-
-void saveImportPreset(QSettings& settings, const QString& name, const ImportMapping& mapping) {
-  settings.setValue(keyOf(name), jsonOf(mapping));
-}
-
-void removeImportPreset(QSettings& settings, const QString& name) { settings.remove(keyOf(name)); }
 
 }  // namespace palpate::gui

@@ -4,12 +4,13 @@
 
 #include <QSettings>
 #include <QString>
-#include <QStringList>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
 #include <palpate/recording/recording_import.h>
+
+#include "gui/appearance/named_items.h"
 
 namespace palpate::gui {
 
@@ -46,10 +47,7 @@ QString textOf(const ImportReport& report, const QString& out);
 void saveImportRequest(const ImportRequest& request, QSettings& settings);
 ImportRequest loadImportRequest(const QSettings& settings);
 
-// Mappings by name. A stored one that can't be read is left out.
-QStringList importPresets(QSettings& settings);
-std::optional<ImportMapping> importPreset(const QSettings& settings, const QString& name);
-void saveImportPreset(QSettings& settings, const QString& name, const ImportMapping& mapping);
-void removeImportPreset(QSettings& settings, const QString& name);
+// Mappings by name.
+NamedItems<ImportMapping> importPresets(QSettings& settings);
 
 }  // namespace palpate::gui

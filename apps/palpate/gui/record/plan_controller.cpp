@@ -13,6 +13,8 @@
 #include <palpate/core/text_file.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/appearance/settings_table.h"
+
 namespace palpate::gui {
 namespace fs = std::filesystem;
 namespace {
@@ -21,18 +23,18 @@ constexpr const char* kPlanKey = "recording/plan";
 constexpr const char* kLastTakeKey = "recording/plan_last_take";
 constexpr const char* kFollowPlanKey = "recording/follow_plan";
 
-constexpr const char* kPlanLimitsKey = "recording/plan_limits/";
+void limitFields(SettingsTable& table, TakeCheckOptions& limits) {
+  // validate() knows the ranges.
+  constexpr double kAny = 1e9;
+  table.number("recording/plan_limits/taxels", limits.contact.taxels, -kAny, kAny);
+  table.number("recording/plan_limits/least_s", limits.leastS, -kAny, kAny);
+  table.number("recording/plan_limits/most_lost", limits.mostLost, -kAny, kAny);
+  table.number("recording/plan_limits/most_saturated", limits.mostSaturated, -kAny, kAny);
+  table.number("recording/plan_limits/least_quality", limits.leastQuality, -kAny, kAny);
+}
 
 TakeCheckOptions keptLimits(const QSettings& settings) {
-  TakeCheckOptions limits;
-  const auto kept = [&](const char* name, const auto& usual) {
-    return settings.value(QString(kPlanLimitsKey) + name, usual);
-  };
-  limits.contact.taxels = kept("taxels", limits.contact.taxels).toInt();
-  limits.leastS = kept("least_s", limits.leastS).toDouble();
-  limits.mostLost = kept("most_lost", static_cast<qlonglong>(limits.mostLost)).toLongLong();
-  limits.mostSaturated = kept("most_saturated", limits.mostSaturated).toDouble();
-  limits.leastQuality = kept("least_quality", limits.leastQuality).toDouble();
+  const auto limits = loadFields<TakeCheckOptions>(settings, limitFields);
   try {
     limits.validate();
   } catch (const std::invalid_argument&) {
@@ -130,14 +132,7 @@ void PlanController::followWith(const QString& hand) {
 void PlanController::setLimits(const TakeCheckOptions& limits) {
   if (limits == limits_) return;
   limits_ = limits;
-  const auto keep = [this](const char* name, const auto& value) {
-    settings_.setValue(QString(kPlanLimitsKey) + name, value);
-  };
-  keep("taxels", limits.contact.taxels);
-  keep("least_s", limits.leastS);
-  keep("most_lost", static_cast<qlonglong>(limits.mostLost));
-  keep("most_saturated", limits.mostSaturated);
-  keep("least_quality", limits.leastQuality);
+  saveFields(settings_, limits, limitFields);
   emit changed();
 }
 

@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 
+#include "gui/appearance/settings_table.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
@@ -134,9 +135,7 @@ QDoubleSpinBox* SlipControls::field(const char* name,
   made->setKeyboardTracking(false);
   fitToText(*made,
             [made] { made->setFixedWidth(made->fontMetrics().horizontalAdvance("00.00") + 18); });
-  bool good = false;
-  const double kept = settings_.value(key).toDouble(&good);
-  made->setValue(good && kept >= step && kept <= most ? kept : usual);
+  made->setValue(storedNumber(settings_, key, step, most).value_or(usual));
   return made;
 }
 

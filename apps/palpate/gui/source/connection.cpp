@@ -1,53 +1,36 @@
 #include "gui/source/connection.h"
 
 #include <QFileInfo>
-#include <QUrl>
+#include <limits>
+
+#include "gui/appearance/named_items.h"
+#include "gui/appearance/settings_table.h"
 
 namespace palpate::gui {
 namespace {
 
 // Groups of the settings: the last connection, and those with names.
-constexpr const char* kLastConnection = "connection";
-constexpr const char* kNamedConnections = "connections";
-constexpr const char* kConnectionKind = "kind";
-constexpr const char* kConnectionName = "name";
-constexpr const char* kDsaPort = "tactile_port";
-constexpr const char* kSdhPort = "motion_port";
-constexpr const char* kScene = "scene";
-constexpr const char* kSceneActs = "scene_acts";
-constexpr const char* kRecording = "recording";
-constexpr const char* kStreamSource = "stream_source";
-constexpr const char* kStreamHand = "stream_hand";
-constexpr const char* kStreamFormat = "stream_format";
-constexpr const char* kStreamTime = "stream_time";
-constexpr const char* kStreamBaud = "stream_baud";
-// In the order of StreamFormat and StreamTime.
+constexpr const char* kLastConnection = "connection/";
+constexpr const char* kNamedConnections = "connections/";
+// In the order of Connection::Kind, StreamFormat and StreamTime.
+constexpr std::array kKinds = {"ports", "stream", "emulated", "replay"};
 constexpr std::array kStreamFormats = {"auto", "lines", "json", "binary"};
 constexpr std::array kStreamTimes = {"auto", "none", "s", "ms", "us"};
 
-// The value whose name is stored; the first one when none is.
-template <class Value, std::size_t kCount>
-Value storedValue(const QSettings& settings,
-                  const QString& key,
-                  const std::array<const char*, kCount>& names) {
-  const QString name = settings.value(key).toString();
-  for (std::size_t i = 0; i < kCount; ++i)
-    if (name == names[i]) return static_cast<Value>(i);
-  return Value{};
-}
-
-QString connectionKeyOf(Connection::Kind kind) {
-  switch (kind) {
-    case Connection::Kind::kPorts:
-      return "ports";
-    case Connection::Kind::kStream:
-      return "stream";
-    case Connection::Kind::kReplay:
-      return "replay";
-    case Connection::Kind::kEmulated:
-      break;
-  }
-  return "emulated";
+void connectionFields(SettingsTable& table, Connection& connection) {
+  StreamConnection& stream = connection.stream;
+  table.choice("kind", connection.kind, kKinds);
+  table.text("name", connection.name);
+  table.text("tactile_port", connection.dsaPort);
+  table.text("motion_port", connection.sdhPort);
+  table.text("scene", connection.scene);
+  table.flag("scene_acts", connection.sceneScriptRuns);
+  table.text("recording", connection.recording);
+  table.text("stream_source", stream.source);
+  table.text("stream_hand", stream.hand);
+  table.choice("stream_format", stream.format, kStreamFormats);
+  table.choice("stream_time", stream.time, kStreamTimes);
+  table.number("stream_baud", stream.baud, 1, std::numeric_limits<int>::max());
 }
 
 // Long names lose their middle.
@@ -64,47 +47,8 @@ QString connectionShortName(const QString& port) {
   return withoutMiddle(port.startsWith('/') ? port.section('/', -1) : port);
 }
 
-Connection connectionIn(const QSettings& settings, const QString& group) {
-  const auto at = [&group](const char* key) { return group + "/" + key; };
-  Connection connection;
-  const QString kind = settings.value(at(kConnectionKind)).toString();
-  for (const Connection::Kind each : kAllConnectionKinds)
-    if (connectionKeyOf(each) == kind) connection.kind = each;
-  connection.name = settings.value(at(kConnectionName)).toString();
-  connection.dsaPort = settings.value(at(kDsaPort)).toString();
-  connection.sdhPort = settings.value(at(kSdhPort)).toString();
-  connection.scene = settings.value(at(kScene), connection.scene).toString();
-  connection.sceneScriptRuns = settings.value(at(kSceneActs), connection.sceneScriptRuns).toBool();
-  connection.recording = settings.value(at(kRecording)).toString();
-  StreamConnection& stream = connection.stream;
-  stream.source = settings.value(at(kStreamSource)).toString();
-  stream.hand = settings.value(at(kStreamHand)).toString();
-  stream.format = storedValue<StreamFormat>(settings, at(kStreamFormat), kStreamFormats);
-  stream.time = storedValue<StreamTime>(settings, at(kStreamTime), kStreamTimes);
-  if (const int baud = settings.value(at(kStreamBaud)).toInt(); baud > 0) stream.baud = baud;
-  return connection;
-}
-
-void storeConnection(const Connection& connection, QSettings& settings, const QString& group) {
-  const auto at = [&group](const char* key) { return group + "/" + key; };
-  settings.setValue(at(kConnectionKind), connectionKeyOf(connection.kind));
-  settings.setValue(at(kConnectionName), connection.name);
-  settings.setValue(at(kDsaPort), connection.dsaPort);
-  settings.setValue(at(kSdhPort), connection.sdhPort);
-  settings.setValue(at(kScene), connection.scene);
-  settings.setValue(at(kSceneActs), connection.sceneScriptRuns);
-  settings.setValue(at(kRecording), connection.recording);
-  const StreamConnection& stream = connection.stream;
-  settings.setValue(at(kStreamSource), stream.source);
-  settings.setValue(at(kStreamHand), stream.hand);
-  settings.setValue(at(kStreamFormat), kStreamFormats[static_cast<std::size_t>(stream.format)]);
-  settings.setValue(at(kStreamTime), kStreamTimes[static_cast<std::size_t>(stream.time)]);
-  settings.setValue(at(kStreamBaud), stream.baud);
-}
-
-// Names of keys must not contain '/'.
 QString connectionGroupOf(const QString& name) {
-  return QString(kNamedConnections) + "/" + QString::fromLatin1(QUrl::toPercentEncoding(name));
+  return QString(kNamedConnections) + keyPartOf(name) + "/";
 }
 
 QString sourceText(const Connection& connection) {
@@ -175,7 +119,7 @@ QString problemOf(const Connection& connection) {
 }
 
 Connection loadConnection(QSettings& settings) {
-  Connection last = connectionIn(settings, kLastConnection);
+  auto last = loadFields<Connection>(settings, connectionFields, kLastConnection);
   // The name may have been forgotten, or given to another hand, since.
   const auto named = namedConnection(settings, last.name);
   if (!named || !isSameSource(*named, last)) last.name.clear();
@@ -190,28 +134,25 @@ bool hasLastConnection(QSettings& settings) {
 }
 
 void saveConnection(const Connection& connection, QSettings& settings) {
-  storeConnection(connection, settings, kLastConnection);
+  saveFields(settings, connection, connectionFields, kLastConnection);
 }
 
 QStringList connectionNames(QSettings& settings) {
   settings.beginGroup(kNamedConnections);
   const QStringList keys = settings.childGroups();
   settings.endGroup();
-  QStringList names;
-  for (const QString& key : keys) names << QUrl::fromPercentEncoding(key.toLatin1());
-  names.sort(Qt::CaseInsensitive);
-  return names;
+  return namesOfKeys(keys);
 }
 
 std::optional<Connection> namedConnection(QSettings& settings, const QString& name) {
   if (!connectionNames(settings).contains(name)) return std::nullopt;
-  Connection connection = connectionIn(settings, connectionGroupOf(name));
+  auto connection = loadFields<Connection>(settings, connectionFields, connectionGroupOf(name));
   connection.name = name;
   return connection;
 }
 
 void saveNamedConnection(QSettings& settings, const QString& name, const Connection& connection) {
-  storeConnection(connection, settings, connectionGroupOf(name));
+  saveFields(settings, connection, connectionFields, connectionGroupOf(name));
 }
 
 void removeNamedConnection(QSettings& settings, const QString& name) {

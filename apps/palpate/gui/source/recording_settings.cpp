@@ -11,52 +11,44 @@
 #include <palpate/capture/recording_name.h>
 #include <palpate/core/error.h>
 
+#include "gui/appearance/settings_table.h"
+
 namespace palpate::gui {
 namespace fs = std::filesystem;
 namespace {
 
 // [letters]; one row of the timeline has no room for more.
 constexpr int kMostLabel = 60;
-constexpr const char* kFolder = "recording/folder";
-constexpr const char* kTemplate = "recording/template";
-constexpr const char* kOperator = "recording/operator";
-constexpr const char* kObject = "recording/object";
-constexpr const char* kNotes = "recording/notes";
-constexpr const char* kMcap = "recording/mcap";
-constexpr const char* kStopAfter = "recording/stop_after_s";
-constexpr const char* kSplitMinutes = "recording/split_min";
-constexpr const char* kSplitMb = "recording/split_mb";
-constexpr const char* kCountdown = "recording/countdown_s";
-constexpr const char* kOnContact = "recording/start_on_contact";
-constexpr const char* kReleased = "recording/stop_without_contact_s";
-constexpr const char* kThreshold = "recording/contact_threshold";
-constexpr const char* kAsk = "recording/ask";
-
-QString labelKey(std::size_t digit) { return QString("recording/label%1").arg(digit); }
-
-QString recordingSettingsTextOf(const QSettings& settings,
-                                const QString& key,
-                                const QString& otherwise) {
-  const QString text = settings.value(key, otherwise).toString();
-  return text.contains(QChar('\0')) ? otherwise : text;
-}
-
-// A number in the range; nothing: there is none, or one that makes no sense.
-std::optional<double> recordingNumberOf(const QSettings& settings,
-                                        const char* key,
-                                        double least,
-                                        double most) {
-  bool isNumber = false;
-  const double value = settings.value(key).toDouble(&isNumber);
-  if (!isNumber || !(value >= least && value <= most)) return std::nullopt;
-  return value;
-}
-
-void saveNumber(QSettings& settings, const char* key, const std::optional<double>& value) {
-  if (value)
-    settings.setValue(key, *value);
-  else
-    settings.remove(key);
+void recordingFields(SettingsTable& table, RecordingSettings& recording) {
+  using Limits = RecordingLimits;
+  Limits& limits = recording.limits;
+  table.text("recording/folder", recording.folder);
+  table.text("recording/template", recording.nameTemplate, [](const QString& text) {
+    return !text.trimmed().isEmpty();
+  });
+  table.text("recording/operator", recording.operatorName);
+  table.text("recording/object", recording.object);
+  table.text("recording/notes", recording.notes);
+  table.number(
+      "recording/stop_after_s", limits.stopAfterS, Limits::kLeastStopS, Limits::kMostStopS);
+  table.number("recording/split_min",
+               limits.splitMinutes,
+               Limits::kLeastSplitMinutes,
+               Limits::kMostSplitMinutes);
+  table.number("recording/split_mb", limits.splitMb, Limits::kLeastSplitMb, Limits::kMostSplitMb);
+  table.number(
+      "recording/countdown_s", recording.countdownS, 0.0, RecordingSettings::kMostCountdownS);
+  table.flag("recording/start_on_contact", recording.startOnContact);
+  table.number("recording/stop_without_contact_s",
+               recording.stopWithoutContactS,
+               kLeastReleasedS,
+               kMostReleasedS);
+  table.number(
+      "recording/contact_threshold", recording.contactThreshold, 0.0, kMostContactThreshold);
+  table.flag("recording/mcap", recording.withMcap);
+  table.flag("recording/ask", recording.askEachTime);
+  for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit)
+    table.text(QString("recording/label%1").arg(digit), recording.markLabels[digit]);
 }
 
 RecordingNameFields fieldsOf(const RecordingSettings& recording, std::int64_t nowUs) {
@@ -113,56 +105,16 @@ QString folderFromText(const QString& typed) {
 }
 
 RecordingSettings loadRecordingSettings(const QSettings& settings) {
-  RecordingSettings recording;
-  recording.folder = folderFromText(recordingSettingsTextOf(settings, kFolder, {}));
+  auto recording = loadFields<RecordingSettings>(settings, recordingFields);
+  recording.folder = folderFromText(recording.folder);
   if (!QDir::isAbsolutePath(recording.folder)) recording.folder = defaultRecordingsFolder();
-  const QString nameTemplate =
-      recordingSettingsTextOf(settings, kTemplate, recording.nameTemplate).trimmed();
-  if (!nameTemplate.isEmpty()) recording.nameTemplate = nameTemplate;
-  recording.operatorName = recordingSettingsTextOf(settings, kOperator, {});
-  recording.object = recordingSettingsTextOf(settings, kObject, {});
-  recording.notes = recordingSettingsTextOf(settings, kNotes, {});
-  using Limits = RecordingLimits;
-  recording.limits.stopAfterS =
-      recordingNumberOf(settings, kStopAfter, Limits::kLeastStopS, Limits::kMostStopS);
-  recording.limits.splitMinutes = recordingNumberOf(
-      settings, kSplitMinutes, Limits::kLeastSplitMinutes, Limits::kMostSplitMinutes);
-  recording.limits.splitMb =
-      recordingNumberOf(settings, kSplitMb, Limits::kLeastSplitMb, Limits::kMostSplitMb);
-  recording.countdownS = static_cast<int>(
-      recordingNumberOf(settings, kCountdown, 0.0, RecordingSettings::kMostCountdownS)
-          .value_or(0.0));
-  recording.startOnContact = settings.value(kOnContact, false).toBool();
-  recording.stopWithoutContactS =
-      recordingNumberOf(settings, kReleased, kLeastReleasedS, kMostReleasedS);
-  recording.contactThreshold =
-      recordingNumberOf(settings, kThreshold, 0.0, kMostContactThreshold).value_or(0.0);
-  recording.withMcap = settings.value(kMcap, false).toBool();
-  recording.askEachTime = settings.value(kAsk, true).toBool();
-  for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit) {
-    QString& label = recording.markLabels[digit];
-    label = recordingSettingsTextOf(settings, labelKey(digit), label).simplified().left(kMostLabel);
-  }
+  recording.nameTemplate = recording.nameTemplate.trimmed();
+  for (QString& label : recording.markLabels) label = label.simplified().left(kMostLabel);
   return recording;
 }
 
 void saveRecordingSettings(const RecordingSettings& recording, QSettings& settings) {
-  settings.setValue(kFolder, recording.folder);
-  settings.setValue(kTemplate, recording.nameTemplate);
-  settings.setValue(kOperator, recording.operatorName);
-  settings.setValue(kObject, recording.object);
-  settings.setValue(kNotes, recording.notes);
-  saveNumber(settings, kStopAfter, recording.limits.stopAfterS);
-  saveNumber(settings, kSplitMinutes, recording.limits.splitMinutes);
-  saveNumber(settings, kSplitMb, recording.limits.splitMb);
-  settings.setValue(kCountdown, recording.countdownS);
-  settings.setValue(kOnContact, recording.startOnContact);
-  saveNumber(settings, kReleased, recording.stopWithoutContactS);
-  settings.setValue(kThreshold, recording.contactThreshold);
-  settings.setValue(kMcap, recording.withMcap);
-  settings.setValue(kAsk, recording.askEachTime);
-  for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit)
-    settings.setValue(labelKey(digit), recording.markLabels[digit]);
+  saveFields(settings, recording, recordingFields);
 }
 
 fs::path nextPath(const RecordingSettings& recording, std::int64_t nowUs) {

@@ -3,9 +3,11 @@
 #include <QCoreApplication>
 #include <QStackedWidget>
 #include <algorithm>
+#include <limits>
 
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/settings_table.h"
 #include "gui/spectrum/spectrum_line_page.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
@@ -15,23 +17,15 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kWindowKey = "spectrum/window";
-constexpr const char* kOverlapKey = "spectrum/overlap";
-constexpr const char* kScaleKey = "spectrum/scale";
-constexpr const char* kViewKey = "spectrum/view";
 // [ms] time without changes before a long recording is computed again
 constexpr int kSpectrumPanelCalmMs = 120;
 
-SpectrumSetting loaded(const QSettings& settings) {
-  const SpectrumSetting usual;
-  SpectrumSetting setting;
-  setting.window = settings.value(kWindowKey, usual.window).toInt();
-  setting.overlap = settings.value(kOverlapKey, usual.overlap).toInt();
-  for (const SpectrumScale each : kAllSpectrumScales)
-    if (settings.value(kScaleKey).toString() == nameOf(each)) setting.scale = each;
-  for (const SpectrumView each : kAllSpectrumViews)
-    if (settings.value(kViewKey).toString() == nameOf(each)) setting.view = each;
-  return setting;
+void settingFields(SettingsTable& table, SpectrumSetting& setting) {
+  using Any = std::numeric_limits<int>;  // the header brings them into their ranges
+  table.number("spectrum/window", setting.window, Any::min(), Any::max());
+  table.number("spectrum/overlap", setting.overlap, Any::min(), Any::max());
+  table.choice("spectrum/scale", setting.scale, kAllSpectrumScales);
+  table.choice("spectrum/view", setting.view, kAllSpectrumViews);
 }
 
 bool sameWork(const SpectrumQuestion& a, const SpectrumQuestion& b) {
@@ -83,7 +77,7 @@ SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
     : QWidget(parent), settings_(settings) {
   setObjectName("SpectrumPanel");
   header_ = new SpectrumHeader(this);
-  header_->setSetting(loaded(settings));
+  header_->setSetting(loadFields<SpectrumSetting>(settings, settingFields));
   strip_ = new OpeningStrip(this, "Computing", "spectrum");
   pages_ = new FittingPages(this);
   empty_ = new EmptyPage("spectrum", pages_);
@@ -100,10 +94,7 @@ SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
   connect(&later_, &QTimer::timeout, this, &SpectrumPanel::ask);
   connect(header_, &SpectrumHeader::changed, this, [this] {
     const SpectrumSetting& setting = header_->setting();
-    settings_.setValue(kWindowKey, setting.window);
-    settings_.setValue(kOverlapKey, setting.overlap);
-    settings_.setValue(kScaleKey, gui::nameOf(setting.scale));
-    settings_.setValue(kViewKey, gui::nameOf(setting.view));
+    saveFields(settings_, setting, settingFields);
     chart_->setScale(setting.scale);
     linePage_->chart().setScale(setting.scale);
     ask();
