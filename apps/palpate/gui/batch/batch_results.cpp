@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -22,6 +21,7 @@
 #include <palpate/core/text_table.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/desktop/reveal_file.h"
 
 namespace palpate::gui {
@@ -105,11 +105,8 @@ QString BatchResultsModel::source(int row) const {
       outcome_->plan.items[rows_[static_cast<std::size_t>(row)]].source.string());
 }
 
-BatchResults::BatchResults(QWidget* parent)
-    : QWidget(parent), reveal(revealInFileManager), model_(new BatchResultsModel(this)) {
-  askForReport = [this] {
-    return QFileDialog::getSaveFileName(this, "Save the report", "batch.csv", "Tables (*.csv)");
-  };
+BatchResults::BatchResults(Ask& ask, QWidget* parent)
+    : QWidget(parent), reveal(revealInFileManager), ask_(ask), model_(new BatchResultsModel(this)) {
   summary_ = new QLabel;
   summary_->setObjectName("batchSummary");
   summary_->setTextFormat(Qt::PlainText);
@@ -237,7 +234,7 @@ void BatchResults::copyRows() {
 
 void BatchResults::saveReport() {
   if (!outcome_) return;
-  QString path = askForReport();
+  QString path = ask_.newFile("Save the report", "batch.csv", "Tables (*.csv)");
   if (path.isEmpty()) return;
   // The file dialog has asked whether a file of the chosen name may be replaced.
   Overwrite overwrite = Overwrite::kReplace;

@@ -1,7 +1,6 @@
 #include "gui/connect/stream_page.h"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFormLayout>
 #include <QIntValidator>
 #include <QLabel>
@@ -19,6 +18,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/connect/port_field.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/state_mark.h"
 #include "gui/widgets/two_line_delegate.h"
 
@@ -91,6 +91,7 @@ QSpinBox* portBox(const char* name, int least) {
 StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
                        PortScan& scan,
                        Theme theme,
+                       Ask& ask,
                        QWidget* parent)
     : QWidget(parent), folders_(handFolders), scan_(scan) {
   form_ = new QFormLayout;
@@ -106,16 +107,13 @@ StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
                     "UDP: wait for datagrams"});
   form_->addRow("&Source", place_);
   form_->addRow("", makePlace(theme));
-  form_->addRow("&Hand", makeHand(theme));
+  form_->addRow("&Hand", makeHand(theme, ask));
   makeForm();
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addLayout(form_);
   column->addStretch(1);
 
-  askForFolder = [this] {
-    return QFileDialog::getExistingDirectory(this, "Folder of a hand (with its hand.json)");
-  };
   connect(place_, &QComboBox::currentIndexChanged, this, &StreamPage::refresh);
   connect(port_, &PortField::changed, this, &StreamPage::refresh);
   connect(host_, &QLineEdit::textChanged, this, &StreamPage::refresh);
@@ -187,7 +185,7 @@ QWidget* StreamPage::makePlace(Theme theme) {
   return whole;
 }
 
-QWidget* StreamPage::makeHand(Theme theme) {
+QWidget* StreamPage::makeHand(Theme theme, Ask& ask) {
   auto* whole = new QWidget(this);
   hand_ = new QComboBox;
   hand_->setObjectName("streamHand");
@@ -199,8 +197,8 @@ QWidget* StreamPage::makeHand(Theme theme) {
   auto* choose = new QPushButton("Choose f&older…");
   choose->setObjectName("streamHandFolder");
   choose->setAutoDefault(false);
-  connect(choose, &QPushButton::clicked, this, [this] {
-    const QString chosen = askForFolder();
+  connect(choose, &QPushButton::clicked, this, [this, &ask] {
+    const QString chosen = ask.folder("Folder of a hand (with its hand.json)", {});
     if (chosen.isEmpty()) return;
     // The folder may have been corrected since it was read.
     hands_.remove(chosen);

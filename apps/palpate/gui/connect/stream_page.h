@@ -6,7 +6,6 @@
 #include <QWidget>
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -25,6 +24,7 @@ class QStackedWidget;
 
 namespace palpate::gui {
 
+class Ask;
 class PortField;
 class StateMark;
 
@@ -36,6 +36,7 @@ class StreamPage : public QWidget {
   StreamPage(const std::vector<std::filesystem::path>& handFolders,
              PortScan& scan,
              Theme theme,
+             Ask& ask,
              QWidget* parent);
   ~StreamPage() override;
 
@@ -46,9 +47,6 @@ class StreamPage : public QWidget {
   QString problem() const;
   // Lists the serial ports. None is opened: what is sent to an unknown device may disturb it.
   void look();
-
-  // Asks the user for the folder of a hand; returns an empty text when cancelled. Tests replace it.
-  std::function<QString()> askForFolder;
 
  signals:
   void changed();
@@ -67,7 +65,7 @@ class StreamPage : public QWidget {
   };
 
   QWidget* makePlace(Theme theme);
-  QWidget* makeHand(Theme theme);
+  QWidget* makeHand(Theme theme, Ask& ask);
   void makeForm();
   Place place() const;
   QString source() const;

@@ -58,6 +58,7 @@ QComboBox* exportDialogComboBox(const char* name) {
 
 ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
                            const ExportRequest& suggestion,
+                           Ask& ask,
                            QWidget* parent)
     : QDialog(parent), views_(std::move(views)), first_(suggestion) {
   setWindowTitle("Export");
@@ -85,7 +86,7 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
   column->addWidget(target_);
   auto* middle = new QHBoxLayout;
   middle->setSpacing(0);
-  middle->addWidget(makeForm());
+  middle->addWidget(makeForm(ask));
   middle->addWidget(side, 1);
   auto* whole = new QVBoxLayout(this);
   whole->setContentsMargins(0, 0, 0, 0);
@@ -99,7 +100,7 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
   preview_->installEventFilter(this);
 }
 
-QWidget* ExportDialog::makeForm() {
+QWidget* ExportDialog::makeForm(Ask& ask) {
   auto* form = new QWidget(this);
   fields_ = new QFormLayout(form);
   fields_->setContentsMargins(kExportDialogMargin, kExportDialogMargin, kExportDialogMargin, 14);
@@ -144,7 +145,7 @@ QWidget* ExportDialog::makeForm() {
   for (int row = 0; row < fields_->rowCount(); ++row)
     if (const auto* label = fields_->itemAt(row, QFormLayout::LabelRole))
       label->widget()->setMinimumWidth(labelWidth);
-  place_ = new ExportPlace(labelWidth, form);
+  place_ = new ExportPlace(labelWidth, ask, form);
   fields_->addRow(place_);
   // Larger text needs more; a name of a view may be longer than that.
   const int fieldWidth = std::max(form_->sizeHint().width(), colors_->sizeHint().width());

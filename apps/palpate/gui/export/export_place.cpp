@@ -1,7 +1,6 @@
 #include "gui/export/export_place.h"
 
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -9,16 +8,14 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "gui/desktop/ask.h"
 #include "gui/source/recording_settings.h"
 
 namespace palpate::gui {
 
-ExportPlace::ExportPlace(int labelWidth, QWidget* parent) : QWidget(parent) {
+ExportPlace::ExportPlace(int labelWidth, Ask& ask, QWidget* parent) : QWidget(parent), ask_(ask) {
   // Most file systems allow 255 bytes, of which the ending needs some.
   constexpr int kMostLetters = 200;
-  askForFolder = [this](const QString& begin) {
-    return QFileDialog::getExistingDirectory(this, "Folder to export to", begin);
-  };
   name_ = new QLineEdit(this);
   name_->setObjectName("exportName");
   name_->setMaxLength(kMostLetters);
@@ -78,7 +75,8 @@ void ExportPlace::browse() {
   QDir begin(folder());
   while (!begin.exists() && begin.isAbsolute() && !begin.isRoot())
     begin.setPath(QFileInfo(begin.path()).path());
-  const QString chosen = askForFolder(begin.isAbsolute() ? begin.path() : QDir::homePath());
+  const QString chosen =
+      ask_.folder("Folder to export to", begin.isAbsolute() ? begin.path() : QDir::homePath());
   if (!chosen.isEmpty()) folder_->setText(chosen);
 }
 

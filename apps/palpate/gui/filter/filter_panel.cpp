@@ -1,7 +1,6 @@
 #include "gui/filter/filter_panel.h"
 
 #include <QCheckBox>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
@@ -16,6 +15,7 @@
 #include <palpate/core/error.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/filter/filter_form.h"
 #include "gui/filter/filter_list.h"
 
@@ -31,7 +31,8 @@ QString quantity(int count, const QString& word) {
 
 }  // namespace
 
-FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent), editor_(editor) {
+FilterPanel::FilterPanel(RecipeEditor& editor, Ask& ask, QWidget* parent)
+    : QWidget(parent), editor_(editor), ask_(ask) {
   list_ = new FilterList(this);
   form_ = new FilterForm(this);
   totals_ = new QLabel(this);
@@ -70,15 +71,6 @@ FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent
   column->addWidget(scroll, 3);
   column->addWidget(totals_);
 
-  askForRecipe = [this] {
-    return std::filesystem::path(
-        QFileDialog::getOpenFileName(this, "Open a recipe", {}, kRecipeFiles).toStdString());
-  };
-  askForPlace = [this](const QString& suggestion) {
-    QString path = QFileDialog::getSaveFileName(this, "Save the recipe", suggestion, kRecipeFiles);
-    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
-    return std::filesystem::path(path.toStdString());
-  };
   connect(&editor_, &RecipeEditor::changed, this, &FilterPanel::renew);
   connect(list_, &FilterList::stepChosen, this, &FilterPanel::showForm);
   connect(list_, &FilterList::enabledChanged, &editor_, &RecipeEditor::setEnabled);
@@ -221,7 +213,7 @@ void FilterPanel::addStep(const std::string& name) {
 }
 
 void FilterPanel::openRecipe() {
-  const std::filesystem::path path = askForRecipe();
+  const std::filesystem::path path = ask_.file("Open a recipe", {}, kRecipeFiles).toStdString();
   if (path.empty()) return;
   reading_.start(
       [this, path]() -> FileReading::Take {
@@ -234,7 +226,8 @@ void FilterPanel::openRecipe() {
 }
 
 void FilterPanel::saveRecipe() {
-  const std::filesystem::path path = askForPlace("recipe.json");
+  const std::filesystem::path path =
+      ask_.newFile("Save the recipe", "recipe.json", kRecipeFiles, ".json").toStdString();
   if (path.empty()) return;
   try {
     Recipe recipe = editor_.recipe();

@@ -61,7 +61,7 @@ CaptureQueueOptions smallFeed() {
 
 }  // namespace
 
-HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
+HandDock::HandDock(QSettings& settings, Ask& ask, QWidget* parent) : QWidget(parent) {
   calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
   calibrationBeingRead = [](const std::string&) { return false; };
   ownMotion = [] { return QString(); };
@@ -73,7 +73,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(makeHead());
-  column->addWidget(makeBody(settings), 1);
+  column->addWidget(makeBody(settings, ask), 1);
   // At the bottom, so that other parts don't move when it appears or disappears.
   heat_ = new QLabel(this);
   heat_->setObjectName("handHeat");
@@ -173,11 +173,11 @@ QWidget* HandDock::makeHead() {
   return head;
 }
 
-void HandDock::makePages(QSettings& settings, QWidget* content) {
+void HandDock::makePages(QSettings& settings, Ask& ask, QWidget* content) {
   touches_ = new TouchStore(this);
   grasp_ = new GraspPanel(settings, *touches_, content);
-  joint_ = new JointPanel(settings, content);
-  sequence_ = new SequencePanel(settings, content);
+  joint_ = new JointPanel(settings, ask, content);
+  sequence_ = new SequencePanel(settings, ask, content);
   chooser_ = new QTabBar(content);
   chooser_->setObjectName("handPages");
   chooser_->setDrawBase(false);
@@ -250,16 +250,16 @@ void HandDock::connectMotions() {
   };
 }
 
-QWidget* HandDock::makeBody(QSettings& settings) {
+QWidget* HandDock::makeBody(QSettings& settings, Ask& ask) {
   auto* area = new QScrollArea(this);
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   area->setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(area);
-  makePages(settings, content);
+  makePages(settings, ask, content);
   sensitivity_ = new SensitivityModes(content);
-  tactile_ = new TactileSettingsPanel(settings, content);
+  tactile_ = new TactileSettingsPanel(settings, ask, content);
   angles_ = new FactsView(content);
   angles_->setObjectName("liveAngles");
   temperatures_ = new FactsView(content);

@@ -3,10 +3,8 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QGridLayout>
 #include <QHBoxLayout>
-#include <QInputDialog>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
@@ -23,6 +21,7 @@
 #include <palpate/core/text_file.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/motion_button.h"
 #include "gui/widgets/text_fit.h"
@@ -55,18 +54,8 @@ QString angleText(double value, const AxisDescription& axis) {
 
 }  // namespace
 
-JointPanel::JointPanel(QSettings& settings, QWidget* parent)
-    : QWidget(parent), store_(settings), settings_(settings) {
-  askForName = [this](const QString& suggestion) {
-    return QInputDialog::getText(this, "Pose", "Name", QLineEdit::Normal, suggestion);
-  };
-  askForFileToOpen = [this] {
-    return QFileDialog::getOpenFileName(this, "Import poses", {}, kPoseFilter);
-  };
-  askForFileToSave = [this] {
-    return QFileDialog::getSaveFileName(this, "Export poses", "poses.json", kPoseFilter);
-  };
-  confirmed = [](const QString&, const QString&) { return false; };
+JointPanel::JointPanel(QSettings& settings, Ask& ask, QWidget* parent)
+    : QWidget(parent), store_(settings), settings_(settings), ask_(ask) {
   reactiveLimits = [] { return GraspRequest{}; };
   auto* grid = new QGridLayout;
   grid->setContentsMargins(0, 0, 0, 0);
@@ -225,7 +214,8 @@ void JointPanel::savePose() {
   if (!control_) return;
   const std::vector<double> angles = control_->status().anglesDeg;
   const QString name =
-      askForName(names_->currentIndex() > 0 ? names_->currentText() : QString()).trimmed();
+      ask_.text("Pose", "Name", names_->currentIndex() > 0 ? names_->currentText() : QString())
+          .value_or(QString());
   if (name.isEmpty()) return;
   SavedPose pose{name.toStdString(), movableHand().name, angles};
   // A joint can be a few hundredths of a degree beyond its range.
@@ -237,7 +227,7 @@ void JointPanel::savePose() {
   if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
     return emit refused(QString::fromStdString(problem));
   if (store_.names(movableHand().name).contains(name) &&
-      !confirmed("Replace the pose \"" + name + "\" by the present angles?", "Replace"))
+      !ask_.confirmed("Replace the pose \"" + name + "\" by the present angles?", "Replace"))
     return;
   store_.save(pose);
   // The name says what the targets are: those that were set before are other ones.
@@ -249,7 +239,7 @@ void JointPanel::savePose() {
 void JointPanel::removePose() {
   if (names_->currentIndex() <= 0) return;
   const QString name = names_->currentText();
-  if (!confirmed("Delete the pose \"" + name + "\"?", "Delete")) return;
+  if (!ask_.confirmed("Delete the pose \"" + name + "\"?", "Delete")) return;
   store_.remove(movableHand().name, name);
   listPoses();
 }
@@ -259,7 +249,7 @@ void JointPanel::renamePose() {
   const QString before = names_->currentText();
   auto pose = store_.load(movableHand().name, before);
   if (!pose) return emit refused("the pose '" + before + "' can't be read");
-  const QString name = askForName(before).trimmed();
+  const QString name = ask_.text("Pose", "Name", before).value_or(QString());
   if (name.isEmpty() || name == before) return;
   if (store_.names(movableHand().name).contains(name))
     return emit refused("a pose '" + name + "' exists already");
@@ -271,7 +261,7 @@ void JointPanel::renamePose() {
 
 // All poses of the file, or none.
 void JointPanel::importPoses() {
-  const QString path = askForFileToOpen();
+  const QString path = ask_.file("Import poses", {}, kPoseFilter);
   if (path.isEmpty()) return;
   reading_.start(
       [this, file = std::filesystem::path(path.toStdString())]() -> FileReading::Take {
@@ -307,7 +297,7 @@ void JointPanel::exportPoses() {
   for (const QString& name : store_.names(movableHand().name))
     if (auto pose = store_.load(movableHand().name, name)) poses.push_back(std::move(*pose));
   if (poses.empty()) return emit refused("there is no pose to export");
-  const QString path = askForFileToSave();
+  const QString path = ask_.newFile("Export poses", "poses.json", kPoseFilter);
   if (path.isEmpty()) return;
   try {
     // The dialogue has asked about an existing file.

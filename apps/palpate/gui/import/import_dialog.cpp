@@ -4,11 +4,9 @@
 #include <QComboBox>
 #include <QDir>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHeaderView>
-#include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -22,6 +20,7 @@
 #include <palpate/model/hand_file.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/import/import_fields.h"
 
 namespace palpate::gui {
@@ -65,8 +64,9 @@ QString sampleText(const ImportPreview& preview) {
 
 ImportDialog::ImportDialog(QSettings& settings,
                            std::vector<std::filesystem::path> folders,
+                           Ask& ask,
                            QWidget* parent)
-    : QDialog(parent), settings_(settings), folders_(std::move(folders)) {
+    : QDialog(parent), settings_(settings), ask_(ask), folders_(std::move(folders)) {
   setWindowTitle("Import");
   const ImportRequest last = loadImportRequest(settings);
   auto* upper = new QHBoxLayout;
@@ -76,17 +76,6 @@ ImportDialog::ImportDialog(QSettings& settings,
   whole->addLayout(upper);
   whole->addWidget(makePreview(), 1);
   whole->addWidget(makeFoot());
-  askForData = [this, folder = last.data] {
-    return QFileDialog::getOpenFileName(
-        this,
-        "Choose a file to import",
-        folder,
-        "Tables (*.csv *.tsv *.txt *.log *.dat *.npy *.npz *.h5 *.hdf5 *.mat);;All files (*)");
-  };
-  askForHand = [this] { return QFileDialog::getExistingDirectory(this, "Folder of a hand"); };
-  askForName = [this](const QString& suggestion) {
-    return QInputDialog::getText(this, "Save the mapping", "Name", QLineEdit::Normal, suggestion);
-  };
   for (const KnownHand& each : knownHands(folders_))
     hand_->addItem(QString::fromStdString(each.key));
   strict_->setChecked(last.strict);
@@ -134,21 +123,25 @@ QWidget* ImportDialog::makeFile() {
   data_->setPlaceholderText("CSV, text, .npy, .npz, HDF5");
   form->addRow(importFieldName("&File", data_),
                withButton(data_, "Bro&wse…", "importBrowse", [this] {
-                 const QString chosen = askForData();
+                 const QString chosen =
+                     ask_.file("Choose a file to import",
+                               loadImportRequest(settings_).data,
+                               "Tables (*.csv *.tsv *.txt *.log *.dat *.npy *.npz *.h5 *.hdf5 "
+                               "*.mat);;All files (*)");
                  if (!chosen.isEmpty()) setData(chosen);
                }));
   hand_ = new QComboBox;
   hand_->setObjectName("importHand");
   form->addRow(importFieldName("&Hand", hand_),
                withButton(hand_, "Fol&der…", "importHandFolder", [this] {
-                 const QString chosen = askForHand();
+                 const QString chosen = ask_.folder("Folder of a hand", {});
                  if (!chosen.isEmpty()) setHand(chosen);
                }));
   preset_ = new QComboBox;
   preset_->setObjectName("importPreset");
   auto* presets = withButton(preset_, "&Save…", "importSavePreset", [this] {
     const QString now = preset_->currentData().toString();
-    const QString name = askForName(now).trimmed();
+    const QString name = ask_.text("Save the mapping", "Name", now).value_or(QString());
     if (name.isEmpty()) return;
     saveImportPreset(settings_, name, request().mapping);
     listPresets(name);
