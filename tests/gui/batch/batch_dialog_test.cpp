@@ -20,6 +20,7 @@
 
 #include "gui/batch/batch_fields.h"
 #include "gui/batch/batch_results.h"
+#include "gui/testing/fake_ask.h"
 #include "gui/testing/layout_faults.h"
 #include "testing/testing.h"
 
@@ -37,7 +38,7 @@ class BatchDialogTest : public ::testing::Test {
     start();
   }
   void start() {
-    dialog_ = std::make_unique<BatchDialog>(settings_, controller_);
+    dialog_ = std::make_unique<BatchDialog>(settings_, controller_, ask_);
     dialog_->show();
   }
   static QString text(const fs::path& path) { return QString::fromStdString(path.string()); }
@@ -63,6 +64,7 @@ class BatchDialogTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
   QSettings settings_{text(folder_ / "s.ini"), QSettings::IniFormat};
   BatchController controller_;
+  FakeAsk ask_;
   std::unique_ptr<BatchDialog> dialog_;
 };
 
@@ -256,8 +258,8 @@ TEST_F(BatchDialogTest, TheChoicesAreRemembered) {
 }
 
 TEST_F(BatchDialogTest, PathsAreAddedOnceAndRemovedAndDropped) {
-  dialog_->askForFiles = [&] { return QStringList{text(folder_ / "in/a.dsa")}; };
-  dialog_->askForFolder = [&](const QString&) { return text(folder_ / "in"); };
+  ask_.files = {text(folder_ / "in/a.dsa")};
+  ask_.folders = {text(folder_ / "in")};
   for (int twice = 0; twice < 2; ++twice) {
     find<QPushButton>("batchAddFiles")->click();
     find<QPushButton>("batchAddFolder")->click();
@@ -299,7 +301,7 @@ TEST_F(BatchDialogTest, WhatFailedIsListedWithItsReasonAndReported) {
   dialog_->results().reveal = [&](const QString& path) { revealed = path; };
   emit const_cast<QTableView*>(table)->doubleClicked(rows.index(2, 0));
   EXPECT_EQ(revealed, text(folder_ / "in/deep/b.dsa"));
-  dialog_->results().askForReport = [&] { return text(folder_ / "report"); };
+  ask_.newFiles = {text(folder_ / "report")};
   find<QPushButton>("batchSaveReport")->click();
   const std::string report = testing::readFile(folder_ / "report.csv");
   EXPECT_EQ(std::count(report.begin(), report.end(), '\n'), 4) << report;

@@ -179,17 +179,11 @@ TEST_F(BatchWindowTest, QuittingAsksAndEndsTheBatch) {
   const fs::path out = folder_ / "out";
   begin({.paths = {text(folder_ / "many")}, .work = BatchWork::kSlip, .folder = text(out)});
   ASSERT_TRUE(QTest::qWaitFor([&] { return fs::exists(out) && !filesIn(out).empty(); }, 30'000));
-  int asked = 0;
-  bool answer = false;
-  window().state().prompts.endBatch = [&] {
-    ++asked;
-    return answer;
-  };
+  ask_.choices = {QString(), "&Yes"};
   EXPECT_FALSE(window().close());
-  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(ask_.choices.asked.size(), 1);
   EXPECT_TRUE(window().isVisible());
   EXPECT_TRUE(busy()) << "it goes on";
-  answer = true;
   EXPECT_TRUE(window().close());
   EXPECT_FALSE(window().findChild<BatchDialog*>()->isVisible());
   window_.reset();

@@ -14,6 +14,7 @@
 #include <palpate/model/profile_builder.h>
 
 #include "gui/calibrate/calibrate_panel.h"
+#include "gui/testing/fake_ask.h"
 #include "gui/widgets/figures_table.h"
 #include "testing/testing.h"
 
@@ -82,7 +83,8 @@ class CalibratePanelTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
   QSettings settings_{QString::fromStdString((folder_ / "palpate.ini").string()),
                       QSettings::IniFormat};
-  std::unique_ptr<CalibratePanel> panel_ = std::make_unique<CalibratePanel>(settings_);
+  FakeAsk ask_;
+  std::unique_ptr<CalibratePanel> panel_ = std::make_unique<CalibratePanel>(settings_, ask_);
 };
 
 }  // namespace palpate::gui

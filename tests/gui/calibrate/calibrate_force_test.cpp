@@ -62,7 +62,7 @@ TEST_F(CalibrateForceTest, APressureTableBecomesACalibration) {
   table.close();
   show("Pressure", nullptr);
   PressurePage& page = panel_->pressure();
-  page.askForTable = [&] { return folder_ / "t.csv"; };
+  ask_.files = {pathText(folder_ / "t.csv")};
   find<QPushButton>("pressureOpen")->click();
   settle();
   ASSERT_TRUE(page.shown()) << why().toStdString();
@@ -91,7 +91,7 @@ TEST_F(CalibrateForceTest, APressureTableBecomesACalibration) {
   find<QDoubleSpinBox>("pressureThreshold")->setValue(150.0);
   find<QDoubleSpinBox>("pressureArea")->setValue(50.0);
   settle();
-  page.askForPlace = [&](const QString&) { return folder_ / "made.json"; };
+  ask_.newFiles = {pathText(folder_ / "made.json")};
   QSignalSpy applied(&page, &PressurePage::applyRequested);
   find<QPushButton>("pressureApply")->click();
   ASSERT_EQ(applied.size(), 1) << "saved first, then applied";

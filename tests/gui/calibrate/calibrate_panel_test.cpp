@@ -147,12 +147,10 @@ TEST_F(CalibratePanelTest, NoiseLinesAreShownAndSaved) {
   EXPECT_NEAR(cell("noiseTable", 0, 1).toDouble(), 0.5, 1e-3);
   EXPECT_NEAR(cell("noiseTable", 0, 2).toDouble(), 10.0, 0.05);
   EXPECT_NEAR(cell("noiseTable", 0, 3).toDouble(), 1.0, 0.01) << "one more, one less";
-  panel_->noise().askForPlace = [&](const QString& suggestion) {
-    EXPECT_EQ(suggestion, "r_noise.json");
-    return folder_ / "n.xml";
-  };
+  ask_.newFiles = {pathText(folder_ / "n.xml"), pathText(folder_ / "none" / "n.json")};
   QSignalSpy said(panel_.get(), &CalibratePanel::said);
   find<QPushButton>("noiseSave")->click();
+  EXPECT_EQ(ask_.newFiles.began, QStringList("r_noise.json"));
   EXPECT_EQ(said.size(), 1);
   const NoiseFloor read = parseNoiseXml(testing::readFile(folder_ / "n.xml"), "n.xml");
   ASSERT_EQ(read.lines.size(), 6u);
@@ -162,7 +160,6 @@ TEST_F(CalibratePanelTest, NoiseLinesAreShownAndSaved) {
   EXPECT_EQ(json.at("kind").asString(), "palpate noise calibration");
   EXPECT_FALSE(json.at("program_version").asString().empty());
   EXPECT_NEAR(noiseFloorFrom(json).lines.at(0).intercept, 10.0, 0.05);
-  panel_->noise().askForPlace = [&](const QString&) { return folder_ / "none" / "n.json"; };
   find<QPushButton>("noiseSave")->click();
   EXPECT_EQ(said.size(), 2);
   EXPECT_TRUE(said[1][0].toString().contains("n.json")) << "said that it can't be written";
@@ -180,9 +177,7 @@ TEST_F(CalibratePanelTest, LinesOfATouchedHandAreNoNoiseAndNotApplied) {
   EXPECT_NE(cell("noiseTable", 2, 7), "not at rest");
   panel_->noise().save(folder_ / "touched.json");
   QSignalSpy applied(&panel_->noise(), &NoisePage::applyRequested);
-  panel_->noise().askForLines = [&] {
-    return QString::fromStdString((folder_ / "touched.json").string());
-  };
+  ask_.files = {pathText(folder_ / "touched.json")};
   find<QPushButton>("noiseOpen")->click();
   FileReading::settleAll(*panel_);
   EXPECT_EQ(applied.size(), 0);
@@ -193,9 +188,7 @@ TEST_F(CalibratePanelTest, LinesOfATouchedHandAreNoNoiseAndNotApplied) {
 TEST_F(CalibratePanelTest, LinesThatWereChosenForOneHandAreNotAppliedToAnother) {
   show("Noise", opened(warmingUp()));
   panel_->noise().save(folder_ / "n.json");
-  panel_->noise().askForLines = [&] {
-    return QString::fromStdString((folder_ / "n.json").string());
-  };
+  ask_.files = {pathText(folder_ / "n.json")};
   QSignalSpy applied(&panel_->noise(), &NoisePage::applyRequested);
   QSignalSpy said(&panel_->noise(), &NoisePage::said);
   {
@@ -289,10 +282,10 @@ TEST_F(CalibratePanelTest, ComputesOnlyWhileItIsSeenAndCanBeGivenUp) {
 
 TEST_F(CalibratePanelTest, ThePageIsRemembered) {
   panel_->showPage("Noise");
-  panel_ = std::make_unique<CalibratePanel>(settings_);
+  panel_ = std::make_unique<CalibratePanel>(settings_, ask_);
   EXPECT_EQ(panel_->pageName(), "Noise");
   settings_.setValue("calibrate/page", "nonsense");
-  panel_ = std::make_unique<CalibratePanel>(settings_);
+  panel_ = std::make_unique<CalibratePanel>(settings_, ask_);
   EXPECT_EQ(panel_->pageName(), "Steps");
 }
 

@@ -110,7 +110,7 @@ TEST_F(CalibrateWindowTest, AnAppliedCalibrationIsRememberedForTheHand) {
   calibration.pressure = fitPressureModel(calibration.samples, {});
   const QString path = QString::fromStdString((folder_ / "c.json").string());
   saveCalibration(calibration, folder_ / "c.json");
-  panel().force().askForCalibration = [&] { return path; };
+  ask_.files = {path};
   find<QPushButton>("forceChoose")->click();
   panel().settle();
   EXPECT_TRUE(panel().force().shown()) << panel().force().emptyText().toStdString();

@@ -168,11 +168,7 @@ TEST_F(CompareWindowTest, OneRecordingOffersToOpenAnotherOrItself) {
   auto* text = find<QLabel>("compareEmpty");
   EXPECT_TRUE(text->isVisible());
   EXPECT_TRUE(text->text().contains("Only early.dsa is open"));
-  QString asked;
-  window().state().prompts.recordings = [&] {
-    asked = "yes";
-    return QStringList{QString::fromStdString(file("late.dsa"))};
-  };
+  ask_.files = {QString::fromStdString(file("late.dsa"))};
   QTest::mouseClick(find<QPushButton>("compareItself"), Qt::LeftButton);
   settle();
   EXPECT_EQ(compare().b(), compare().a());
@@ -181,7 +177,7 @@ TEST_F(CompareWindowTest, OneRecordingOffersToOpenAnotherOrItself) {
   settle();
   EXPECT_TRUE(compare().notice().contains("same recording twice"));
   choose("compareB", "open another…");
-  EXPECT_EQ(asked, "yes");
+  EXPECT_EQ(ask_.files.asked.size(), 1);
   waitUntilOpened();
   settle();
   EXPECT_EQ(name(compare().a()), "early") << "A stays";
@@ -222,10 +218,7 @@ TEST_F(CompareWindowTest, EscapeInAnOpenListClosesTheListAlone) {
 }
 
 TEST_F(CompareWindowTest, WithNothingOpenItAsksAndComparesWhatComes) {
-  window().state().prompts.recordings = [&] {
-    return QStringList{QString::fromStdString(file("early.dsa")),
-                       QString::fromStdString(file("late.dsa"))};
-  };
+  ask_.files = {QString::fromStdString(file("early.dsa") + "\n" + file("late.dsa"))};
   press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
   waitUntilOpened();
   settle();

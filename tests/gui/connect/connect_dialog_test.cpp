@@ -79,13 +79,9 @@ TEST_F(ConnectDialogTest, AConnectionIsSavedUnderANameChosenAndForgotten) {
   openWith(settings, {.kind = Connection::Kind::kEmulated, .scene = "ball"});
   auto* saved = find<QComboBox>("savedConnections");
   EXPECT_FALSE(saved->isEnabled()) << "none yet";
-  QString suggested;
-  dialog_->askForName = [&](const QString& suggestion) {
-    suggested = suggestion;
-    return QString(" the ball ");
-  };
+  ask_.texts = {"the ball"};
   find<QPushButton>("saveConnection")->click();
-  EXPECT_EQ(suggested, "emulated hand · ball");
+  EXPECT_EQ(ask_.texts.began, QStringList("emulated hand · ball"));
   EXPECT_EQ(saved->currentText(), "the ball");
   const QString recording = file("a.dsa", "x");
   openWith(settings, {.kind = Connection::Kind::kReplay, .recording = recording});
@@ -208,7 +204,7 @@ TEST_F(ConnectDialogTest, ASceneOfOnesOwn) {
   EXPECT_EQ(dialog_->connection().scene, mine);
   EXPECT_TRUE(dialog_->connection().sceneScriptRuns);
   const QString other = file("other.json", "{}");
-  dialog_->findChild<ScenePage*>()->askForScene = [&] { return other; };
+  ask_.files = {other};
   click("otherScene");
   FileReading::settleAll(*dialog_);
   EXPECT_EQ(dialog_->connection().scene, other);
@@ -255,7 +251,7 @@ TEST_F(ConnectDialogTest, TheLastRecordingsAreChoices) {
   EXPECT_EQ(dialog_->connection().recording, there);
   EXPECT_TRUE(canConnect());
   const QString other = file("other.dsa", "x");
-  dialog_->findChild<ReplayPage*>()->askForRecording = [&] { return other; };
+  ask_.files = {other};
   press(Qt::Key_W, Qt::AltModifier);
   EXPECT_TRUE(await([&] { return dialog_->connection().recording == other; }));
 }

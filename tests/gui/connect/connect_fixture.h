@@ -16,6 +16,7 @@
 #include "gui/connect/connect_dialog.h"
 #include "gui/connect/fake_ports.h"
 #include "gui/source/file_reading.h"
+#include "gui/testing/fake_ask.h"
 #include "testing/testing.h"
 
 namespace palpate::gui {
@@ -46,6 +47,7 @@ class ConnectDialogTest : public ::testing::Test {
                                                              .handFolders = handFolders_,
                                                              .recentRecordings = recent},
                                               *scan_,
+                                              ask_,
                                               nullptr);
     showRead();
     QApplication::setActiveWindow(dialog_.get());  // without a window manager nobody else does
@@ -58,6 +60,7 @@ class ConnectDialogTest : public ::testing::Test {
                                                              .handFolders = handFolders_,
                                                              .settings = &settings},
                                               *scan_,
+                                              ask_,
                                               nullptr);
     showRead();
   }
@@ -107,6 +110,7 @@ class ConnectDialogTest : public ::testing::Test {
   std::vector<std::filesystem::path> handFolders_ = {};
   std::filesystem::path scenesFolder_ = testing::dataFolder() / "scenes";
   FakePorts fake_;
+  FakeAsk ask_;
   std::unique_ptr<PortScan> scan_;
   std::unique_ptr<ConnectDialog> dialog_;
 };

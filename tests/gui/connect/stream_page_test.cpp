@@ -68,11 +68,10 @@ TEST_F(StreamPageTest, HandsOfTheUsersFolderAreListed) {
 
 TEST_F(StreamPageTest, AFolderThatCannotBeUsedSaysWhyInOneLine) {
   openStream({.source = "udp:9871", .hand = "sole"});
-  auto* page = dialog_->findChild<StreamPage*>();
   std::string wrong = kPad;
   wrong.replace(wrong.find("\"rows\": 4"), 9, "\"rows\": 0");
   const QString folder = addFolder("mine", wrong);
-  page->askForFolder = [&] { return folder; };
+  ask_.folders = {folder};
   click("streamHandFolder");
   FileReading::settleAll(*dialog_);
   EXPECT_EQ(chosen().hand, folder);
@@ -87,12 +86,12 @@ TEST_F(StreamPageTest, AFolderThatCannotBeUsedSaysWhyInOneLine) {
   EXPECT_TRUE(canConnect());
   EXPECT_EQ(find<QComboBox>("streamHand")->currentText(), "mine");
   // Cancelled: nothing changes.
-  page->askForFolder = [] { return QString(); };
+  ask_.folders = {QString()};
   click("streamHandFolder");
   FileReading::settleAll(*dialog_);
   EXPECT_EQ(chosen().hand, folder);
   // Without a hand.json.
-  page->askForFolder = [&] { return QString::fromStdString(folder_.path().string()); };
+  ask_.folders = {QString::fromStdString(folder_.path().string())};
   click("streamHandFolder");
   FileReading::settleAll(*dialog_);
   EXPECT_FALSE(canConnect());
@@ -103,7 +102,7 @@ TEST_F(StreamPageTest, AnAnswerFromBeforeTheFolderWasChosenAgainIsDropped) {
   openStream({.source = "udp:9871", .hand = "sole"});
   auto* page = dialog_->findChild<StreamPage*>();
   const QString folder = addFolder("mine", kPad);
-  page->askForFolder = [&] { return folder; };
+  ask_.folders = {folder};
   HeldReadings held(1);
   click("streamHandFolder");
   held.await(1);

@@ -16,6 +16,7 @@
 #include "gui/appearance/text_size.h"
 #include "gui/export/export_place.h"
 #include "gui/export/export_preview.h"
+#include "gui/testing/fake_ask.h"
 #include "testing/fake_ffmpeg.h"
 #include "testing/testing.h"
 
@@ -61,8 +62,8 @@ class ExportDialogTest : public ::testing::Test {
     return {{"seen", [=] { return numbers(3); }}, {"all", [=] { return numbers(1000); }}};
   }
   ExportDialog& open() {
-    dialog_ = std::make_unique<ExportDialog>(std::vector<const ExportedView*>{&pictures_, &rows_},
-                                             request_);
+    dialog_ = std::make_unique<ExportDialog>(
+        std::vector<const ExportedView*>{&pictures_, &rows_}, request_, ask_);
     dialog_->show();
     QCoreApplication::processEvents();
     return *dialog_;
@@ -350,13 +351,9 @@ TEST_F(ExportDialogTest, WhatStandsInTheWayIsSaid) {
 TEST_F(ExportDialogTest, BrowseBeginsWhereTheFolderIs) {
   request_.folder = QString::fromStdString((folder_ / "gone").string());
   open();
-  QString begin;
-  dialog_->place().askForFolder = [&](const QString& from) {
-    begin = from;
-    return QString("/chosen");
-  };
+  ask_.folders = {"/chosen"};
   click("exportBrowse");
-  EXPECT_EQ(begin.toStdString(), folder_.path().string());
+  EXPECT_EQ(ask_.folders.began, QStringList(QString::fromStdString(folder_.path().string())));
   EXPECT_EQ(find<QLineEdit>("exportFolder")->text(), "/chosen");
 }
 

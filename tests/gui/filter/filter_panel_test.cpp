@@ -18,6 +18,7 @@
 
 #include "gui/filter/filter_list.h"
 #include "gui/source/file_reading.h"
+#include "gui/testing/fake_ask.h"
 #include "gui/testing/held_readings.h"
 #include "testing/testing.h"
 
@@ -46,7 +47,8 @@ class FilterPanelTest : public ::testing::Test {
   }
 
   RecipeEditor editor_;
-  FilterPanel panel_{editor_};
+  FakeAsk ask_;
+  FilterPanel panel_{editor_, ask_};
 };
 
 // Frequencies reach up to half of the rate of the frames.
@@ -156,17 +158,16 @@ TEST_F(FilterPanelTest, RecipesArePresetsAndFiles) {
   const testing::TemporaryFolder folder;
   trigger(QString::fromStdString(recipePresets()[2].name));
   EXPECT_TRUE(panel_.editor().recipe().sameSteps(recipePresets()[2]));
-  panel_.askForPlace = [&](const QString&) { return folder.path() / "mine.json"; };
+  ask_.newFiles = {pathText(folder.path() / "mine.json")};
   trigger("Save the recipe…");
   trigger("Remove all filters");
   EXPECT_EQ(text(), "");
-  panel_.askForRecipe = [&] { return folder.path() / "mine.json"; };
+  ask_.files = {pathText(folder.path() / "mine.json"), pathText(folder.path() / "bad.json")};
   trigger("Open a recipe…");
   FileReading::settleAll(panel_);
   EXPECT_TRUE(panel_.editor().recipe().sameSteps(recipePresets()[2]));
   QSignalSpy message(&panel_, &FilterPanel::message);
   testing::writeFile(folder / "bad.json", "{}");
-  panel_.askForRecipe = [&] { return folder.path() / "bad.json"; };
   trigger("Open a recipe…");
   FileReading::settleAll(panel_);
   ASSERT_EQ(message.size(), 1);
@@ -177,7 +178,7 @@ TEST_F(FilterPanelTest, RecipesArePresetsAndFiles) {
 TEST_F(FilterPanelTest, ARecipeThatWasChosenForOneSourceIsNotOpenedForAnother) {
   const testing::TemporaryFolder folder;
   writeRecipe(folder / "r.json", recipePresets()[2], false);
-  panel_.askForRecipe = [&] { return folder.path() / "r.json"; };
+  ask_.files = {pathText(folder.path() / "r.json")};
   QSignalSpy message(&panel_, &FilterPanel::message);
   {
     HeldReadings held;

@@ -38,9 +38,7 @@ class FilterWindowTest : public WindowTest {
     window().state().open({path_});
     waitUntilOpened();
     window().settle();
-    window().state().prompts.unsaved = [](const QString&) {
-      return UserPrompts::Unsaved::kDiscard;
-    };
+    ask_.choices = {"Discard"};
   }
   void setRecipe(const std::string& text) {
     window().feature<FilterFeature>().panel().editor().setRecipe(

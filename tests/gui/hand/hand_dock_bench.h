@@ -15,6 +15,7 @@
 
 #include "control/emulated_bench.h"
 #include "gui/hand/hand_dock.h"
+#include "gui/testing/fake_ask.h"
 #include "gui/widgets/value_slider.h"
 #include "testing/testing.h"
 
@@ -24,7 +25,7 @@ class HandDockBench : public ::testing::Test {
  protected:
   HandDockBench()
       : settings_(QString::fromStdString((folder_ / "palpate.ini").string()), QSettings::IniFormat),
-        dock_(std::make_unique<HandDock>(settings_)) {
+        dock_(std::make_unique<HandDock>(settings_, ask_)) {
     dock_->resize(455, 800);
     dock_->show();
   }

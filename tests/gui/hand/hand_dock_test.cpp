@@ -340,7 +340,7 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   ASSERT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 42; }));
   ASSERT_TRUE(await([&] { return isEnabled("saveSettings"); }));
   QTest::qWait(0);
-  dock_->tactileSettings().askForName = [](const QString&) { return QString("soft / things"); };
+  ask_.texts = {"soft / things"};
   ASSERT_TRUE(await(
       [&] { return bench_->session->device().facts().matrices.at(0).thresholdCounts == 42; }));
   click("saveSettings");
@@ -355,7 +355,7 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold0")->value() == 150.0; }));
   // As after a restart.
   dock_->setHand(nullptr, nullptr);
-  dock_ = std::make_unique<HandDock>(settings_);
+  dock_ = std::make_unique<HandDock>(settings_, ask_);
   dock_->setHand(bench_->session.get(), bench_->control.get());
   names = find<QComboBox>("savedSettings");
   ASSERT_EQ(names->count(), 2);
@@ -364,20 +364,13 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   EXPECT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 42; }));
   EXPECT_EQ(names->currentIndex(), 1);
   // They are replaced and deleted only after a question.
-  QStringList questions;
-  bool answer = false;
-  dock_->tactileSettings().confirmed = [&](const QString& text, const QString&) {
-    questions.append(text);
-    return answer;
-  };
-  dock_->tactileSettings().askForName = [](const QString&) { return QString("soft / things"); };
   click("saveSettings");
   click("removeSettings");
-  EXPECT_EQ(questions,
+  EXPECT_EQ(ask_.choices.asked,
             QStringList({"Replace the settings \"soft / things\" by the present ones?",
                          "Delete the settings \"soft / things\"?"}));
   EXPECT_EQ(names->count(), 2);
-  answer = true;
+  ask_.choices = {"Delete"};
   click("removeSettings");
   EXPECT_EQ(names->count(), 1);
 }
@@ -796,7 +789,7 @@ TEST_F(HandDockTest, AKeyInVainIsAnsweredInTheDock) {
   // The actions end before the dock of the bench.
   dock_->setHand(nullptr, nullptr);
   dock_.reset();
-  dock_ = std::make_unique<HandDock>(settings_);
+  dock_ = std::make_unique<HandDock>(settings_, ask_);
 }
 
 TEST_F(HandDockTest, AHandThatActsByItselfIsNotReady) {
@@ -832,7 +825,7 @@ TEST_F(HandDockTest, ARefusalOfAModeGoesWithTheNextChoice) {
 TEST_F(HandDockTest, ChoicesAreRemembered) {
   find<QComboBox>("preshape")->setCurrentIndex(find<QComboBox>("preshape")->findData("parallel"));
   type("limit", "450");
-  dock_ = std::make_unique<HandDock>(settings_);
+  dock_ = std::make_unique<HandDock>(settings_, ask_);
   EXPECT_EQ(find<QComboBox>("preshape")->currentData().toString(), "parallel");
   EXPECT_EQ(find<ValueSlider>("limit")->value(), 450.0);
 }
@@ -843,7 +836,7 @@ TEST_F(HandDockTest, ASessionBeginsWithTheSafeVelocity) {
   settings_.setValue("grasp/velocity_deg_per_s", 60.0);
   settings_.setValue("joints/velocity_deg_per_s", 60.0);
   for (int session = 0; session < 2; ++session) {
-    dock_ = std::make_unique<HandDock>(settings_);
+    dock_ = std::make_unique<HandDock>(settings_, ask_);
     for (const char* velocity : {"velocity", "jointVelocity"}) {
       EXPECT_EQ(find<ValueSlider>(velocity)->value(), 10.0) << velocity;
       find<ValueSlider>(velocity)->field()->setValue(33.0);

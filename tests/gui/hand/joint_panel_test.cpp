@@ -23,10 +23,6 @@ class JointPanelTest : public HandDockBench {
     dock_->resize(520, 900);
     find<QTabBar>("handPages")->setCurrentIndex(1);
     panel_ = dock_->findChild<JointPanel*>();
-    panel_->confirmed = [this](const QString& text, const QString& button) {
-      questions_ += text + " / " + button;
-      return confirms_;
-    };
     ASSERT_TRUE(await([&] { return find<ValueSlider>("targetAngle1")->value() == -75.0; }));
   }
   std::vector<double> angles() {
@@ -35,7 +31,7 @@ class JointPanelTest : public HandDockBench {
     return now;
   }
   void save(const QString& name) {
-    panel_->askForName = [name](const QString&) { return name; };
+    ask_.texts = {name};
     click("savePose");
   }
   std::vector<double> saved(const QString& name) {
@@ -43,8 +39,6 @@ class JointPanelTest : public HandDockBench {
     return pose ? pose->anglesDeg : std::vector<double>{};
   }
   JointPanel* panel_ = nullptr;
-  QStringList questions_;
-  bool confirms_ = true;
 };
 
 TEST_F(JointPanelTest, NothingMovesBeforeMoveIsPressed) {
@@ -141,8 +135,7 @@ TEST_F(JointPanelTest, AnAngleBeyondTheRangeIsSaidAndMarked) {
 
 TEST_F(JointPanelTest, APoseIsSavedGoneToRenamedAndDeleted) {
   connectAndOpen();
-  panel_->askForName = [](const QString&) { return QString("rest / soft"); };
-  click("savePose");
+  save("rest / soft");
   auto* names = find<QComboBox>("ownPoses");
   EXPECT_EQ(names->currentText(), "rest / soft");
   type("jointVelocity", "100");
@@ -157,7 +150,8 @@ TEST_F(JointPanelTest, APoseIsSavedGoneToRenamedAndDeleted) {
   ASSERT_TRUE(await([&] { return isEnabled("moveJoints"); }));
   click("moveJoints");
   ASSERT_TRUE(await([&] { return std::abs(angles()[4] - 75.0) < 0.01; }));
-  panel_->askForName = [](const QString&) { return QString("home"); };
+  ask_.texts = {"home"};
+  ask_.choices = {"Delete"};
   click("renamePose");
   EXPECT_EQ(names->count(), 2);
   EXPECT_EQ(names->itemText(1), "home");
@@ -168,7 +162,7 @@ TEST_F(JointPanelTest, APoseIsSavedGoneToRenamedAndDeleted) {
 TEST_F(JointPanelTest, AnOwnPoseIsLostOnlyAfterAQuestion) {
   connectAndOpen();
   save("wide open");
-  EXPECT_TRUE(questions_.isEmpty()) << "it is a new one";
+  EXPECT_TRUE(ask_.choices.asked.isEmpty()) << "it is a new one";
   const std::vector<double> before = saved("wide open");
   ASSERT_EQ(before.size(), 7u);
   type("jointVelocity", "100");
@@ -179,20 +173,15 @@ TEST_F(JointPanelTest, AnOwnPoseIsLostOnlyAfterAQuestion) {
     return std::abs(angles()[4] - 10.0) < 0.01 && isEnabled("savePose") &&
            find<QLabel>("presentAngle4")->text() == "10.0°";
   }));
-  confirms_ = false;
+  ask_.choices = {QString(), "Replace", QString(), "Delete"};
   save("wide open");
-  EXPECT_EQ(questions_,
-            QStringList{"Replace the pose \"wide open\" by the present angles? / Replace"});
+  EXPECT_EQ(ask_.choices.asked.back(), "Replace the pose \"wide open\" by the present angles?");
   EXPECT_EQ(saved("wide open"), before);
-  confirms_ = true;
   save("wide open");
   EXPECT_NEAR(saved("wide open").at(4), 10.0, 0.05);
-  questions_.clear();
-  confirms_ = false;
   click("removePose");
-  EXPECT_EQ(questions_, QStringList{"Delete the pose \"wide open\"? / Delete"});
+  EXPECT_EQ(ask_.choices.asked.back(), "Delete the pose \"wide open\"?");
   EXPECT_FALSE(saved("wide open").empty());
-  confirms_ = true;
   click("removePose");
   EXPECT_TRUE(saved("wide open").empty());
 }
@@ -251,7 +240,7 @@ TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {
     EXPECT_TRUE(file.open(QIODevice::WriteOnly));
     file.write(text.c_str());
     file.close();
-    panel_->askForFileToOpen = [&] { return path; };
+    ask_.files = {path};
     why.clear();
     dock_->findChild<QAction*>("importPoses")->trigger();
     FileReading::settleAll(*panel_);

@@ -63,7 +63,7 @@ TEST_F(SequencePanelTest, IsBuiltStartedAndDone) {
   EXPECT_EQ(bench_->log.named("m").size(), 4u);
   // Kept for the next session.
   dock_->setHand(nullptr, nullptr);
-  dock_ = std::make_unique<HandDock>(settings_);
+  dock_ = std::make_unique<HandDock>(settings_, ask_);
   EXPECT_EQ(find<QListWidget>("sequenceSteps")->count(), 3);
   EXPECT_EQ(find<QSpinBox>("sequenceTimes")->value(), 2);
 }
@@ -119,7 +119,8 @@ TEST_F(SequencePanelTest, FilesAreReadWholeOrNotAtAll) {
   connectAndOpen();
   add("addOpen");
   const QString path = QString::fromStdString((folder_ / "s.json").string());
-  panel_->askForFileToSave = panel_->askForFileToOpen = [&] { return path; };
+  ask_.files = {path};
+  ask_.newFiles = {path};
   dock_->findChild<QAction*>("saveSequence")->trigger();
   add("addWait");
   dock_->findChild<QAction*>("openSequence")->trigger();
@@ -144,7 +145,8 @@ TEST_F(SequencePanelTest, ATableThatIsBeingReadTakesThePlaceOfThisOneOnlyWhileNo
   connectAndOpen();
   add("addOpen");
   const QString path = QString::fromStdString((folder_ / "s.json").string());
-  panel_->askForFileToSave = panel_->askForFileToOpen = [&] { return path; };
+  ask_.files = {path};
+  ask_.newFiles = {path};
   dock_->findChild<QAction*>("saveSequence")->trigger();
   find<QDoubleSpinBox>("stepSeconds")->setValue(60.0);
   add("addHold");

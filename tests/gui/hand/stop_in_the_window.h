@@ -9,6 +9,7 @@
 
 #include "control/emulated_bench.h"
 #include "gui/shell/main_window.h"
+#include "gui/testing/fake_ask.h"
 #include "testing/punctuality.h"
 
 namespace palpate::gui {
@@ -19,6 +20,7 @@ class StopInTheWindow {
     WindowEnvironment environment;
     environment.dataFolder = testing::dataFolder();
     environment.settingsPath = QString::fromStdString((folder_ / "palpate.ini").string());
+    environment.ask = &ask_;
     window_ = std::make_unique<MainWindow>(environment);
     window_->show();
     Connection connection;
@@ -34,6 +36,7 @@ class StopInTheWindow {
   }
   MainWindow& window() { return *window_; }
   const std::filesystem::path& folder() const { return folder_.path(); }
+  FakeAsk& ask() { return ask_; }
   // Escape, so long after the call of the grasp; `before` is called just before.
   void pressAfter(std::int64_t pressUs,
                   const GraspRequest& request,
@@ -76,6 +79,7 @@ class StopInTheWindow {
   bool canReact() { return control().status().cannotReact.empty(); }
 
   testing::TemporaryFolder folder_;
+  FakeAsk ask_;
   testing::EmulatedBench bench_{testing::stillHand()};
   std::unique_ptr<MainWindow> window_;
   testing::Punctuality stops_{"escape_to_the_wire"};

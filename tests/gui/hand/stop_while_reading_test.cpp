@@ -8,12 +8,8 @@
 #include "gui/calibrate/applied_calibration.h"
 #include "gui/calibrate/calibrate_panel.h"
 #include "gui/calibrate/force_page.h"
-#include "gui/calibrate/noise_page.h"
 #include "gui/connect/scene_page.h"
 #include "gui/connect/stream_page.h"
-#include "gui/filter/filter_panel.h"
-#include "gui/hand/joint_panel.h"
-#include "gui/hand/sequence_panel.h"
 #include "gui/hand/stop_in_the_window.h"
 #include "gui/hand3d/hand_view.h"
 #include "gui/recognise/object_photo.h"
@@ -55,22 +51,22 @@ const Door kDoors[] = {
      }},
     {"sequence",
      [](StopInTheWindow& bench, const fs::path& file) {
-       partOf<SequencePanel>(bench).askForFileToOpen = [file] { return textOf(file); };
+       bench.ask().files = {textOf(file)};
        trigger(bench, "openSequence");
      }},
     {"poses",
      [](StopInTheWindow& bench, const fs::path& file) {
-       partOf<JointPanel>(bench).askForFileToOpen = [file] { return textOf(file); };
+       bench.ask().files = {textOf(file)};
        trigger(bench, "importPoses");
      }},
     {"recipe",
      [](StopInTheWindow& bench, const fs::path& file) {
-       partOf<FilterPanel>(bench).askForRecipe = [file] { return file; };
+       bench.ask().files = {textOf(file)};
        trigger(bench, "Open a recipe…");
      }},
     {"noise_lines",
      [](StopInTheWindow& bench, const fs::path& file) {
-       partOf<CalibratePanel>(bench).noise().askForLines = [file] { return textOf(file); };
+       bench.ask().files = {textOf(file)};
        bench.window().findChild<QPushButton*>("noiseOpen")->click();
      }},
     {"calibration",
@@ -80,7 +76,7 @@ const Door kDoors[] = {
      }},
     {"scene",
      [](StopInTheWindow& bench, const fs::path& file) {
-       auto* page = new ScenePage(bench.folder() / "none", &bench.window());
+       auto* page = new ScenePage(bench.folder() / "none", bench.ask(), &bench.window());
        page->setScene(textOf(file));
      }},
     {"hand_folder",
@@ -89,7 +85,7 @@ const Door kDoors[] = {
        fs::copy_file(
            file, bench.folder() / "hand" / "hand.json", fs::copy_options::overwrite_existing);
        auto* scan = new PortScan(&bench.window());
-       auto* page = new StreamPage({}, *scan, &bench.window());
+       auto* page = new StreamPage({}, *scan, bench.ask(), &bench.window());
        page->setStream({.source = "udp:9871", .hand = textOf(bench.folder() / "hand")});
      }},
     {"meshes",
@@ -109,7 +105,7 @@ const Door kDoors[] = {
      }},
     // The last one: a recording is shown then, and the hand is still connected.
     {"labels", [](StopInTheWindow& bench, const fs::path& file) {
-       bench.window().state().prompts.file = [file](auto&&...) { return textOf(file); };
+       bench.ask().files = {textOf(file)};
        bench.window().state().actions.at("importLabels")->trigger();
      }}};
 

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "gui/import/import_fields.h"
+#include "gui/testing/fake_ask.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::import_dialog_test {
@@ -40,7 +41,7 @@ class ImportDialogTest : public ::testing::Test {
     open();
   }
   void open() {
-    dialog_ = std::make_unique<ImportDialog>(settings_, std::vector<std::filesystem::path>{});
+    dialog_ = std::make_unique<ImportDialog>(settings_, std::vector<std::filesystem::path>{}, ask_);
     dialog_->QWidget::show();
   }
   QString path(const char* name) const { return QString::fromStdString((folder_ / name).string()); }
@@ -59,6 +60,7 @@ class ImportDialogTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   QSettings settings_;
+  FakeAsk ask_;
   std::unique_ptr<ImportDialog> dialog_;
 };
 
@@ -137,7 +139,7 @@ TEST_F(ImportDialogTest, ARateIsOfOneFileUnlessItIsOfAMapping) {
   rate->setValue(250.0);
   emit find<QLineEdit>("importData")->editingFinished();
   EXPECT_EQ(rate->value(), 250.0) << "the same file";
-  dialog_->askForName = [](const QString&) { return QString("pad at 250 Hz"); };
+  ask_.texts = {"pad at 250 Hz"};
   find<QPushButton>("importSavePreset")->click();
   rate->setValue(10.0);
   dialog_->setData(path("other.csv"));
@@ -193,7 +195,7 @@ TEST_F(ImportDialogTest, MappingsAreRememberedByName) {
   find<ImportFields>("importFields")->item(0, 0)->setText("p*");
   find<ImportFields>("importFields")->item(0, 2)->setText("-3");
   awaitPreview();
-  dialog_->askForName = [](const QString&) { return QString("my/pad 1"); };
+  ask_.texts = {"my/pad 1"};
   find<QPushButton>("importSavePreset")->click();
   EXPECT_EQ(find<QComboBox>("importPreset")->currentText(), "my/pad 1");
   open();

@@ -17,6 +17,7 @@
 #include <palpate/recording/palpate_writer.h>
 
 #include "gui/library/library_panel.h"
+#include "gui/testing/fake_ask.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::library_test {
@@ -65,7 +66,7 @@ class LibraryTest : public ::testing::Test {
   void start(LibraryScanner::Catalog catalog = catalogRecordings) {
     panel_.reset();
     panel_ = std::make_unique<LibraryPanel>(
-        settings_, QString::fromStdString((folder_ / "cache").string()), std::move(catalog));
+        settings_, ask_, QString::fromStdString((folder_ / "cache").string()), std::move(catalog));
     panel_->resize(900, 400);
     panel_->show();
     panel_->activateWindow();
@@ -302,13 +303,10 @@ TEST_F(LibraryTest, RemembersFolderColumnsAndOrder) {
 TEST_F(LibraryTest, SaysWhyItIsEmpty) {
   EXPECT_TRUE(empty().contains("recordings of a folder"));
   EXPECT_FALSE(find<QLineEdit>("librarySearch")->isEnabled());
-  panel_->askForFolder = [](const QString&) { return QString(); };
   find<QPushButton>("libraryEmptyButton")->click();
   EXPECT_EQ(panel_->folder(), "") << "cancelled";
   fs::create_directory(folder_ / "empty");
-  panel_->askForFolder = [this](const QString&) {
-    return QString::fromStdString((folder_ / "empty").string());
-  };
+  ask_.folders = {QString::fromStdString((folder_ / "empty").string())};
   find<QPushButton>("libraryEmptyButton")->click();
   settle();
   EXPECT_TRUE(empty().startsWith("No recordings")) << empty().toStdString();
@@ -374,7 +372,7 @@ TEST_F(LibraryTest, ASecondReturnAfterTheChoiceOfAFolderStopsNothing) {
       if (!progress(0.25)) throw Cancelled();
     return CatalogReport{};
   });
-  panel_->askForFolder = [](const QString&) { return QString("/x"); };
+  ask_.folders = {"/x"};
   auto* choose = find<QPushButton>("libraryEmptyButton");
   choose->setFocus();
   QTest::keyClick(choose, Qt::Key_Return);

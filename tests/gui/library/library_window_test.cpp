@@ -63,11 +63,7 @@ TEST_F(LibraryWindowTest, ItsArrowsMoveInItAndNothingElse) {
 }
 
 TEST_F(LibraryWindowTest, ReturnPressedTwiceReadsAFileOnceAndAsksNothing) {
-  int asked = 0;
-  window().state().prompts.unsaved = [&asked](const QString&) {
-    ++asked;
-    return UserPrompts::Unsaved::kSave;
-  };
+  ask_.choices = {"Save"};
   toggle();
   look({"good1.dsa", "good2.dsa"});
   QTest::keyClick(find<QLineEdit>("librarySearch"), Qt::Key_Return);
@@ -82,7 +78,7 @@ TEST_F(LibraryWindowTest, ReturnPressedTwiceReadsAFileOnceAndAsksNothing) {
   QTest::keyClick(table(), Qt::Key_Return);
   waitUntilOpened();
   EXPECT_EQ(reads_, 1);
-  EXPECT_EQ(asked, 0);
+  EXPECT_TRUE(ask_.choices.asked.isEmpty());
   EXPECT_TRUE(window().state().events.editor()->unsaved()) << "the mark is still there";
 }
 

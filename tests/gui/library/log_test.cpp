@@ -11,6 +11,7 @@
 
 #include "gui/appearance/text_size.h"
 #include "gui/library/log_panel.h"
+#include "gui/testing/fake_ask.h"
 #include "gui/testing/fake_clock.h"
 #include "gui/testing/window_fixture.h"
 
@@ -58,7 +59,8 @@ class LogTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
   FakeClock clock_;
   ActivityLog log_{clock_};
-  LogPanel panel_{log_};
+  FakeAsk ask_;
+  LogPanel panel_{log_, ask_};
 };
 
 TEST_F(LogTest, TheNewestStandsLast) {
@@ -117,17 +119,15 @@ TEST_F(LogTest, CopiesWhatIsShownOrChosen) {
 
 TEST_F(LogTest, IsSavedAndSaysWhenItCantBe) {
   three();
-  QString path = QString::fromStdString((folder_ / "log.txt").string());
-  panel_.askForFile = [&](const QString&) { return path; };
+  // The last time it is cancelled.
+  ask_.newFiles = {pathText(folder_ / "log.txt"), pathText(folder_ / "missing/log.txt"), QString()};
   QSignalSpy saved(&panel_, &LogPanel::saved);
   QSignalSpy failed(&panel_, &LogPanel::failed);
   find<QToolButton>("logSave")->click();
   EXPECT_EQ(saved.size(), 1);
   EXPECT_EQ(QString::fromStdString(testing::readFile(folder_ / "log.txt")), panel_.text());
-  path = QString::fromStdString((folder_ / "missing/log.txt").string());
   find<QToolButton>("logSave")->click();
   EXPECT_EQ(failed.size(), 1);
-  path.clear();  // cancelled
   find<QToolButton>("logSave")->click();
   EXPECT_EQ(saved.size() + failed.size(), 2);
 }

@@ -77,18 +77,18 @@ TEST_F(OpeningTest, ShowsTheRecordingAtItsFirstFrame) {
 
 TEST_F(OpeningTest, ByTheDialog) {
   const std::string path = file("good.dsa");
-  window().state().prompts.recordings = [&] { return QStringList{QString::fromStdString(path)}; };
+  ask_.files = {QString::fromStdString(path)};
   press(Qt::Key_O, Qt::ControlModifier);
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good.dsa");
-  window().state().prompts.recordings = [] { return QStringList(); };
+  ask_.files = {QString()};
   press(Qt::Key_O, Qt::ControlModifier);
   EXPECT_EQ(currentName(), "good.dsa") << "cancelled";
 }
 
 TEST_F(OpeningTest, ByTheButtonOfTheStartPage) {
   const std::string path = file("good.dsa");
-  window().state().prompts.recordings = [&] { return QStringList{QString::fromStdString(path)}; };
+  ask_.files = {QString::fromStdString(path)};
   QTest::mouseClick(find<QPushButton>("startOpen"), Qt::LeftButton);
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good.dsa");

@@ -67,12 +67,10 @@ TEST_F(RecoveryFeatureTest, RecoversIntoANewFileAndOpensIt) {
   writeDamaged(path);
   const std::string before = testing::readFile(path);
   open({"run.palpate"});
-  QString proposed;
-  window().state().prompts.newFile = [&](const QString&,
-                                         const QString& suggestion,
-                                         const QString&) { return proposed = suggestion; };
+  const QString proposed = pathText(folder_ / "run_recovered.palpate");
+  ask_.newFiles = {proposed};
   QTest::mouseClick(find<QPushButton>("recoverAccept"), Qt::LeftButton);
-  EXPECT_EQ(proposed.toStdString(), (folder_ / "run_recovered.palpate").string());
+  EXPECT_EQ(ask_.newFiles.began, QStringList(proposed));
   ASSERT_TRUE(await([&] { return displayed() && displayed()->path.filename() != "run.palpate"; }));
   EXPECT_EQ(displayed()->path.filename(), "run_recovered.palpate");
   EXPECT_EQ(displayed()->damage, "");
@@ -104,10 +102,8 @@ TEST_F(RecoveryFeatureTest, LabelsOfADamagedRecordingAreSavedAndRecovered) {
   EXPECT_FALSE(window().state().events.editor()->unsaved());
   EXPECT_EQ(labelsOf(path), std::vector<std::string>{"first"});
   label("second");
-  QString proposed;
-  window().state().prompts.newFile = [&](const QString&,
-                                         const QString& suggestion,
-                                         const QString&) { return proposed = suggestion; };
+  const QString proposed = pathText(folder_ / "run_recovered.palpate");
+  ask_.newFiles = {proposed};
   QTest::mouseClick(find<QPushButton>("recoverAccept"), Qt::LeftButton);
   ASSERT_TRUE(await([&] { return displayed() && displayed()->path.filename() != "run.palpate"; }));
   EXPECT_EQ(labelsOf(folder_ / "run_recovered.palpate"),
@@ -149,12 +145,8 @@ TEST_F(RecoveryFeatureTest, ClosedItIsNotOfferedAgainAndASoundOneNever) {
 
 TEST_F(RecoveryFeatureTest, WithoutADamagedOneTheActionAsksForAFile) {
   writeDamaged(folder_ / "bad.palpate");
-  window().state().prompts.file = [&](auto&&...) {
-    return QString::fromStdString((folder_ / "bad.palpate").string());
-  };
-  window().state().prompts.newFile = [](const QString&, const QString& suggestion, const QString&) {
-    return suggestion;
-  };
+  ask_.files = {pathText(folder_ / "bad.palpate")};
+  ask_.newFiles = {pathText(folder_ / "bad_recovered.palpate")};
   actions().at("recover")->trigger();
   ASSERT_TRUE(await([&] { return displayed() != nullptr; }));
   EXPECT_EQ(displayed()->path.filename(), "bad_recovered.palpate");

@@ -113,7 +113,7 @@ TEST_F(GraspsPageTest, AxesAreChosenAndKept) {
   y->setCurrentIndex(index);
   emit y->activated(index);
   EXPECT_EQ(page().scatter().plot().yAxis->label(), "closing_mm in mm");
-  panel_ = std::make_unique<RecognisePanel>(settings_, testing::dataFolder());
+  panel_ = std::make_unique<RecognisePanel>(settings_, testing::dataFolder(), ask_);
   panel_->show();
   settle();
   EXPECT_EQ(find<QComboBox>("scatterY")->currentText(), "closing_mm in mm");
@@ -133,7 +133,7 @@ TEST_F(GraspsPageTest, WhatIsLeftOutDoesNotTrain) {
   const QModelIndex ball = table().model()->index(rowOf("ball", 4), GraspTableModel::kObject);
   EXPECT_TRUE(table().model()->setData(ball, Qt::Unchecked, Qt::CheckStateRole));
   const auto out = folder_ / "mine.json";
-  panel_->teach().askForPlace = [&](const QString&) { return out; };
+  ask_.newFiles = {pathText(out)};
   find<QPushButton>("teachTrain")->click();
   settle();
   const TrainedModel model = loadModel(out);

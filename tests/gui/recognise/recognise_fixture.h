@@ -13,6 +13,7 @@
 #include <palpate/recording/recording.h>
 
 #include "gui/recognise/recognise_panel.h"
+#include "gui/testing/fake_ask.h"
 #include "gui/testing/window_fixture.h"
 
 namespace palpate::gui {
@@ -31,7 +32,7 @@ inline Profile graspsOf(const std::string& name, int count, std::uint64_t seed =
 class RecognisePanelTest : public ::testing::Test {
  protected:
   RecognisePanelTest()
-      : panel_(std::make_unique<RecognisePanel>(settings_, testing::dataFolder())) {
+      : panel_(std::make_unique<RecognisePanel>(settings_, testing::dataFolder(), ask_)) {
     panel_->resize(460, 640);
     applyTheme(*qApp, Theme::kDark);
   }
@@ -55,6 +56,7 @@ class RecognisePanelTest : public ::testing::Test {
     QCoreApplication::processEvents();
   }
   testing::TemporaryFolder folder_;
+  FakeAsk ask_;
   QSettings settings_{QString::fromStdString((folder_ / "palpate.ini").string()),
                       QSettings::IniFormat};
   std::unique_ptr<RecognisePanel> panel_;

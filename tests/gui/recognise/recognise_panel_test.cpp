@@ -225,14 +225,13 @@ TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
   EXPECT_EQ(objects->item(1, 0)->text(), "pen");
   EXPECT_EQ(objects->item(1, 1)->text(), "5");
   const auto out = folder_ / "mine.json";
-  panel_->teach().askForPlace = [&](const QString& suggestion) {
-    EXPECT_EQ(suggestion,
-              QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/objects.json")
-        << "not beside the recordings";
-    return out;
-  };
+  ask_.newFiles = {pathText(out)};
   find<QPushButton>("teachTrain")->click();
   settle();
+  EXPECT_EQ(ask_.newFiles.began,
+            QStringList(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) +
+                        "/objects.json"))
+      << "not beside the recordings";
   EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "mine.json · 2 objects · best, gauss");
   EXPECT_EQ(loadModel(out).classes, (std::vector<std::string>{"ball", "pen"}));
   panel_->show();
@@ -287,7 +286,7 @@ TEST_F(RecognisePanelTest, FeaturesAndClassifierCanBeChosen) {
   ASSERT_TRUE(panel_->teaching().table());
   EXPECT_EQ(panel_->teaching().table()->set, FeatureSet::kStudy);
   const auto out = folder_ / "mine.json";
-  panel_->teach().askForPlace = [&](const QString&) { return out; };
+  ask_.newFiles = {pathText(out)};
   find<QPushButton>("teachTrain")->click();
   settle();
   const TrainedModel model = loadModel(out);
@@ -344,7 +343,7 @@ TEST_F(RecognisePanelTest, OneObjectIsTooFew) {
   QString message;
   QObject::connect(
       panel_.get(), &RecognisePanel::failed, [&](const QString& text) { message = text; });
-  panel_->teach().askForPlace = [&](const QString&) { return folder_ / "m.json"; };
+  ask_.newFiles = {pathText(folder_ / "m.json")};
   find<QPushButton>("teachTrain")->click();
   settle();
   EXPECT_TRUE(message.contains("two classes") || message.contains("one class") ||
@@ -448,7 +447,7 @@ TEST_F(RecognisePanelTest, ThePhotoOfTheFolderIsDrawn) {
   const auto folder = teach({"ball", "pen"}, 3);
   panel_->teaching().setFolder(folder);
   settle();
-  panel_->teach().askForPlace = [&](const QString&) { return folder_ / "mine.json"; };
+  ask_.newFiles = {pathText(folder_ / "mine.json")};
   find<QPushButton>("teachTrain")->click();
   settle();
   panel_->show();
@@ -503,7 +502,7 @@ TEST_F(RecognisePanelTest, EscGivesUpTrainingAndLeavesNoModel) {
   panel_->teaching().setFolder(teach({"ball", "pen"}, 3));
   settle();
   const auto out = folder_ / "mine.json";
-  panel_->teach().askForPlace = [&](const QString&) { return out; };
+  ask_.newFiles = {pathText(out)};
   find<QPushButton>("teachTrain")->click();
   ASSERT_TRUE(panel_->teaching().busy());
   EXPECT_TRUE(panel_->cancel()) << "what Esc does";

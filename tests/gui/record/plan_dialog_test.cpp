@@ -27,7 +27,7 @@ class PlanDialogTest : public WindowStateTest {
       : controller_(windowState_->settings),
         record_(windowState_->actions.make("record", "Hand", "&Record")) {
     QObject::connect(record_, &QAction::triggered, record_, [this] { ++recorded_; });
-    windowState_->prompts.confirmed = [](const QString&, const QString&) { return true; };
+    ask_.choices = {"Begin anew"};
     controller_.addRow({.object = "ball", .run = "left", .repetitions = 2, .notes = "slowly"});
     controller_.addRow({.object = "cup"});
     dialog_ = std::make_unique<PlanDialog>(*windowState_, controller_, record_);
@@ -142,8 +142,8 @@ TEST_F(PlanDialogTest, RowsAreAddedAndRemoved) {
 TEST_F(PlanDialogTest, TablesAreReadAndWritten) {
   const QString path = QString::fromStdString((folder_ / "plan.csv").string());
   testing::writeFile(folder_ / "plan.csv", "object,repetitions\npen,x\n");
-  windowState_->prompts.file = [&](const QString&, const QString&, const QString&) { return path; };
-  windowState_->prompts.newFile = windowState_->prompts.file;
+  ask_.files = {path};
+  ask_.newFiles = {path};
   click("planImport");
   EXPECT_EQ(said(), "reading plan.csv…") << "in the background";
   controller_.settle();

@@ -28,10 +28,7 @@ class PlanWindowTest : public WindowTest {
     begin();
   }
   void begin() {
-    window().state().prompts.plan = [this](const QString& text) {
-      asked_.append(text);
-      return answer_;
-    };
+    ask_.choices = {"Follow the plan"};
     window().state().prompts.recording = [this](const RecordingSettings&, const QString&) {
       ++askedForName_;
       return std::optional<RecordingSettings>();
@@ -66,8 +63,6 @@ class PlanWindowTest : public WindowTest {
     plan().setFollowed(true);
   }
 
-  QStringList asked_;
-  UserPrompts::Plan answer_ = UserPrompts::Plan::kFollow;
   int askedForName_ = 0;
 };
 
@@ -80,7 +75,7 @@ TEST_F(PlanWindowTest, TheButtonAndTheCountdownNameTheTake) {
       << record()->toolTip().toStdString();
   record()->trigger();
   EXPECT_EQ(find<QLabel>("countdownText")->text(), "pen, right, 1 of 3: recording begins in 3 s");
-  EXPECT_TRUE(asked_.isEmpty()) << "it was followed in this session";
+  EXPECT_TRUE(ask_.choices.asked.isEmpty()) << "it was followed in this session";
   EXPECT_TRUE(counts());
   plan().setFollowed(false);
   EXPECT_EQ(record()->iconText(), " Record");
@@ -139,16 +134,16 @@ TEST_F(PlanWindowTest, ANewSessionAsksOnce) {
   begin();
   EXPECT_EQ(record()->iconText(), " Record: pen, right, 1 of 3");
   connectScene();
-  EXPECT_TRUE(asked_.isEmpty()) << "only who records is asked";
+  EXPECT_TRUE(ask_.choices.asked.isEmpty()) << "only who records is asked";
   record()->trigger();
-  ASSERT_EQ(asked_.size(), 1);
-  EXPECT_EQ(asked_[0],
+  ASSERT_EQ(ask_.choices.asked.size(), 1);
+  EXPECT_EQ(ask_.choices.asked[0],
             "The plan of recordings was followed in an earlier session. Next in it: pen, right, 1 "
             "of 3. Is it still followed?");
   EXPECT_TRUE(counts());
   record()->trigger();
   EXPECT_TRUE(counts());
-  EXPECT_EQ(asked_.size(), 1);
+  EXPECT_EQ(ask_.choices.asked.size(), 1);
   EXPECT_EQ(askedForName_, 0);
 }
 
@@ -157,13 +152,12 @@ TEST_F(PlanWindowTest, NoUnticksThePlanAndCancelRecordsNothing) {
   start();
   begin();
   connectScene();
-  answer_ = UserPrompts::Plan::kCancel;
+  ask_.choices = {QString(), "Don't follow it"};
   record()->trigger();
   EXPECT_FALSE(counts());
   EXPECT_TRUE(plan().followed());
-  answer_ = UserPrompts::Plan::kLeave;
   record()->trigger();
-  EXPECT_EQ(asked_.size(), 2);
+  EXPECT_EQ(ask_.choices.asked.size(), 2);
   EXPECT_FALSE(plan().followed());
   EXPECT_EQ(askedForName_, 1) << "as without a plan";
   EXPECT_EQ(record()->iconText(), " Record");
@@ -179,7 +173,7 @@ TEST_F(PlanWindowTest, AnotherHandAsks) {
   connectScene("ball");
   record()->trigger();
   EXPECT_TRUE(counts());
-  EXPECT_TRUE(asked_.isEmpty());
+  EXPECT_TRUE(ask_.choices.asked.isEmpty());
   // A recorded hand with a number of its own.
   testing::writeSamples(folder_ / "other.palpate", 70, true);
   Connection replay;
@@ -188,8 +182,9 @@ TEST_F(PlanWindowTest, AnotherHandAsks) {
   window().state().live.end();
   connectTo(replay);
   record()->trigger();
-  ASSERT_EQ(asked_.size(), 1);
-  EXPECT_TRUE(asked_[0].contains("with another hand")) << asked_[0].toStdString();
+  ASSERT_EQ(ask_.choices.asked.size(), 1);
+  EXPECT_TRUE(ask_.choices.asked[0].contains("with another hand"))
+      << ask_.choices.asked[0].toStdString();
 }
 
 TEST_F(PlanWindowTest, ALongNameIsElidedToTheRoomInTheBar) {

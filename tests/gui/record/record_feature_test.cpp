@@ -161,10 +161,9 @@ TEST_F(RecordFeatureTest, ATakeThatIsDiscardedInTwoStepsCountsNoLonger) {
   emit windowState_->live.recordingEnded(report);
   feature_.plan().settle();
   QCoreApplication::processEvents();
-  int asked = 0;
-  windowState_->prompts.confirmed = [&](const QString&, const QString&) { return ++asked != 2; };
+  ask_.choices = {"Discard", QString(), "Discard"};
   feature_.lastTake().moveToTrash = [&](const QString& path) {
-    return (asked > 2 || !path.endsWith("_2.palpate")) && QFile::remove(path);
+    return (ask_.choices.asked.size() > 2 || !path.endsWith("_2.palpate")) && QFile::remove(path);
   };
   feature_.lastTake().discard();
   ASSERT_EQ(feature_.plan().plan().rows()[0].takes.size(), 1u);
@@ -298,7 +297,7 @@ TEST_F(RecordFeatureTest, ATakeToBeDecidedCanBeDiscardedAfterARestartAndNothingB
   const auto others = question.findChildren<QPushButton*>("offerOther");
   ASSERT_EQ(others.size(), 2);
   ASSERT_EQ(others[1]->text(), "Discard…");
-  windowState_->prompts.confirmed = [](const QString&, const QString&) { return true; };
+  ask_.choices = {"Discard"};
   QStringList trashed;
   feature_.lastTake().moveToTrash = [&](const QString& path) {
     trashed << path;
@@ -447,7 +446,8 @@ TEST_F(RecordFeatureTest, OneThatEndsByItselfOnAFailingDiskOffersAnotherFolder) 
   EXPECT_TRUE(offered().startsWith("The recording has reached its end, but can't be written"))
       << offered().toStdString();
   bool asked = false;
-  windowState_->prompts.endRecording = [&] {
+  windowState_->prompts.endRecording = [&](UserPrompts::Ending ending) {
+    EXPECT_EQ(ending, UserPrompts::Ending::kStop);
     asked = true;
     live.continueRecordingIn(other);
     return true;

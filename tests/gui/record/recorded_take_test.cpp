@@ -15,15 +15,7 @@ class RecordedTakeTest : public WindowStateTest {
   RecordedTakeTest() : take_(*windowState_) {
     for (const char* name : {"run_001.palpate", "run_001.mcap"})
       testing::writeFile(folder_ / name, name);
-    windowState_->prompts.text = [this](const QString& title, const QString& text) {
-      titles_ << title;
-      offered_ << text;
-      return answers_.isEmpty() ? std::optional<QString>() : answers_.takeFirst();
-    };
-    windowState_->prompts.confirmed = [this](const QString& text, const QString&) {
-      titles_ << text;
-      return agreed_;
-    };
+    ask_.choices = {"Discard", "Delete"};
     take_.moveToTrash = [this](const QString& path) {
       if (!trash_ || path.endsWith(fails_)) return false;
       trashed_ << path.section('/', -1);
@@ -38,18 +30,17 @@ class RecordedTakeTest : public WindowStateTest {
   bool there(const char* name) { return fs::exists(folder_ / name); }
 
   RecordedTake take_;
-  QStringList titles_, offered_, failed_, trashed_, answers_;
-  bool agreed_ = true;
+  QStringList failed_, trashed_;
   bool trash_ = true;
   QString fails_ = "none";  // the end of the name that the trash doesn't take
 };
 
 TEST_F(RecordedTakeTest, GetsANewNameWithWhatBelongsToIt) {
-  answers_ = {" good ball.palpate "};
+  ask_.texts = {" good ball.palpate "};
   QSignalSpy changed(&take_, &RecordedTake::changed);
   take_.rename();
-  EXPECT_EQ(titles_, QStringList("Rename run_001.palpate"));
-  EXPECT_EQ(offered_, QStringList("run_001"));
+  EXPECT_EQ(ask_.texts.asked, QStringList("Rename run_001.palpate"));
+  EXPECT_EQ(ask_.texts.began, QStringList("run_001"));
   EXPECT_EQ(take_.paths().front(), folder_ / "good_ball.palpate");
   EXPECT_TRUE(there("good_ball.palpate"));
   EXPECT_TRUE(there("good_ball.mcap"));
@@ -59,43 +50,43 @@ TEST_F(RecordedTakeTest, GetsANewNameWithWhatBelongsToIt) {
 
 TEST_F(RecordedTakeTest, ATakenNameIsSaidAndAskedAgainWithWhatWasTyped) {
   testing::writeFile(folder_ / "taken.palpate", "other");
-  answers_ = {"taken", "free"};
+  ask_.texts = {"taken", "free"};
   take_.rename();
-  ASSERT_EQ(titles_.size(), 2);
-  EXPECT_TRUE(titles_[1].startsWith("Rename run_001.palpate\n"));
-  EXPECT_TRUE(titles_[1].contains("exists already; give another name"));
-  EXPECT_EQ(offered_[1], "taken");
+  EXPECT_EQ(ask_.texts.asked, QStringList(2, "Rename run_001.palpate"));
+  EXPECT_TRUE(ask_.texts.filters[1].contains("exists already; give another name"));
+  EXPECT_EQ(ask_.texts.began[1], "taken");
   EXPECT_TRUE(there("free.palpate"));
   EXPECT_EQ(testing::readFile(folder_ / "taken.palpate"), "other");
 }
 
 TEST_F(RecordedTakeTest, WhatIsNoNameChangesNothing) {
-  answers_ = {" .. ", " .. "};
+  ask_.texts = {" .. "};
   take_.rename();
   EXPECT_TRUE(there("run_001.palpate"));
   EXPECT_EQ(failed_, QStringList("that is no name of a file"));
 }
 
 TEST_F(RecordedTakeTest, IsDiscardedIntoTheTrashAfterAQuestion) {
-  agreed_ = false;
+  ask_.choices = {QString(), "Discard"};
   take_.discard();
   EXPECT_TRUE(there("run_001.palpate"));
-  agreed_ = true;
   take_.discard();
-  EXPECT_EQ(titles_.back(), "Discard run_001.palpate? It is moved to the trash.");
+  EXPECT_EQ(ask_.choices.asked.back(), "Discard run_001.palpate? It is moved to the trash.");
   EXPECT_EQ(trashed_, (QStringList{"run_001.palpate", "run_001.mcap"}));
   EXPECT_TRUE(take_.paths().empty());
   take_.discard();
   take_.rename();
-  EXPECT_EQ(titles_.size(), 2) << "there is nothing any more";
+  EXPECT_EQ(ask_.choices.asked.size(), 2) << "there is nothing any more";
+  EXPECT_TRUE(ask_.texts.asked.isEmpty());
 }
 
 TEST_F(RecordedTakeTest, WithoutATrashItSaysThatItDeletes) {
   trash_ = false;
   take_.discard();
-  ASSERT_EQ(titles_.size(), 2);
-  EXPECT_TRUE(titles_[1].contains("has no trash")) << titles_[1].toStdString();
-  EXPECT_TRUE(titles_[1].endsWith("for good?"));
+  ASSERT_EQ(ask_.choices.asked.size(), 2);
+  EXPECT_TRUE(ask_.choices.asked[1].contains("has no trash"))
+      << ask_.choices.asked[1].toStdString();
+  EXPECT_TRUE(ask_.choices.asked[1].endsWith("for good?"));
   EXPECT_FALSE(there("run_001.palpate"));
   EXPECT_FALSE(there("run_001.mcap"));
 }
@@ -104,14 +95,10 @@ TEST_F(RecordedTakeTest, OfATakeThatIsHalfInTheTrashTheRestIsNamedAndKept) {
   testing::writeFile(folder_ / "run_001_2.palpate", "");
   take_.set({folder_ / "run_001.palpate", folder_ / "run_001_2.palpate"});
   fails_ = "run_001_2.palpate";
-  int asked = 0;
-  windowState_->prompts.confirmed = [&](const QString& text, const QString&) {
-    titles_ << text;
-    return ++asked == 1;  // discard it, but delete nothing
-  };
+  ask_.choices = {"Discard", QString()};
   take_.discard();
-  ASSERT_EQ(titles_.size(), 2);
-  EXPECT_EQ(titles_[1],
+  ASSERT_EQ(ask_.choices.asked.size(), 2);
+  EXPECT_EQ(ask_.choices.asked[1],
             "Only run_001.palpate, run_001.mcap could be moved to the trash. Delete the rest of "
             "run_001.palpate and 1 more part for good?");
   EXPECT_EQ(failed_,
@@ -135,13 +122,11 @@ TEST_F(RecordedTakeTest, ItIsSaidByWhichPartATakeIsKnownNow) {
     gone.push_back(path);
   });
   fails_ = "run_001_2.palpate";
-  int asked = 0;
-  windowState_->prompts.confirmed = [&](const QString&, const QString&) { return ++asked == 1; };
+  ask_.choices = {"Discard", QString(), "Discard"};
   take_.discard();
   EXPECT_EQ(told, (std::vector{second, first}));
   EXPECT_TRUE(gone.empty());
   fails_ = "none";
-  asked = 0;
   take_.discard();
   EXPECT_EQ(gone, std::vector{second});
 }
@@ -152,13 +137,10 @@ TEST_F(RecordedTakeTest, WhatIsInTheTrashIsSaidAlsoWhereTheRestCantBeDeleted) {
   testing::writeFile(second, "");
   take_.set({folder_ / "run_001.palpate", second});
   fails_ = "run_001_2.palpate";
-  int asked = 0;
-  windowState_->prompts.confirmed = [&](const QString&, const QString&) {
-    if (++asked == 2) {
-      fs::remove(second);
-      fs::create_directories(second / "full");
-    }
-    return true;
+  ask_.choices.meanwhile = [&] {
+    if (ask_.choices.asked.size() < 2) return;
+    fs::remove(second);
+    fs::create_directories(second / "full");
   };
   take_.discard();
   ASSERT_EQ(failed_.size(), 1);
@@ -172,9 +154,8 @@ TEST_F(RecordedTakeTest, WhatIsInTheTrashIsSaidAlsoWhereTheRestCantBeDeleted) {
 TEST_F(RecordedTakeTest, ATakeWhoseFilesAreGoneIsDiscarded) {
   QSignalSpy discarded(&take_, &RecordedTake::discarded);
   trash_ = false;
-  windowState_->prompts.confirmed = [&](const QString& text, const QString&) {
-    titles_ << text;
-    if (titles_.size() < 2) return true;
+  ask_.choices.meanwhile = [&] {
+    if (ask_.choices.asked.size() < 2) return;
     for (const char* name : {"run_001.palpate", "run_001.mcap"}) fs::remove(folder_ / name);
     throw FileError(folder_ / "run_001.palpate", "is gone");
   };

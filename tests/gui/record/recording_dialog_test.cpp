@@ -12,6 +12,7 @@
 #include <QTest>
 #include <QToolButton>
 
+#include "gui/testing/fake_ask.h"
 #include "gui/testing/layout_faults.h"
 #include "testing/testing.h"
 
@@ -37,7 +38,7 @@ class RecordingDialogTest : public ::testing::Test {
     open();
   }
   void open(const QString& okText = "Start recording") {
-    dialog_ = std::make_unique<RecordingDialog>(given_, okText, nullptr, clock_);
+    dialog_ = std::make_unique<RecordingDialog>(given_, okText, ask_, nullptr, clock_);
     dialog_->show();
     dialog_->activateWindow();
   }
@@ -212,17 +213,12 @@ TEST_F(RecordingDialogTest, PlaceholdersGoWhereTheCursorIsWithWhatJoinsThem) {
 
 TEST_F(RecordingDialogTest, BrowseBeginsWhereTheFolderIsOrWillBe) {
   type("recordingFolder", given_.folder + "/not/there");
-  QString begin;
-  QString answer;
-  dialog_->askForFolder = [&](const QString& from) {
-    begin = from;
-    return answer;
-  };
   QTest::mouseClick(find<QPushButton>("recordingBrowse"), Qt::LeftButton);
-  EXPECT_EQ(begin, given_.folder);
+  EXPECT_EQ(ask_.folders.began, QStringList(given_.folder));
   EXPECT_EQ(dialog_->settings().folder, given_.folder + "/not/there") << "cancelled";
   fs::create_directory(folder_ / "chosen");
-  answer = given_.folder + "/chosen";
+  const QString answer = given_.folder + "/chosen";
+  ask_.folders = {answer};
   QTest::mouseClick(find<QPushButton>("recordingBrowse"), Qt::LeftButton);
   EXPECT_EQ(dialog_->settings().folder, answer);
   EXPECT_EQ(place(), "in " + answer);

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/testing/fake_ask.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::settings_dialog_test {
@@ -33,6 +34,7 @@ class SettingsDialogTest : public ::testing::Test {
     dialog_ = std::make_unique<SettingsDialog>(
         begin_,
         [](const QString& folder) { return folder.startsWith("/bad") ? "can't be used" : ""; },
+        ask_,
         nullptr);
     QObject::connect(dialog_.get(), &SettingsDialog::changed, [this](const WindowChoices& now) {
       told_.push_back(now);
@@ -123,13 +125,11 @@ TEST_F(SettingsDialogTest, AFolderThatCantBeUsedIsRefused) {
 }
 
 TEST_F(SettingsDialogTest, BrowseFillsTheField) {
-  dialog_->askForFolder = [](const QString& title, const QString& begin) {
-    EXPECT_EQ(title, "Folder of recordings");
-    EXPECT_EQ(begin, "/gone/recordings");
-    return QString("/other");
-  };
+  ask_.folders = {"/other"};
   for (QPushButton* button : dialog_->findChildren<QPushButton*>())
     if (button->accessibleName().contains("recordings")) button->click();
+  EXPECT_EQ(ask_.folders.asked, QStringList("Folder of recordings"));
+  EXPECT_EQ(ask_.folders.began, QStringList("/gone/recordings"));
   EXPECT_EQ(dialog_->choices().recordings, "/other");
 }
 

@@ -73,6 +73,14 @@ class ModalCloser : public QObject {
   std::int64_t seenUs_ = 0, seenCpuUs_ = 0;
 };
 
+// Dialogues ask, but unsaved labels are discarded.
+class DiscardingAsk : public DialogAsk {
+ public:
+  int choice(const QString& text, const QStringList& buttons, int enter) override {
+    return buttons == QStringList{"Save", "Discard"} ? 1 : DialogAsk::choice(text, buttons, enter);
+  }
+};
+
 // Something that can be pressed. It may be gone by the time it is its turn.
 struct Pressable {
   std::string name;
@@ -281,6 +289,7 @@ class PressedWindow {
     WindowEnvironment environment;
     environment.dataFolder = folder_ / "data";
     environment.settingsPath = QString::fromStdString((folder_ / "palpate.ini").string());
+    environment.ask = &ask_;
     window_ = std::make_unique<MainWindow>(environment);
     window_->resize(1440, 900);
     window_->show();
@@ -289,10 +298,7 @@ class PressedWindow {
     window_->state().prompts.connection = [](const Connection&) {
       return std::optional<Connection>();
     };
-    window_->state().prompts.endRecording = [] { return true; };
-    window_->state().prompts.unsaved = [](const QString&) {
-      return UserPrompts::Unsaved::kDiscard;
-    };
+    window_->state().prompts.endRecording = [](UserPrompts::Ending) { return true; };
     window_->state().prompts.recording = [this](RecordingSettings settings, const QString&) {
       settings.folder = QString::fromStdString((folder_ / "runs").string());
       return std::optional(settings);
@@ -327,10 +333,6 @@ class PressedWindow {
   }
   void end() {
     if (!window_) return;
-    window_->state().prompts.unsaved = [](const QString&) {
-      return UserPrompts::Unsaved::kDiscard;
-    };
-    window_->state().prompts.endRecording = [] { return true; };
     window_->close();
     EXPECT_TRUE(await([&] { return !window_->isVisible(); }));
     window_.reset();
@@ -447,6 +449,7 @@ class PressedWindow {
   Bench bench_{testing::handWith("ball")};
   testing::Heartbeat heartbeat_;
   ModalCloser closer_;
+  DiscardingAsk ask_;
   std::unique_ptr<MainWindow> window_;
 };
 

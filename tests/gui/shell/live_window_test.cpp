@@ -62,7 +62,7 @@ class LiveWindowTest : public WindowTest {
       settings.markLabels[2] = "slip";
       return std::optional(settings);
     };
-    window().state().prompts.endRecording = [this] {
+    window().state().prompts.endRecording = [this](UserPrompts::Ending) {
       ++askedToEnd_;
       return mayEnd_;
     };
@@ -308,10 +308,8 @@ TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {
 
 TEST_F(LiveWindowTest, DiscardedLabelsStayWhenTheWindowStays) {
   open({"good.dsa"});
-  window().state().prompts.text = [](const QString&, const QString&) {
-    return std::optional<QString>("touch");
-  };
-  window().state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
+  ask_.texts = {"touch"};
+  ask_.choices = {"Discard"};
   press(Qt::Key_B, Qt::ControlModifier);
   ASSERT_TRUE(window().state().events.editor()->unsaved());
   connectEmulated("empty");
@@ -371,9 +369,7 @@ TEST_F(LiveWindowTest, AskedToEndByASignalItStopsAndFinishesWithoutAsking) {
 // The window stays open with what can't be saved, but the hand doesn't go on.
 TEST_F(LiveWindowTest, AskedToEndByASignalItStopsTheHandAlsoWhenLabelsCannotBeSaved) {
   open({"good.dsa"});
-  window().state().prompts.text = [](const QString&, const QString&) {
-    return std::optional<QString>("touch");
-  };
+  ask_.texts = {"touch"};
   press(Qt::Key_B, Qt::ControlModifier);
   ASSERT_TRUE(window().state().events.editor()->unsaved());
   std::filesystem::remove(folder_ / "good.dsa");
@@ -385,14 +381,14 @@ TEST_F(LiveWindowTest, AskedToEndByASignalItStopsTheHandAlsoWhenLabelsCannotBeSa
   EXPECT_TRUE(live().source()) << "still connected";
   ASSERT_TRUE(await([&] { return bannerText().contains("not saved"); }));
   EXPECT_TRUE(window().isVisible());
-  window().state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
+  ask_.choices = {"Discard"};
 }
 
 TEST_F(LiveWindowTest, AskedToEndByASignalWhileItAsksItEnds) {
   connectEmulated();
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
-  window().state().prompts.endRecording = [this] {
+  window().state().prompts.endRecording = [this](UserPrompts::Ending) {
     ++askedToEnd_;
     QDialog question(&window());
     QTimer::singleShot(0, &question, [this] { window().endNow(); });

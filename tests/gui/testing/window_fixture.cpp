@@ -28,8 +28,11 @@ WindowTest::WindowTest() {
       if (!progress(0.5)) throw Cancelled();
     throw FormatError(path, "is not a recording: <b>no frames</b>", 17);
   };
-  environment_ = {
-      .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_, .read = read};
+  environment_ = {.dataFolder = folder_.path(),
+                  .settingsPath = settingsFile(),
+                  .clock = &clock_,
+                  .read = read,
+                  .ask = &ask_};
 }
 
 WindowTest::~WindowTest() { window_.reset(); }

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "gui/shell/main_window.h"
+#include "gui/testing/fake_ask.h"
 #include "gui/testing/fake_clock.h"
 #include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
@@ -48,6 +49,7 @@ class WindowTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   FakeClock clock_;
+  FakeAsk ask_;
   std::atomic<int> reads_ = 0;
   WindowEnvironment environment_;  // without `read` files are read as they are
   std::unique_ptr<MainWindow> window_;

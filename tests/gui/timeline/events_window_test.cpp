@@ -40,6 +40,9 @@ class EventsWindowTest : public WindowTest {
   EventsWindowTest() : path_(folder_ / "grasps.palpate") {
     saveRecording(synthesize({.durationS = 12.0, .grasps = 3}, &truth_), {}, path_);
     environment_.read = {};
+    ask_.texts = {"touch"};
+    ask_.newFiles = {pathText(folder_ / "part.palpate")};
+    ask_.choices = {"Save"};
     reopen();
   }
   void reopen() {
@@ -47,18 +50,6 @@ class EventsWindowTest : public WindowTest {
     start();
     window().state().open({path_});
     waitUntilOpened();
-    window().state().prompts.text = [this](const QString& title, const QString&) {
-      title_ = title;
-      return answer_;
-    };
-    window().state().prompts.cropped = [this](const QString& suggestion) {
-      suggested_ = suggestion;
-      return QString::fromStdString((folder_ / cropName_).string());
-    };
-    window().state().prompts.unsaved = [this](const QString&) {
-      ++asked_;
-      return unsaved_;
-    };
   }
   EventRows& rows() { return window().feature<TimelineFeature>().panel().rows(); }
   TimelineChart& chart() { return window().feature<TimelineFeature>().panel().chart(); }
@@ -70,12 +61,6 @@ class EventsWindowTest : public WindowTest {
 
   std::filesystem::path path_;
   SyntheticTruth truth_;
-  std::optional<QString> answer_ = "touch";
-  QString title_;  // of the last question for a text
-  std::string cropName_ = "part.palpate";
-  QString suggested_;
-  UserPrompts::Unsaved unsaved_ = UserPrompts::Unsaved::kSave;
-  int asked_ = 0;
 };
 
 TEST_F(EventsWindowTest, TheThirdGraspIsFoundSelectedAndCropped) {
@@ -88,7 +73,8 @@ TEST_F(EventsWindowTest, TheThirdGraspIsFoundSelectedAndCropped) {
   press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
   window().settle();
   ASSERT_EQ(written.size(), 1);
-  EXPECT_TRUE(suggested_.contains("grasps_000")) << suggested_.toStdString();
+  ASSERT_EQ(ask_.newFiles.began.size(), 1);
+  EXPECT_TRUE(ask_.newFiles.began[0].contains("grasps_000"));
   const Profile part = openRecording(folder_ / "part.palpate");
   EXPECT_NEAR(
       static_cast<double>(part.numFrames()), static_cast<double>(third.end - third.begin + 1), 5);
@@ -132,10 +118,11 @@ TEST_F(EventsWindowTest, NGoesOnFromTheCursor) {
 TEST_F(EventsWindowTest, ALabelDoesNotEndTheWayFromGraspToGrasp) {
   for (int grasp = 0; grasp < 3; ++grasp) {
     press(Qt::Key_N);
-    answer_ = QString("g%1").arg(grasp);
+    const QString text = QString("g%1").arg(grasp);
+    ask_.texts = {text};
     press(Qt::Key_B, Qt::ControlModifier);
     ASSERT_TRUE(rows().chosen());
-    EXPECT_EQ(rows().marks()[*rows().chosen()].text, *answer_) << "what was made is chosen";
+    EXPECT_EQ(rows().marks()[*rows().chosen()].text, text) << "what was made is chosen";
   }
   const auto& events = window().state().events.editor()->events();
   ASSERT_EQ(events.size(), 3u);
@@ -194,18 +181,13 @@ TEST_F(EventsWindowTest, LabelsGoOutAsATableAndComeBack) {
   playback().seekSeconds(2.0);
   press(Qt::Key_B, Qt::ControlModifier);
   chart().setSelection(TimeSpan{3.0, 4.0});
-  answer_ = "slow, \"very\"";
+  ask_.texts = {"slow, \"very\""};
   press(Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
   const QString table = QString::fromStdString((folder_ / "labels.csv").string());
-  QString proposed;
-  window().state().prompts.newFile =
-      [&](const QString&, const QString& suggestion, const QString&) {
-        proposed = suggestion;
-        return table;
-      };
-  window().state().prompts.file = [&](auto&&...) { return table; };
+  ask_.newFiles = {table};
+  ask_.files = {table};
   actions().at("exportLabels")->trigger();
-  EXPECT_TRUE(proposed.endsWith("grasps_labels.csv"));
+  EXPECT_TRUE(ask_.newFiles.began.back().endsWith("grasps_labels.csv"));
   EXPECT_EQ(testing::readFile(table.toStdString()),
             "begin_s,end_s,kind,text,matrix\n"
             "2.000000,2.000000,label,touch,\n"
@@ -245,7 +227,7 @@ TEST_F(EventsWindowTest, LabelsComeIntoTheRecordingThatWasShownOrItIsSaid) {
   testing::writeFile(table.toStdString(), "begin_s,text\n1,good\n");
   const std::filesystem::path other = folder_ / "other.palpate";
   saveRecording(synthesize({.durationS = 2.0, .grasps = 1}), {}, other);
-  window().state().prompts.file = [&](auto&&...) { return table; };
+  ask_.files = {table};
   EventEditor* editor = window().state().events.editor();
   {
     HeldReadings held;
@@ -259,7 +241,7 @@ TEST_F(EventsWindowTest, LabelsComeIntoTheRecordingThatWasShownOrItIsSaid) {
   FileReading::settleAll(window());
   EXPECT_EQ(editor->events().size(), 1u);
   EXPECT_TRUE(window().state().events.editor()->events().empty());
-  window().state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
+  ask_.choices = {"Discard"};
   {
     HeldReadings held;
     actions().at("importLabels")->trigger();
@@ -273,9 +255,7 @@ TEST_F(EventsWindowTest, LabelsComeIntoTheRecordingThatWasShownOrItIsSaid) {
 TEST_F(EventsWindowTest, EachGraspIsExportedWithItsLabels) {
   playback().seekFrame((truth_.grasps[1].begin + truth_.grasps[1].end) / 2);
   press(Qt::Key_B, Qt::ControlModifier);
-  window().state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
-    return QString::fromStdString((folder_ / "parts/one.palpate").string());
-  };
+  ask_.newFiles = {pathText(folder_ / "parts/one.palpate")};
   actions().at("exportGrasps")->trigger();
   window().settle();
   EXPECT_EQ(bannerText(), "");
@@ -514,7 +494,7 @@ TEST_F(EventsWindowTest, LabelsAndNotesAreMadeUndoneAndSaved) {
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
   EXPECT_TRUE(window().windowTitle().contains("*")) << "not saved yet";
   chart().setSelection(TimeSpan{3.0, 4.0});
-  answer_ = "slow";
+  ask_.texts = {"slow"};
   press(Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_EQ(marksIn(EventLane::kNotes), 1);
   press(Qt::Key_Z, Qt::ControlModifier);
@@ -537,9 +517,8 @@ TEST_F(EventsWindowTest, LabelsAndNotesAreMadeUndoneAndSaved) {
 }
 
 TEST_F(EventsWindowTest, ACancelledOrEmptyTextMakesNothing) {
-  answer_.reset();
+  ask_.texts = {QString(), ""};
   press(Qt::Key_B, Qt::ControlModifier);
-  answer_ = "";
   press(Qt::Key_B, Qt::ControlModifier);
   EXPECT_EQ(marksIn(EventLane::kLabels), 0);
   EXPECT_FALSE(window().state().events.editor()->unsaved());
@@ -596,14 +575,14 @@ TEST_F(EventsWindowTest, GraspsAreAddedAndDeletedToTheLast) {
 
 TEST_F(EventsWindowTest, UnsavedWorkIsAskedAboutOnce) {
   press(Qt::Key_B, Qt::ControlModifier);
-  unsaved_ = UserPrompts::Unsaved::kCancel;
+  ask_.choices = {QString()};
   window().close();
-  EXPECT_EQ(asked_, 1);
+  EXPECT_EQ(ask_.choices.asked.size(), 1);
   EXPECT_TRUE(window().isVisible()) << "the user would rather go on";
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_EQ(asked_, 2);
+  EXPECT_EQ(ask_.choices.asked.size(), 2);
   EXPECT_TRUE(window().state().displayed.unfilteredRecording());
-  unsaved_ = UserPrompts::Unsaved::kDiscard;
+  ask_.choices = {"Discard"};
   press(Qt::Key_W, Qt::ControlModifier);
   EXPECT_FALSE(window().state().displayed.unfilteredRecording());
   EXPECT_TRUE(readEvents(path_).events.empty());
@@ -615,32 +594,32 @@ TEST_F(EventsWindowTest, AFileIsReadAnewOnlyWhenItsLabelsAreSettled) {
     waitUntilOpened();
   };
   press(Qt::Key_B, Qt::ControlModifier);
-  unsaved_ = UserPrompts::Unsaved::kCancel;
+  ask_.choices = {QString()};
   openAgain();
-  EXPECT_EQ(asked_, 1);
+  EXPECT_EQ(ask_.choices.asked.size(), 1);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
   EXPECT_TRUE(window().state().events.editor()->unsaved());
-  unsaved_ = UserPrompts::Unsaved::kSave;
+  ask_.choices = {"Save"};
   openAgain();
-  EXPECT_EQ(asked_, 2);
+  EXPECT_EQ(ask_.choices.asked.size(), 2);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1) << "read from the file";
   EXPECT_FALSE(window().state().events.editor()->unsaved());
   playback().seekSeconds(3.0);
   press(Qt::Key_B, Qt::ControlModifier);
   EXPECT_EQ(marksIn(EventLane::kLabels), 2);
-  unsaved_ = UserPrompts::Unsaved::kDiscard;
+  ask_.choices = {"Discard"};
   openAgain();
-  EXPECT_EQ(asked_, 3);
+  EXPECT_EQ(ask_.choices.asked.size(), 3);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
   openAgain();
-  EXPECT_EQ(asked_, 3) << "everything is saved";
+  EXPECT_EQ(ask_.choices.asked.size(), 3) << "everything is saved";
 }
 
 TEST_F(EventsWindowTest, LabelsMadeWhileTheirFileIsReadAnewStay) {
   window().state().open({path_});
   press(Qt::Key_B, Qt::ControlModifier);
   waitUntilOpened();
-  EXPECT_EQ(asked_, 0);
+  EXPECT_EQ(ask_.choices.asked.size(), 0);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
   EXPECT_TRUE(window().state().events.editor()->unsaved());
 }
@@ -648,7 +627,7 @@ TEST_F(EventsWindowTest, LabelsMadeWhileTheirFileIsReadAnewStay) {
 TEST_F(EventsWindowTest, DiscardedLabelsGoOnlyWhenTheirFileWasReadAnew) {
   press(Qt::Key_B, Qt::ControlModifier);
   std::filesystem::remove(path_);
-  unsaved_ = UserPrompts::Unsaved::kDiscard;
+  ask_.choices = {"Discard"};
   window().state().open({path_});
   waitUntilOpened();
   EXPECT_FALSE(bannerText().isEmpty());
@@ -672,9 +651,7 @@ TEST_F(EventsWindowTest, WhatCouldntBeSavedIsNotSaidAnyMoreOnceItIsSavedElsewher
   std::filesystem::rename(path_, folder_ / "elsewhere.palpate");
   press(Qt::Key_S, Qt::ControlModifier);
   ASSERT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
-  window().state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
-    return QString::fromStdString((folder_ / "copy.palpate").string());
-  };
+  ask_.newFiles = {pathText(folder_ / "copy.palpate")};
   actions().at("saveAs")->trigger();
   window().settle();
   EXPECT_EQ(bannerText(), "");
@@ -691,9 +668,9 @@ TEST_F(EventsWindowTest, WhatCouldntBeSavedIsNotSaidAnyMoreOnceTheRecordingIsClo
   std::filesystem::remove(path_);
   press(Qt::Key_S, Qt::ControlModifier);
   ASSERT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
-  unsaved_ = UserPrompts::Unsaved::kDiscard;
+  ask_.choices = {"Discard"};
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_EQ(asked_, 1);
+  EXPECT_EQ(ask_.choices.asked.size(), 1);
   EXPECT_EQ(bannerText(), "");
 }
 
@@ -705,27 +682,27 @@ TEST_F(EventsWindowTest, WhatCantBeSavedKeepsTheWindowOpenUntilItIsAnswered) {
   window().endNow();
   ASSERT_TRUE(QTest::qWaitFor([this] { return !bannerText().isEmpty(); }));
   ASSERT_TRUE(window().isVisible());
-  EXPECT_EQ(asked_, 0);
+  EXPECT_EQ(ask_.choices.asked.size(), 0);
   EXPECT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
-  unsaved_ = UserPrompts::Unsaved::kDiscard;
+  ask_.choices = {"Discard"};
   window().close();
-  EXPECT_EQ(asked_, 1);
+  EXPECT_EQ(ask_.choices.asked.size(), 1);
   EXPECT_FALSE(window().isVisible());
 }
 
 TEST_F(EventsWindowTest, ASelectionOfNothingIsSaid) {
   press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
-  EXPECT_TRUE(suggested_.isEmpty()) << "nothing selected: the action is off";
+  EXPECT_TRUE(ask_.newFiles.asked.isEmpty()) << "nothing selected: the action is off";
   chart().setSelection(TimeSpan{0.001, 0.002});
   EXPECT_TRUE(find<QLabel>("selectionWords")->text().contains("no frame"));
   press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
-  EXPECT_TRUE(suggested_.isEmpty());
+  EXPECT_TRUE(ask_.newFiles.asked.isEmpty());
   EXPECT_TRUE(bannerText().contains("No frame")) << bannerText().toStdString();
 }
 
 TEST_F(EventsWindowTest, NothingIsCroppedOntoItself) {
   chart().setSelection(TimeSpan{1.0, 2.0});
-  cropName_ = "grasps.palpate";
+  ask_.newFiles = {pathText(path_)};
   press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
   window().settle();
   EXPECT_FALSE(bannerText().isEmpty());
@@ -736,21 +713,18 @@ TEST_F(EventsWindowTest, NothingIsCroppedOntoItself) {
 TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
   playback().seekSeconds(2.0);
   press(Qt::Key_B, Qt::ControlModifier);
-  QString suggested, filter;
-  QString chosen = QString::fromStdString((folder_ / "copy").string());
-  window().state().prompts.newFile =
-      [&](const QString&, const QString& suggestion, const QString& formats) {
-        suggested = suggestion;
-        filter = formats;
-        return chosen;
-      };
+  ask_.newFiles = {pathText(folder_ / "copy"),
+                   pathText(folder_ / "copy.h5"),
+                   pathText(folder_ / "rescued.palpate"),
+                   pathText(folder_ / "copy.docx")};
   QAction* saveAs = window().state().actions.at("saveAs");
   ASSERT_TRUE(saveAs->isEnabled());
   saveAs->trigger();
   window().settle();
-  EXPECT_TRUE(suggested.endsWith("grasps_copy.palpate")) << suggested.toStdString();
+  ASSERT_EQ(ask_.newFiles.began.size(), 1);
+  EXPECT_TRUE(ask_.newFiles.began[0].endsWith("grasps_copy.palpate"));
   for (const RecordingForm& form : recordingForms())
-    EXPECT_TRUE(filter.contains(form.ending)) << form.ending;
+    EXPECT_TRUE(ask_.newFiles.filters[0].contains(form.ending)) << form.ending;
   const Profile copy = openRecording(folder_ / "copy.palpate");
   const Profile all = openRecording(path_);
   ASSERT_EQ(copy.numFrames(), all.numFrames());
@@ -760,7 +734,6 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
   EXPECT_TRUE(readEvents(path_).events.empty()) << "the original stays as it was";
   EXPECT_TRUE(window().state().actions.at("saveEvents")->isEnabled())
       << "the open recording doesn't have the label";
-  chosen = QString::fromStdString((folder_ / "copy.h5").string());
   saveAs->trigger();
   window().settle();
   EXPECT_TRUE(window().windowTitle().startsWith("grasps.palpate"));
@@ -770,21 +743,17 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
   EXPECT_EQ(openRecording(folder_ / "copy.h5").numFrames(), all.numFrames());
   // The file may be gone since it was opened: what was read can still be saved.
   std::filesystem::rename(path_, folder_ / "elsewhere.palpate");
-  chosen = QString::fromStdString((folder_ / "rescued.palpate").string());
   saveAs->trigger();
   window().settle();
   std::filesystem::rename(folder_ / "elsewhere.palpate", path_);
   EXPECT_EQ(openRecording(folder_ / "rescued.palpate").numFrames(), all.numFrames());
-  chosen = QString::fromStdString((folder_ / "copy.docx").string());
   saveAs->trigger();
   window().settle();
   EXPECT_TRUE(bannerText().contains(".docx")) << bannerText().toStdString();
 }
 
 TEST_F(EventsWindowTest, WhatWasSavedAsAnotherIsOpenedOnDemand) {
-  window().state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
-    return QString::fromStdString((folder_ / "copy.palpate").string());
-  };
+  ask_.newFiles = {pathText(folder_ / "copy.palpate")};
   window().state().actions.at("saveAs")->trigger();
   window().settle();
   waitUntilOpened();
@@ -801,10 +770,11 @@ TEST_F(EventsWindowTest, TheQuestionForALabelSaysWhatIsLabelled) {
   playback().seekSeconds(2.0);
   const double positionS = playback().positionS();
   press(Qt::Key_B, Qt::ControlModifier);
-  EXPECT_EQ(title_, QString("Label at %1 s in grasps.palpate").arg(positionS, 0, 'f', 2));
+  EXPECT_EQ(ask_.texts.asked.back(),
+            QString("Label at %1 s in grasps.palpate").arg(positionS, 0, 'f', 2));
   chart().setSelection(TimeSpan{1.5, 2.5});
   press(Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
-  EXPECT_EQ(title_, "Note from 1.50 s to 2.50 s in grasps.palpate");
+  EXPECT_EQ(ask_.texts.asked.back(), "Note from 1.50 s to 2.50 s in grasps.palpate");
 }
 
 TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
@@ -825,7 +795,7 @@ TEST_F(EventsWindowTest, ChosenTaxelsAreACurveAndCanBeNamed) {
   window().feature<MatricesFeature>().panel().view().select(taxels);
   EXPECT_EQ(chart().graphCount(), before + 1);
   EXPECT_EQ(chart().curves().back().name, "6 chosen taxels");
-  answer_ = "tip";
+  ask_.texts = {"tip"};
   press(Qt::Key_G, Qt::ControlModifier | Qt::ShiftModifier);
   window().feature<MatricesFeature>().panel().view().clearSelection();
   ASSERT_EQ(chart().graphCount(), before + 1);

@@ -12,10 +12,6 @@ namespace {
 class EventControllerTest : public WindowStateTest {
  protected:
   EventControllerTest() : desk_(windowState_->events) {
-    windowState_->prompts.unsaved = [this](const QString& names) {
-      asked_.append(names);
-      return answer_;
-    };
     shown_ = recording((folder_ / "a.dsa").string());
     windowState_->displayed.show(shown_);
   }
@@ -25,8 +21,6 @@ class EventControllerTest : public WindowStateTest {
   }
   EventController& desk_;
   OpenedRecordingPtr shown_;
-  QStringList asked_;
-  UserPrompts::Unsaved answer_ = UserPrompts::Unsaved::kCancel;
 };
 
 TEST_F(EventControllerTest, MarksFollowTheEditor) {
@@ -70,11 +64,12 @@ TEST_F(EventControllerTest, OneOfAKindIsKeptAtATime) {
 
 TEST_F(EventControllerTest, NothingUnsavedGoesWithoutAQuestion) {
   EXPECT_TRUE(desk_.settle({shown_}));
-  EXPECT_TRUE(asked_.isEmpty()) << "nothing was changed";
+  EXPECT_TRUE(ask_.choices.asked.isEmpty()) << "nothing was changed";
   desk_.add(label("lift"), "a label");
   EXPECT_FALSE(desk_.settle({shown_})) << "cancelled";
-  EXPECT_EQ(asked_, QStringList("a.dsa"));
-  answer_ = UserPrompts::Unsaved::kDiscard;
+  ASSERT_EQ(ask_.choices.asked.size(), 1);
+  EXPECT_TRUE(ask_.choices.asked[0].endsWith("not saved:\na.dsa"));
+  ask_.choices = {"Discard"};
   EXPECT_TRUE(desk_.settle({shown_}));
   EXPECT_TRUE(desk_.hasUnsaved(shown_)) << "somebody else may still cancel: it is there until then";
   desk_.discardAll();
@@ -84,7 +79,7 @@ TEST_F(EventControllerTest, NothingUnsavedGoesWithoutAQuestion) {
 TEST_F(EventControllerTest, WhatCannotBeSavedIsSaidAndKept) {
   QSignalSpy failed(&windowState_->messages, &Messages::failed);
   desk_.add(label("lift"), "a label");
-  answer_ = UserPrompts::Unsaved::kSave;
+  ask_.choices = {"Save"};
   std::filesystem::create_directory(folder_ / "a.dsa");  // no file can be written there
   EXPECT_FALSE(desk_.settle({shown_}));
   EXPECT_EQ(failed.count(), 1);

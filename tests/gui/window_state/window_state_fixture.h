@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/testing/fake_ask.h"
 #include "gui/testing/fake_clock.h"
 #include "gui/testing/sample_profiles.h"
 #include "gui/window_state/window_state.h"
@@ -26,7 +27,8 @@ class WindowStateTest : public ::testing::Test {
             .dataFolder = testing::dataFolder(),
             .settingsPath = QString::fromStdString((folder_ / "p.ini").string()),
             .clock = &clock_,
-            .read = [](const std::filesystem::path&, const Progress&) { return twentyFrames(); }},
+            .read = [](const std::filesystem::path&, const Progress&) { return twentyFrames(); },
+            .ask = &ask_},
         &actionsOf_);
     windowState_->menus = {.edit = new QMenu(&actionsOf_),
                            .connections = new QMenu(&actionsOf_),
@@ -57,6 +59,7 @@ class WindowStateTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   FakeClock clock_;
+  FakeAsk ask_;
   QWidget actionsOf_;  // whose actions they are; never shown
   std::unique_ptr<WindowState> windowState_;
 };

@@ -3,7 +3,6 @@
 #include <QAction>
 #include <QCheckBox>
 #include <QDragEnterEvent>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QFrame>
@@ -26,6 +25,7 @@
 
 #include "gui/batch/batch_fields.h"
 #include "gui/batch/batch_results.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/dialog_properties.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
@@ -70,24 +70,22 @@ QStringList pathsOf(const QMimeData& data) {
 
 }  // namespace
 
-BatchDialog::BatchDialog(QSettings& settings, BatchController& controller, QWidget* parent)
-    : QDialog(parent), settings_(settings), controller_(controller), pages_(new QTabWidget) {
+BatchDialog::BatchDialog(QSettings& settings,
+                         BatchController& controller,
+                         Ask& ask,
+                         QWidget* parent)
+    : QDialog(parent),
+      settings_(settings),
+      controller_(controller),
+      ask_(ask),
+      pages_(new QTabWidget) {
   setWindowTitle("Batch");
   setObjectName("batchDialog");
   setStyleSheet(kBatchStyle);
   setProperty(kWantsStopProperty, true);
   setAcceptDrops(true);
   setSizeGripEnabled(true);
-  askForFiles = [this] {
-    return QFileDialog::getOpenFileNames(this,
-                                         "Recordings to read",
-                                         settings_.value(kBatchFoldersKey).toString(),
-                                         "Recordings (*.palpate *.dsa);;All files (*)");
-  };
-  askForFolder = [this](const QString& begin) {
-    return QFileDialog::getExistingDirectory(this, "Choose a folder", begin);
-  };
-  results_ = named(new BatchResults, "batchResults");
+  results_ = named(new BatchResults(ask), "batchResults");
   pages_->setObjectName("batchPages");
   pages_->setDocumentMode(true);
   pages_->addTab(makeChoices(), "&Choices");
@@ -142,9 +140,14 @@ QWidget* BatchDialog::makeRecordings() {
   paths_->addAction(removeKey);
   connect(removeKey, &QAction::triggered, this, &BatchDialog::removeChosen);
   connect(remove_, &QPushButton::clicked, this, &BatchDialog::removeChosen);
-  connect(files, &QPushButton::clicked, this, [this] { addPaths(askForFiles()); });
+  connect(files, &QPushButton::clicked, this, [this] {
+    addPaths(ask_.files("Recordings to read",
+                        settings_.value(kBatchFoldersKey).toString(),
+                        "Recordings (*.palpate *.dsa);;All files (*)"));
+  });
   connect(folder, &QPushButton::clicked, this, [this] {
-    const QString chosen = askForFolder(settings_.value(kBatchFoldersKey).toString());
+    const QString chosen =
+        ask_.folder("Choose a folder", settings_.value(kBatchFoldersKey).toString());
     if (!chosen.isEmpty()) addPaths({chosen});
   });
   connect(paths_, &QListWidget::itemSelectionChanged, this, &BatchDialog::showState);
@@ -160,7 +163,7 @@ QWidget* BatchDialog::makePlace() {
   folder_->setPlaceholderText("the folder of the results; it is made where it is missing");
   auto* browse = batchButton("batchBrowse", "&Browse…");
   connect(browse, &QPushButton::clicked, this, [this] {
-    const QString chosen = askForFolder(folder_->text());
+    const QString chosen = ask_.folder("Choose a folder", folder_->text());
     if (!chosen.isEmpty()) folder_->setText(chosen);
   });
   auto* folderRow = inRow({{folder_, 1}, browse});

@@ -6,7 +6,6 @@
 #include <QDialog>
 #include <QSettings>
 #include <QTimer>
-#include <functional>
 
 #include "gui/batch/batch_choices.h"
 #include "gui/batch/batch_controller.h"
@@ -23,6 +22,7 @@ class QTabWidget;
 
 namespace palpate::gui {
 
+class Ask;
 class BatchFields;
 class BatchResults;
 
@@ -30,7 +30,10 @@ class BatchDialog : public QDialog {
   Q_OBJECT
  public:
   // Begins with the choices of the settings. Both must outlive the dialog.
-  BatchDialog(QSettings& settings, BatchController& controller, QWidget* parent = nullptr);
+  BatchDialog(QSettings& settings,
+              BatchController& controller,
+              Ask& ask,
+              QWidget* parent = nullptr);
   ~BatchDialog() override;
 
   BatchChoices choices() const;
@@ -46,10 +49,6 @@ class BatchDialog : public QDialog {
   BatchResults& results() noexcept { return *results_; }
   // Starts the batch when nothing speaks against it.
   void start();
-
-  // Ask for recordings, or for a folder to read or to write into; empty: cancelled.
-  std::function<QStringList()> askForFiles;
-  std::function<QString(const QString& begin)> askForFolder;
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -72,6 +71,7 @@ class BatchDialog : public QDialog {
 
   QSettings& settings_;
   BatchController& controller_;
+  Ask& ask_;
   BatchLook look_;
   // Counts the changes of the choices: a look at earlier ones is not shown.
   std::size_t change_ = 0;

@@ -1,7 +1,5 @@
 #include "gui/batch/batch_feature.h"
 
-#include <QMessageBox>
-
 #include "gui/batch/batch_dialog.h"
 #include "gui/batch/batch_fields.h"
 #include "gui/widgets/opening_strip.h"
@@ -36,14 +34,6 @@ BatchFeature::BatchFeature(WindowState& windowState, QWidget* window)
     controller_.cancel();
     return true;
   });
-  windowState.prompts.endBatch = [this] {
-    return QMessageBox::question(
-               this->window(),
-               "Palpate",
-               "A batch is running. What is finished stays; the rest is not made. End the batch?",
-               QMessageBox::Yes | QMessageBox::Cancel,
-               QMessageBox::Cancel) == QMessageBox::Yes;
-  };
   windowState.batchRunning = [this] { return controller_.busy(); };
 }
 
@@ -55,7 +45,7 @@ BatchFeature::~BatchFeature() {
 
 void BatchFeature::showDialog() {
   if (!dialog_) {
-    dialog_ = new BatchDialog(state().settings, controller_, window());
+    dialog_ = new BatchDialog(state().settings, controller_, state().ask, window());
     dialog_->fields().windowFilters = [this] {
       return state().activeFilters.on() ? state().activeFilters.text() : QString();
     };

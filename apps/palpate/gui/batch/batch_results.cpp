@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
@@ -20,6 +19,7 @@
 #include <palpate/core/text_table.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/desktop/reveal_file.h"
 #include "gui/widgets/make.h"
 
@@ -104,11 +104,8 @@ QString BatchResultsModel::source(int row) const {
       outcome_->plan.items[rows_[static_cast<std::size_t>(row)]].source.string());
 }
 
-BatchResults::BatchResults(QWidget* parent)
-    : QWidget(parent), reveal(revealInFileManager), model_(new BatchResultsModel(this)) {
-  askForReport = [this] {
-    return QFileDialog::getSaveFileName(this, "Save the report", "batch.csv", "Tables (*.csv)");
-  };
+BatchResults::BatchResults(Ask& ask, QWidget* parent)
+    : QWidget(parent), reveal(revealInFileManager), ask_(ask), model_(new BatchResultsModel(this)) {
   summary_ = makeLines(nullptr, "batchSummary");
   table_ = named(new QTableView, "batchTable");
   table_->setModel(model_);
@@ -221,7 +218,7 @@ void BatchResults::copyRows() {
 
 void BatchResults::saveReport() {
   if (!outcome_) return;
-  QString path = askForReport();
+  QString path = ask_.newFile("Save the report", "batch.csv", "Tables (*.csv)");
   if (path.isEmpty()) return;
   // The file dialog has asked whether a file of the chosen name may be replaced.
   Overwrite overwrite = Overwrite::kReplace;

@@ -16,6 +16,8 @@ class QTableView;
 
 namespace palpate::gui {
 
+class Ask;
+
 class BatchResultsModel : public QAbstractTableModel {
   Q_OBJECT
  public:
@@ -38,7 +40,7 @@ class BatchResultsModel : public QAbstractTableModel {
 class BatchResults : public QWidget {
   Q_OBJECT
  public:
-  explicit BatchResults(QWidget* parent = nullptr);
+  explicit BatchResults(Ask& ask, QWidget* parent = nullptr);
   // A batch begins: the table keeps what the one before has made, and says so.
   void begin();
   void show(const std::shared_ptr<const BatchOutcome>& outcome);
@@ -47,8 +49,6 @@ class BatchResults : public QWidget {
   // Writes the report of all recordings, as --report of the commands.
   void saveReport();
 
-  // Asks for the file of the report; empty: cancelled.
-  std::function<QString()> askForReport;
   // Shows a file in the file manager.
   std::function<void(const QString& path)> reveal;
 
@@ -59,6 +59,7 @@ class BatchResults : public QWidget {
  private:
   void fill();
 
+  Ask& ask_;
   std::shared_ptr<const BatchOutcome> outcome_;
   bool running_ = false;
   BatchResultsModel* model_;

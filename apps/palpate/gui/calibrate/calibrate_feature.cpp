@@ -34,7 +34,7 @@ constexpr int kCalibrateUsualWidth = 640;
 
 CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
-      panel_(new CalibratePanel(windowState.settings, window)),
+      panel_(new CalibratePanel(windowState.settings, windowState.ask, window)),
       calibrations_(new CalibrationCache(window)) {
   dock_ = new Dock(
       "Calibrate", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);

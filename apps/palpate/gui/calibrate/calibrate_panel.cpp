@@ -12,15 +12,15 @@
 
 namespace palpate::gui {
 
-CalibratePanel::CalibratePanel(QSettings& settings, QWidget* parent)
+CalibratePanel::CalibratePanel(QSettings& settings, Ask& ask, QWidget* parent)
     : PagedPanel(settings, "calibrate", parent) {
   setObjectName("CalibratePanel");
   QWidget* parentOfPages = &pages();
   steps_ = new StepPage(parentOfPages);
-  pressure_ = new PressurePage(parentOfPages);
-  noise_ = new NoisePage(settings, parentOfPages);
+  pressure_ = new PressurePage(ask, parentOfPages);
+  noise_ = new NoisePage(settings, ask, parentOfPages);
   tare_ = new TarePage(settings, parentOfPages);
-  force_ = new ForcePage(settings, parentOfPages);
+  force_ = new ForcePage(settings, ask, parentOfPages);
   add(steps_, "Steps", "Responses to applied loads: gain, drift, time constants");
   add(pressure_,
       "Pressure",

@@ -13,6 +13,7 @@ class CaptureSession;
 
 namespace palpate::gui {
 
+class Ask;
 class ForcePage;
 class NoisePage;
 class PressurePage;
@@ -22,7 +23,7 @@ class TarePage;
 class CalibratePanel : public PagedPanel {
   Q_OBJECT
  public:
-  explicit CalibratePanel(QSettings& settings, QWidget* parent = nullptr);
+  CalibratePanel(QSettings& settings, Ask& ask, QWidget* parent = nullptr);
 
   void setSource(const OpenedRecordingPtr& recording, bool live);
   // Sets the session of the connected hand, which the pages Noise and Tare can measure; null: none,

@@ -1,6 +1,5 @@
 #include "gui/calibrate/force_page.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QPushButton>
@@ -13,6 +12,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/calibrate/calibration_facts.h"
 #include "gui/calibrate/force_chart.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/notes_label.h"
@@ -100,8 +100,11 @@ TextTable forceTable(const std::shared_ptr<const ForceSeries>& found) {
 
 }  // namespace
 
-ForcePage::ForcePage(QSettings& settings, QWidget* parent)
-    : ComputedPage("force", parent), settings_(settings), pressure_(shownUnit(PressureUnit{})) {
+ForcePage::ForcePage(QSettings& settings, Ask& ask, QWidget* parent)
+    : ComputedPage("force", parent),
+      settings_(settings),
+      ask_(ask),
+      pressure_(shownUnit(PressureUnit{})) {
   makeTop();
   auto* content = new QWidget(this);
   chart_ = new ForceChart(content);
@@ -111,10 +114,6 @@ ForcePage::ForcePage(QSettings& settings, QWidget* parent)
   notes_->setProperty("role", QVariant());
   content->setLayout(inColumn({notes_, {table_, 3}, {chart_, 2}}, Space::kNone));
   setContent(content);
-  askForCalibration = [this] {
-    return QFileDialog::getOpenFileName(
-        this, "Apply a calibration", {}, "Calibrations (*.json);;All files (*)");
-  };
   connect(table_, &FiguresTable::rowChosen, this, &ForcePage::showChosen);
   connect(chart_, &ForceChart::seekRequested, this, &ForcePage::seekRequested);
   showCalibration();
@@ -179,7 +178,7 @@ QString ForcePage::rowName(std::size_t row) const {
 }
 
 void ForcePage::chooseCalibration() {
-  const QString path = askForCalibration();
+  const QString path = ask_.file("Apply a calibration", {}, "Calibrations (*.json);;All files (*)");
   if (!path.isEmpty() && hand()) applyThis(path);
 }
 

@@ -19,13 +19,14 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class Ask;
 class FiguresTable;
 class ForceChart;
 
 class ForcePage : public ComputedPage {
   Q_OBJECT
  public:
-  explicit ForcePage(QSettings& settings, QWidget* parent = nullptr);
+  ForcePage(QSettings& settings, Ask& ask, QWidget* parent = nullptr);
   // The unit in which pressures are shown; tables() are in kPa.
   void setUnits(const DisplayUnits& units);
   void setPosition(double seconds) override;
@@ -40,9 +41,6 @@ class ForcePage : public ComputedPage {
   void showLive(const PressureFrame& pressure, const std::vector<std::string>& assumptions);
   // The forces of the recording; null when none were computed.
   const std::shared_ptr<const ForceSeries>& found() const noexcept { return found_; }
-
-  // Asks the user for a calibration file; returns an empty text when cancelled. Tests replace it.
-  std::function<QString()> askForCalibration;
 
  signals:
   // The typed sensor settings are to be kept as an event of the recording.
@@ -77,6 +75,7 @@ class ForcePage : public ComputedPage {
   const HandDescription* hand() const;
 
   QSettings& settings_;
+  Ask& ask_;
   KeptWithRecording kept_;
   // Settings that the user typed and that are not kept yet.
   std::optional<SensorSettings> said_;

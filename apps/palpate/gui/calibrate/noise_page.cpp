@@ -1,6 +1,5 @@
 #include "gui/calibrate/noise_page.h"
 
-#include <QFileDialog>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -17,6 +16,7 @@
 #include "gui/calibrate/applied_calibration.h"
 #include "gui/calibrate/measure_row.h"
 #include "gui/calibrate/noise_chart.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/notes_label.h"
@@ -115,7 +115,8 @@ TextTable binTable(const std::shared_ptr<const FoundNoise>& found) {
 
 }  // namespace
 
-NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise", parent) {
+NoisePage::NoisePage(QSettings& settings, Ask& ask, QWidget* parent)
+    : ComputedPage("noise", parent) {
   measure_ = new MeasureRow(settings,
                             {.part = "noise",
                              .usualSeconds = kNoiseMeasureS,
@@ -147,23 +148,12 @@ NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise
   content->setLayout(inColumn({{chart_, 1}, table_, notes_}, Space::kNone));
   setContent(content);
 
-  askForPlace = [this](const QString& suggestion) {
-    return std::filesystem::path(
-        QFileDialog::getSaveFileName(this,
-                                     "Save the noise lines",
-                                     suggestion,
-                                     "Noise lines (*.json);;For the prior program (*.xml)")
-            .toStdString());
-  };
-  askForLines = [this] {
-    return QFileDialog::getOpenFileName(
-        this, "Apply noise lines", {}, "Noise lines (*.json *.xml);;All files (*)");
-  };
   connect(measure_, &MeasureRow::measured, this, &NoisePage::setMeasured);
   connect(measure_, &MeasureRow::said, this, &NoisePage::said);
   connect(apply_, &QPushButton::clicked, this, [this] { emit applyRequested(found_->floor); });
-  connect(openLines, &QPushButton::clicked, this, [this] {
-    const QString path = askForLines();
+  connect(openLines, &QPushButton::clicked, this, [this, &ask] {
+    const QString path =
+        ask.file("Apply noise lines", {}, "Noise lines (*.json *.xml);;All files (*)");
     if (path.isEmpty()) return;
     reading_.start(
         [this, path]() -> FileReading::Take {
@@ -179,9 +169,12 @@ NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise
     chart_->choose(static_cast<std::size_t>(chosen));
     showNotes(static_cast<std::size_t>(chosen));
   });
-  connect(save_, &QPushButton::clicked, this, [this] {
-    const auto path =
-        askForPlace(QString::fromStdString(found_->file.stem().string()) + "_noise.json");
+  connect(save_, &QPushButton::clicked, this, [this, &ask] {
+    const std::filesystem::path path =
+        ask.newFile("Save the noise lines",
+                    QString::fromStdString(found_->file.stem().string()) + "_noise.json",
+                    "Noise lines (*.json);;For the prior program (*.xml)")
+            .toStdString();
     if (path.empty()) return;
     try {
       save(path);

@@ -19,6 +19,7 @@ class QSpinBox;
 
 namespace palpate::gui {
 
+class Ask;
 class FiguresTable;
 class MeasureRow;
 class NoiseChart;
@@ -36,7 +37,7 @@ struct FoundNoise {
 class NoisePage : public ComputedPage {
   Q_OBJECT
  public:
-  explicit NoisePage(QSettings& settings, QWidget* parent = nullptr);
+  NoisePage(QSettings& settings, Ask& ask, QWidget* parent = nullptr);
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
@@ -46,10 +47,6 @@ class NoisePage : public ComputedPage {
   // Saves the noise floor: an .xml file in the form of the prior program, any other as JSON. Throws
   // FileError.
   void save(const std::filesystem::path& path) const;
-
-  // Ask the user for a file; an empty answer means cancelled. Tests replace them.
-  std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
-  std::function<QString()> askForLines;
 
  signals:
   // The high-sensitivity mode of the hand is to use this noise floor from now on.

@@ -2,7 +2,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QLabel>
 #include <QPushButton>
 #include <QResizeEvent>
@@ -19,6 +18,7 @@
 #include "gui/calibrate/calibration_facts.h"
 #include "gui/calibrate/pressure_chart.h"
 #include "gui/calibrate/surface_chart.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/fitting_pages.h"
@@ -73,7 +73,8 @@ std::vector<FigureCell> pressurePageRowOf(const PressureSample& sample,
 
 }  // namespace
 
-PressurePage::PressurePage(QWidget* parent) : ComputedPage("pressure", parent) {
+PressurePage::PressurePage(Ask& ask, QWidget* parent)
+    : ComputedPage("pressure", parent), ask_(ask) {
   makeTop();
   auto* content = new QWidget(this);
   charts_ = new FittingPages(content);
@@ -105,20 +106,6 @@ PressurePage::PressurePage(QWidget* parent) : ComputedPage("pressure", parent) {
     chart_->choose(static_cast<std::size_t>(row));
     surface_->choose(static_cast<std::size_t>(row));
   });
-  askForTable = [this] {
-    return std::filesystem::path(
-        QFileDialog::getOpenFileName(this,
-                                     "Open a table of recordings and pressures, or a calibration",
-                                     {},
-                                     "Tables and calibrations (*.csv *.json);;All files (*)")
-            .toStdString());
-  };
-  askForPlace = [this](const QString& suggestion) {
-    QString path = QFileDialog::getSaveFileName(
-        this, "Save the calibration", suggestion, "Calibrations (*.json)");
-    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
-    return std::filesystem::path(path.toStdString());
-  };
   showOptions();
 }
 
@@ -191,7 +178,10 @@ void PressurePage::makeTop() {
   top().addWidget(options);
   top().addWidget(measured);
   connect(openIt, &QPushButton::clicked, this, [this] {
-    if (const auto path = askForTable(); !path.empty()) open(path);
+    const QString path = ask_.file("Open a table of recordings and pressures, or a calibration",
+                                   {},
+                                   "Tables and calibrations (*.csv *.json);;All files (*)");
+    if (!path.isEmpty()) open(path.toStdString());
   });
   connect(save_, &QPushButton::clicked, this, &PressurePage::saveAs);
   connect(apply_, &QPushButton::clicked, this, &PressurePage::apply);
@@ -297,9 +287,14 @@ void PressurePage::save(const std::filesystem::path& path) {
 }
 
 void PressurePage::saveAs() {
-  const auto path = askForPlace(
-      QString::fromStdString((now_->source.parent_path() / now_->source.stem()).string()) +
-      ".json");
+  const std::filesystem::path path =
+      ask_.newFile(
+              "Save the calibration",
+              QString::fromStdString((now_->source.parent_path() / now_->source.stem()).string()) +
+                  ".json",
+              "Calibrations (*.json)",
+              ".json")
+          .toStdString();
   if (path.empty()) return;
   try {
     save(path);

@@ -20,6 +20,7 @@ class QStackedWidget;
 
 namespace palpate::gui {
 
+class Ask;
 class FactsView;
 class FiguresTable;
 class PressureChart;
@@ -28,7 +29,7 @@ class SurfaceChart;
 class PressurePage : public ComputedPage {
   Q_OBJECT
  public:
-  explicit PressurePage(QWidget* parent = nullptr);
+  explicit PressurePage(Ask& ask, QWidget* parent = nullptr);
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
@@ -42,10 +43,6 @@ class PressurePage : public ComputedPage {
   void save(const std::filesystem::path& path);
   // The shown facts, each as "name: value".
   QStringList facts() const;
-
-  // Ask the user for a file; an empty answer means cancelled. Tests replace them.
-  std::function<std::filesystem::path()> askForTable;
-  std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
 
  signals:
   // The calibration in this file is to be applied to the hand from now on.
@@ -65,6 +62,7 @@ class PressurePage : public ComputedPage {
   void apply();
   CalibrationChoices choices() const;
 
+  Ask& ask_;
   // The opened table or calibration.
   std::filesystem::path path_;
   // Where the shown calibration is stored on disk; empty when it is not saved.

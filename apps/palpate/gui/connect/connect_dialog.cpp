@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QFrame>
 #include <QHBoxLayout>
-#include <QInputDialog>
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
@@ -18,6 +17,7 @@
 #include "gui/connect/replay_page.h"
 #include "gui/connect/scene_page.h"
 #include "gui/connect/stream_page.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
@@ -59,17 +59,21 @@ std::size_t connectDialogIndexOf(Connection::Kind kind) {
 
 }  // namespace
 
-ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWidget* parent)
+ConnectDialog::ConnectDialog(const ConnectChoices& choices,
+                             PortScan& scan,
+                             Ask& ask,
+                             QWidget* parent)
     : QDialog(parent),
       scan_(scan),
+      ask_(ask),
       last_(choices.last),
       settings_(choices.settings),
       kind_(choices.last.kind) {
   setWindowTitle("Connect");
   ports_ = new PortsPage(scan, this);
-  stream_ = new StreamPage(choices.handFolders, scan, this);
-  scenes_ = new ScenePage(choices.scenesFolder, this);
-  replay_ = new ReplayPage(choices.recentRecordings, this);
+  stream_ = new StreamPage(choices.handFolders, scan, ask, this);
+  scenes_ = new ScenePage(choices.scenesFolder, ask, this);
+  replay_ = new ReplayPage(choices.recentRecordings, ask, this);
   pages_ = new QStackedWidget(this);
   for (const Connection::Kind kind : kAllConnectionKinds)
     pages_->addWidget(kind == Connection::Kind::kPorts      ? static_cast<QWidget*>(ports_)
@@ -85,13 +89,6 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   connect(stream_, &StreamPage::changed, this, &ConnectDialog::refresh);
   connect(scenes_, &ScenePage::changed, this, &ConnectDialog::refresh);
   connect(replay_, &ReplayPage::changed, this, &ConnectDialog::refresh);
-  askForName = [this](const QString& suggestion) {
-    return QInputDialog::getText(this,
-                                 "Save the connection",
-                                 "Name of the connection (one of the same name is replaced)",
-                                 QLineEdit::Normal,
-                                 suggestion);
-  };
   fill(last_);
   pages_->setCurrentIndex(static_cast<int>(connectDialogIndexOf(kind_)));
   refresh();
@@ -178,10 +175,12 @@ void ConnectDialog::listSaved(const QString& chosen) {
 
 void ConnectDialog::saveUnderName() {
   const QString now = saved_->currentData().toString();
-  const QString name = askForName(now.isEmpty() ? describe(connection()) : now).trimmed();
-  if (name.isEmpty()) return;
-  saveNamedConnection(*settings_, name, connection());
-  listSaved(name);
+  const auto name = ask_.text("Save the connection",
+                              "Name of the connection (one of the same name is replaced)",
+                              now.isEmpty() ? describe(connection()) : now);
+  if (!name || name->isEmpty()) return;
+  saveNamedConnection(*settings_, *name, connection());
+  listSaved(*name);
 }
 
 void ConnectDialog::fill(const Connection& connection) {

@@ -7,7 +7,6 @@
 #include <QStringList>
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <vector>
 
 #include "gui/appearance/theme.h"
@@ -22,6 +21,7 @@ class QStackedWidget;
 
 namespace palpate::gui {
 
+class Ask;
 class PortsPage;
 class ReplayPage;
 class ScenePage;
@@ -48,15 +48,13 @@ class ConnectDialog : public QDialog {
  public:
   // `scan` must outlive this. Ports are probed only once the page with the ports is shown; when the
   // dialog closes, they are free again.
-  ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWidget* parent);
+  ConnectDialog(const ConnectChoices& choices, PortScan& scan, Ask& ask, QWidget* parent);
   ~ConnectDialog() override;
 
   // The chosen connection; it also contains the fields of the kinds that are not chosen.
   Connection connection() const;
   // Why the chosen connection cannot be tried, in one line; empty when it can.
   QString problem() const;
-  // Asks for the name of the shown connection; empty: cancelled.
-  std::function<QString(const QString& suggestion)> askForName;
 
   void done(int result) override;
 
@@ -75,6 +73,7 @@ class ConnectDialog : public QDialog {
   void refresh();
 
   PortScan& scan_;
+  Ask& ask_;
   Connection last_;
   QSettings* settings_;
   Connection::Kind kind_;

@@ -1,6 +1,5 @@
 #include "gui/connect/connect_feature.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMenu>
 #include <QMessageBox>
@@ -15,6 +14,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
 #include "gui/connect/connect_dialog.h"
+#include "gui/desktop/ask.h"
 
 namespace palpate::gui {
 
@@ -95,25 +95,24 @@ void ConnectFeature::addQuestions() {
                           .recentRecordings = windowState.recent.paths(),
                           .settings = &windowState.settings},
                          scan,
+                         windowState.ask,
                          window());
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.connection();
   };
-  windowState.prompts.endRecording = [this] { return mayEndRecording(); };
-  windowState.prompts.folder = [this](const QString& title, const QString& folder) {
-    return QFileDialog::getExistingDirectory(window(), title, folder);
+  windowState.prompts.endRecording = [this](UserPrompts::Ending ending) {
+    return mayEndRecording(ending);
   };
 }
 
-bool ConnectFeature::mayEndRecording() {
+bool ConnectFeature::mayEndRecording(UserPrompts::Ending ending) {
   WindowState& windowState = state();
   const LiveSource* source = windowState.live.source();
   const bool moves = source && source->control && source->control->status().request;
   const RecorderStatus& recorder = windowState.live.health().recorder;
-  const QString ended = endingText(windowState.prompts.ending);
-  const QString stopped = moves && windowState.prompts.ending != UserPrompts::Ending::kStop
-                              ? " The hand is moving: it is stopped."
-                              : "";
+  const QString ended = endingText(ending);
+  const QString stopped =
+      moves && ending != UserPrompts::Ending::kStop ? " The hand is moving: it is stopped." : "";
   QMessageBox question(
       QMessageBox::Question, "Finish the recording", {}, QMessageBox::NoButton, window());
   const QPushButton* elsewhere = nullptr;
@@ -145,7 +144,7 @@ bool ConnectFeature::mayEndRecording() {
 bool ConnectFeature::moveRecording() {
   WindowState& windowState = state();
   const QString home = QStandardPaths::writableLocation(QStandardPaths::HomeLocation);
-  const QString folder = windowState.prompts.folder("Another folder for the recording", home);
+  const QString folder = windowState.ask.folder("Another folder for the recording", home);
   if (folder.isEmpty()) return false;
   if (!QFileInfo(folder).isDir() || !QFileInfo(folder).isWritable()) {
     windowState.messages.fail(folder + " can't be written: choose another folder");
@@ -164,7 +163,9 @@ void ConnectFeature::connectActions() {
   });
   on(actions.tryEmulated, [&windowState] { windowState.connectTo(emulatedBallConnection(false)); });
   on(actions.disconnectHand, [&windowState] {
-    if (!windowState.live.recording() || windowState.prompts.endRecording()) windowState.live.end();
+    if (!windowState.live.recording() ||
+        windowState.prompts.endRecording(UserPrompts::Ending::kDisconnect))
+      windowState.live.end();
   });
   on(actions.live, [this, &windowState] {
     windowState.displayed.showLive();

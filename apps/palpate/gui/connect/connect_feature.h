@@ -32,7 +32,7 @@ class ConnectFeature : public Feature {
   void addQuestions();
   void connectActions();
   void fillMenu();
-  bool mayEndRecording();
+  bool mayEndRecording(UserPrompts::Ending ending);
   bool moveRecording();
   std::filesystem::path scenesFolder() const;
 

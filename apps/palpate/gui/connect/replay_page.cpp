@@ -2,7 +2,6 @@
 
 #include <QComboBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QLabel>
@@ -10,13 +9,14 @@
 #include <QLocale>
 #include <QPushButton>
 
+#include "gui/desktop/ask.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui {
 
-ReplayPage::ReplayPage(const QStringList& recent, QWidget* parent) : QWidget(parent) {
+ReplayPage::ReplayPage(const QStringList& recent, Ask& ask, QWidget* parent) : QWidget(parent) {
   path_ = named(new QComboBox(this), "recording");
   path_->setEditable(true);
   path_->setInsertPolicy(QComboBox::NoInsert);
@@ -56,16 +56,12 @@ ReplayPage::ReplayPage(const QStringList& recent, QWidget* parent) : QWidget(par
   grid->addWidget(what, 4, 0, 1, 3);
   grid->setRowStretch(5, 1);
   grid->setColumnStretch(1, 1);
-  askForRecording = [this] {
-    return QFileDialog::getOpenFileName(
-        this,
-        "Choose a recording",
-        QFileInfo(recording()).path(),
-        "Recordings (*.palpate *.dsa *.h5 *.hdf5 *.mcap);;All files (*)");
-  };
   connect(path_, &QComboBox::editTextChanged, this, &ReplayPage::refresh);
-  connect(browse, &QPushButton::clicked, this, [this] {
-    const QString chosen = askForRecording();
+  connect(browse, &QPushButton::clicked, this, [this, &ask] {
+    const QString chosen =
+        ask.file("Choose a recording",
+                 QFileInfo(recording()).path(),
+                 "Recordings (*.palpate *.dsa *.h5 *.hdf5 *.mcap);;All files (*)");
     if (!chosen.isEmpty()) setRecording(chosen);
   });
   refresh();

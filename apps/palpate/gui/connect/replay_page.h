@@ -5,7 +5,6 @@
 #include <QString>
 #include <QStringList>
 #include <QWidget>
-#include <functional>
 
 #include "gui/appearance/theme.h"
 
@@ -14,13 +13,14 @@ class QLabel;
 
 namespace palpate::gui {
 
+class Ask;
 class StateMark;
 
 class ReplayPage : public QWidget {
   Q_OBJECT
  public:
   // `recent`: paths, newest first.
-  ReplayPage(const QStringList& recent, QWidget* parent);
+  ReplayPage(const QStringList& recent, Ask& ask, QWidget* parent);
 
   ~ReplayPage() override;
 
@@ -28,9 +28,6 @@ class ReplayPage : public QWidget {
   QString recording() const;
   // Why the recording cannot be replayed, in one line; empty when it can, or when none is chosen.
   QString problem() const;
-
-  // Asks the user for a recording; returns an empty text when cancelled. Tests replace it.
-  std::function<QString()> askForRecording;
 
  signals:
   void changed();

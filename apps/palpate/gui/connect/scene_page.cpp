@@ -1,7 +1,6 @@
 #include "gui/connect/scene_page.h"
 
 #include <QCheckBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QListWidget>
@@ -12,6 +11,7 @@
 #include <palpate/core/error.h>
 #include <palpate/emulator/scene.h>
 
+#include "gui/desktop/ask.h"
 #include "gui/source/connection.h"
 #include "gui/source/file_reading.h"
 #include "gui/widgets/make.h"
@@ -35,7 +35,7 @@ bool movesObjects(const Scene& scene) {
 
 }  // namespace
 
-ScenePage::ScenePage(const std::filesystem::path& folder, QWidget* parent)
+ScenePage::ScenePage(const std::filesystem::path& folder, Ask& ask, QWidget* parent)
     : QWidget(parent), folder_(folder) {
   list_ = named(new QListWidget(this), "scenes");
   list_->setItemDelegate(new TwoLineDelegate(list_));
@@ -64,15 +64,12 @@ ScenePage::ScenePage(const std::filesystem::path& folder, QWidget* parent)
   none_->setText("No scenes were found in " + QString::fromStdString(folder_.string()) +
                  ". Choose a scene file.");
   none_->setVisible(list_->count() == 0);
-  askForScene = [this] {
-    return QFileDialog::getOpenFileName(
-        this, "Choose a scene", QString::fromStdString(folder_.string()), "Scenes (*.json)");
-  };
   connect(list_, &QListWidget::currentRowChanged, this, &ScenePage::showChosen);
   connect(acts_, &QCheckBox::clicked, this, &ScenePage::changed);
   connect(acts_, &QCheckBox::toggled, this, &ScenePage::showNote);
-  connect(other, &QPushButton::clicked, this, [this] {
-    const QString chosen = askForScene();
+  connect(other, &QPushButton::clicked, this, [this, &ask] {
+    const QString chosen =
+        ask.file("Choose a scene", QString::fromStdString(folder_.string()), "Scenes (*.json)");
     if (!chosen.isEmpty()) setScene(chosen);
   });
   list_->setCurrentRow(0);

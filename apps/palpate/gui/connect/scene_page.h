@@ -5,7 +5,6 @@
 #include <QString>
 #include <QWidget>
 #include <filesystem>
-#include <functional>
 
 #include "gui/appearance/theme.h"
 
@@ -15,10 +14,12 @@ class QListWidget;
 
 namespace palpate::gui {
 
+class Ask;
+
 class ScenePage : public QWidget {
   Q_OBJECT
  public:
-  ScenePage(const std::filesystem::path& folder, QWidget* parent);
+  ScenePage(const std::filesystem::path& folder, Ask& ask, QWidget* parent);
 
   ~ScenePage() override;
 
@@ -29,9 +30,6 @@ class ScenePage : public QWidget {
   bool runsScript() const;
   // Why the scene cannot be used, in one line; empty when it can.
   QString problem() const { return problem_; }
-
-  // Asks the user for a scene file; returns an empty text when cancelled. Tests replace it.
-  std::function<QString()> askForScene;
 
  signals:
   void changed();

@@ -1,7 +1,6 @@
 #include "gui/connect/stream_page.h"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFormLayout>
 #include <QIntValidator>
 #include <QLabel>
@@ -18,6 +17,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/connect/port_field.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
 #include "gui/widgets/two_line_delegate.h"
@@ -81,6 +81,7 @@ QSpinBox* portBox(const char* name, int least) {
 
 StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
                        PortScan& scan,
+                       Ask& ask,
                        QWidget* parent)
     : QWidget(parent), folders_(handFolders), scan_(scan) {
   form_ = new QFormLayout;
@@ -95,13 +96,10 @@ StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
                     "UDP: wait for datagrams"});
   form_->addRow("&Source", place_);
   form_->addRow("", makePlace());
-  form_->addRow("&Hand", makeHand());
+  form_->addRow("&Hand", makeHand(ask));
   makeForm();
   setLayout(inColumn({form_, Stretch{}}));
 
-  askForFolder = [this] {
-    return QFileDialog::getExistingDirectory(this, "Folder of a hand (with its hand.json)");
-  };
   connect(place_, &QComboBox::currentIndexChanged, this, &StreamPage::refresh);
   connect(port_, &PortField::changed, this, &StreamPage::refresh);
   connect(host_, &QLineEdit::textChanged, this, &StreamPage::refresh);
@@ -159,7 +157,7 @@ QWidget* StreamPage::makePlace() {
                  this);
 }
 
-QWidget* StreamPage::makeHand() {
+QWidget* StreamPage::makeHand(Ask& ask) {
   hand_ = named(new QComboBox, "streamHand");
   hand_->setItemDelegate(new TwoLineDelegate(hand_));
   hand_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -168,8 +166,8 @@ QWidget* StreamPage::makeHand() {
   hand_->setPlaceholderText("choose a hand");
   auto* choose = named(new QPushButton("Choose f&older…"), "streamHandFolder");
   choose->setAutoDefault(false);
-  connect(choose, &QPushButton::clicked, this, [this] {
-    const QString chosen = askForFolder();
+  connect(choose, &QPushButton::clicked, this, [this, &ask] {
+    const QString chosen = ask.folder("Folder of a hand (with its hand.json)", {});
     if (chosen.isEmpty()) return;
     // The folder may have been corrected since it was read.
     hands_.remove(chosen);

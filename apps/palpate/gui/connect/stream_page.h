@@ -6,7 +6,6 @@
 #include <QWidget>
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -25,6 +24,7 @@ class QStackedWidget;
 
 namespace palpate::gui {
 
+class Ask;
 class PortField;
 class StateMark;
 
@@ -35,6 +35,7 @@ class StreamPage : public QWidget {
   // outlive this.
   StreamPage(const std::vector<std::filesystem::path>& handFolders,
              PortScan& scan,
+             Ask& ask,
              QWidget* parent);
   ~StreamPage() override;
 
@@ -45,9 +46,6 @@ class StreamPage : public QWidget {
   QString problem() const;
   // Lists the serial ports. None is opened: what is sent to an unknown device may disturb it.
   void look();
-
-  // Asks the user for the folder of a hand; returns an empty text when cancelled. Tests replace it.
-  std::function<QString()> askForFolder;
 
  signals:
   void changed();
@@ -66,7 +64,7 @@ class StreamPage : public QWidget {
   };
 
   QWidget* makePlace();
-  QWidget* makeHand();
+  QWidget* makeHand(Ask& ask);
   void makeForm();
   Place place() const;
   QString source() const;

@@ -47,11 +47,11 @@ QString rowsText(std::size_t rows) {
 
 }  // namespace
 
-ExportController::ExportController(QSettings& settings, QWidget* window)
+ExportController::ExportController(QSettings& settings, Ask& places, QWidget* window)
     : source([] { return QString(); }), settings_(settings), window_(window) {
   worker_.setMaxThreadCount(1);
-  ask = [this](const ExportRequest& suggested) -> std::optional<ExportRequest> {
-    ExportDialog dialog(present(), suggested, window_);
+  ask = [this, &places](const ExportRequest& suggested) -> std::optional<ExportRequest> {
+    ExportDialog dialog(present(), suggested, places, window_);
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.request();
   };

@@ -20,11 +20,14 @@
 
 namespace palpate::gui {
 
+class Ask;
+
 class ExportController : public QObject {
   Q_OBJECT
  public:
-  // `window` is the parent of the dialogs. `settings` and `window` must outlive this.
-  ExportController(QSettings& settings, QWidget* window);
+  // `window` is the parent of the dialogs, in which `places` asks for folders. All must outlive
+  // this.
+  ExportController(QSettings& settings, Ask& places, QWidget* window);
   // Cancels the running export and waits for it; no incomplete file remains.
   ~ExportController() override;
 

@@ -56,6 +56,7 @@ QComboBox* exportDialogComboBox(const char* name) {
 
 ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
                            const ExportRequest& suggestion,
+                           Ask& ask,
                            QWidget* parent)
     : QDialog(parent), views_(std::move(views)), first_(suggestion) {
   setWindowTitle("Export");
@@ -75,7 +76,7 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
                             .right = Space::kNarrow,
                             .bottom = Space::kWide}));
   setLayout(
-      inColumn({{inRow({makeForm(), {side, 1}}, Space::kNone), 1}, makeFoot()}, Space::kNone));
+      inColumn({{inRow({makeForm(ask), {side, 1}}, Space::kNone), 1}, makeFoot()}, Space::kNone));
   fill(suggestion);
   connectFields();
   resize(kExportDialogUsualSize);
@@ -83,7 +84,7 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
   preview_->installEventFilter(this);
 }
 
-QWidget* ExportDialog::makeForm() {
+QWidget* ExportDialog::makeForm(Ask& ask) {
   auto* form = new QWidget(this);
   fields_ = new QFormLayout(form);
   fields_->setContentsMargins(kExportDialogMargin, kExportDialogMargin, kExportDialogMargin, 14);
@@ -128,7 +129,7 @@ QWidget* ExportDialog::makeForm() {
   for (int row = 0; row < fields_->rowCount(); ++row)
     if (const auto* label = fields_->itemAt(row, QFormLayout::LabelRole))
       label->widget()->setMinimumWidth(labelWidth);
-  place_ = new ExportPlace(labelWidth, form);
+  place_ = new ExportPlace(labelWidth, ask, form);
   fields_->addRow(place_);
   // Larger text needs more; a name of a view may be longer than that.
   const int fieldWidth = std::max(form_->sizeHint().width(), colors_->sizeHint().width());

@@ -17,6 +17,7 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class Ask;
 class ExportForms;
 class ExportMovieFields;
 class ExportPlace;
@@ -28,13 +29,12 @@ class ExportDialog : public QDialog {
   // `views` has at least one element; the views must outlive the dialog.
   ExportDialog(std::vector<const ExportedView*> views,
                const ExportRequest& suggestion,
+               Ask& ask,
                QWidget* parent = nullptr);
 
   ExportRequest request() const;
   // Why the request cannot be written; empty when it can.
   QString problem() const;
-
-  ExportPlace& place() noexcept { return *place_; }
 
  public slots:
   // Closes the dialog only when the request can be written.
@@ -44,7 +44,7 @@ class ExportDialog : public QDialog {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  QWidget* makeForm();
+  QWidget* makeForm(Ask& ask);
   QWidget* makeSize();
   QWidget* makeFoot();
   void connectFields();

@@ -18,7 +18,7 @@ ExportActions::ExportActions(ActionRegistry& book) {
 ExportFeature::ExportFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
-      exportController_(windowState.settings, window),
+      exportController_(windowState.settings, windowState.ask, window),
       strip_(new OpeningStrip(window, "Exporting", "exporting")) {
   exportController_.source = [&windowState] {
     const OpenedRecordingPtr recording = windowState.displayed.unfilteredRecording();

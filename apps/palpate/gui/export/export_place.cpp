@@ -1,23 +1,20 @@
 #include "gui/export/export_place.h"
 
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 
+#include "gui/desktop/ask.h"
 #include "gui/source/recording_settings.h"
 #include "gui/widgets/make.h"
 
 namespace palpate::gui {
 
-ExportPlace::ExportPlace(int labelWidth, QWidget* parent) : QWidget(parent) {
+ExportPlace::ExportPlace(int labelWidth, Ask& ask, QWidget* parent) : QWidget(parent), ask_(ask) {
   // Most file systems allow 255 bytes, of which the ending needs some.
   constexpr int kMostLetters = 200;
-  askForFolder = [this](const QString& begin) {
-    return QFileDialog::getExistingDirectory(this, "Folder to export to", begin);
-  };
   name_ = named(new QLineEdit(this), "exportName");
   name_->setMaxLength(kMostLetters);
   ending_ = makeLabel(this, "exportEnding");
@@ -60,7 +57,8 @@ void ExportPlace::browse() {
   QDir begin(folder());
   while (!begin.exists() && begin.isAbsolute() && !begin.isRoot())
     begin.setPath(QFileInfo(begin.path()).path());
-  const QString chosen = askForFolder(begin.isAbsolute() ? begin.path() : QDir::homePath());
+  const QString chosen =
+      ask_.folder("Folder to export to", begin.isAbsolute() ? begin.path() : QDir::homePath());
   if (!chosen.isEmpty()) folder_->setText(chosen);
 }
 

@@ -4,17 +4,18 @@
 
 #include <QString>
 #include <QWidget>
-#include <functional>
 
 class QLabel;
 class QLineEdit;
 
 namespace palpate::gui {
 
+class Ask;
+
 class ExportPlace : public QWidget {
   Q_OBJECT
  public:
-  explicit ExportPlace(int labelWidth, QWidget* parent = nullptr);
+  ExportPlace(int labelWidth, Ask& ask, QWidget* parent = nullptr);
 
   void setName(const QString& name, bool isOwn);
   // Sets the name, unless the user has typed one.
@@ -27,15 +28,13 @@ class ExportPlace : public QWidget {
   // The absolute path of the folder.
   QString folder() const;
 
-  // Asks the user for a folder; an empty answer changes nothing. Tests replace it.
-  std::function<QString(const QString& begin)> askForFolder;
-
  signals:
   void changed();
 
  private:
   void browse();
 
+  Ask& ask_;
   bool nameIsOwn_ = false;
   QLineEdit* name_;
   QLabel* ending_;

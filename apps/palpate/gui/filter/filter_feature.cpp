@@ -22,7 +22,7 @@ FilterFeature::FilterFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       action_(windowState.actions.make(
           "filtered", "View", "&Filtered, or as recorded", {key("A")}, true)),
-      panel_(new FilterPanel(windowState.activeFilters.editor(), window)) {
+      panel_(new FilterPanel(windowState.activeFilters.editor(), windowState.ask, window)) {
   dock_ = new Dock("Filter", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   ActiveFilters& activeFilters = windowState.activeFilters;
   action_->setToolTip("After the filters, or before (A)");

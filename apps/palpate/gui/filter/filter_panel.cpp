@@ -1,7 +1,6 @@
 #include "gui/filter/filter_panel.h"
 
 #include <QCheckBox>
-#include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
 #include <QProgressBar>
@@ -14,6 +13,7 @@
 #include <palpate/core/error.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/filter/filter_form.h"
 #include "gui/filter/filter_list.h"
 #include "gui/widgets/make.h"
@@ -30,7 +30,8 @@ QString quantity(int count, const QString& word) {
 
 }  // namespace
 
-FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent), editor_(editor) {
+FilterPanel::FilterPanel(RecipeEditor& editor, Ask& ask, QWidget* parent)
+    : QWidget(parent), editor_(editor), ask_(ask) {
   list_ = new FilterList(this);
   form_ = new FilterForm(this);
   totals_ = makeLines(this, "filterTotals");
@@ -55,15 +56,6 @@ FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent
   setLayout(inColumn({makeTop(), {list_, 2}, makeButtons(), progress_, {scroll, 3}, totals_},
                      kPageEdges));
 
-  askForRecipe = [this] {
-    return std::filesystem::path(
-        QFileDialog::getOpenFileName(this, "Open a recipe", {}, kRecipeFiles).toStdString());
-  };
-  askForPlace = [this](const QString& suggestion) {
-    QString path = QFileDialog::getSaveFileName(this, "Save the recipe", suggestion, kRecipeFiles);
-    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
-    return std::filesystem::path(path.toStdString());
-  };
   connect(&editor_, &RecipeEditor::changed, this, &FilterPanel::renew);
   connect(list_, &FilterList::stepChosen, this, &FilterPanel::showForm);
   connect(list_, &FilterList::enabledChanged, &editor_, &RecipeEditor::setEnabled);
@@ -190,7 +182,7 @@ void FilterPanel::addStep(const std::string& name) {
 }
 
 void FilterPanel::openRecipe() {
-  const std::filesystem::path path = askForRecipe();
+  const std::filesystem::path path = ask_.file("Open a recipe", {}, kRecipeFiles).toStdString();
   if (path.empty()) return;
   reading_.start(
       [this, path]() -> FileReading::Take {
@@ -203,7 +195,8 @@ void FilterPanel::openRecipe() {
 }
 
 void FilterPanel::saveRecipe() {
-  const std::filesystem::path path = askForPlace("recipe.json");
+  const std::filesystem::path path =
+      ask_.newFile("Save the recipe", "recipe.json", kRecipeFiles, ".json").toStdString();
   if (path.empty()) return;
   try {
     Recipe recipe = editor_.recipe();

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <QWidget>
-#include <filesystem>
-#include <functional>
 #include <optional>
 
 #include "gui/source/file_reading.h"
@@ -20,6 +18,7 @@ class QToolButton;
 
 namespace palpate::gui {
 
+class Ask;
 class FilterForm;
 class FilterList;
 
@@ -27,7 +26,7 @@ class FilterPanel : public QWidget {
   Q_OBJECT
  public:
   // Edits the recipe of `editor`, which must outlive this.
-  explicit FilterPanel(RecipeEditor& editor, QWidget* parent = nullptr);
+  FilterPanel(RecipeEditor& editor, Ask& ask, QWidget* parent = nullptr);
 
   RecipeEditor& editor() noexcept { return editor_; }
   // Whether the filtered values are shown (after), or the recording as it is (before).
@@ -42,10 +41,6 @@ class FilterPanel : public QWidget {
   void showFailure(const QString& message);
   void setKeepable(bool keepable);
   QSize sizeHint() const override { return {455, 520}; }
-
-  // Ask the user for a file; an empty answer means cancelled. Tests replace them.
-  std::function<std::filesystem::path()> askForRecipe;
-  std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
 
  signals:
   void onChanged(bool on);
@@ -66,6 +61,7 @@ class FilterPanel : public QWidget {
   void saveRecipe();
 
   RecipeEditor& editor_;
+  Ask& ask_;
   bool on_ = false;
   bool live_ = false;
   double rateHz_ = 0.0;

@@ -60,7 +60,7 @@ CaptureQueueOptions smallFeed() {
 
 }  // namespace
 
-HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
+HandDock::HandDock(QSettings& settings, Ask& ask, QWidget* parent) : QWidget(parent) {
   calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
   calibrationBeingRead = [](const std::string&) { return false; };
   ownMotion = [] { return QString(); };
@@ -71,7 +71,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   // At the bottom, so that other parts don't move when it appears or disappears.
   heat_ = makeLines(this, "handHeat");
   heat_->setContentsMargins(kHandDockMargin, 6, kHandDockMargin, 8);
-  setLayout(inColumn({makeHead(), {makeBody(settings), 1}, heat_}, Space::kNone));
+  setLayout(inColumn({makeHead(), {makeBody(settings, ask), 1}, heat_}, Space::kNone));
   body_->widget()->installEventFilter(this);
   fitToText(*this, [this] {
     textChanged_ = true;
@@ -162,11 +162,11 @@ QWidget* HandDock::makeHead() {
   return head;
 }
 
-void HandDock::makePages(QSettings& settings, QWidget* content) {
+void HandDock::makePages(QSettings& settings, Ask& ask, QWidget* content) {
   touches_ = new TouchStore(this);
   grasp_ = new GraspPanel(settings, *touches_, content);
-  joint_ = new JointPanel(settings, content);
-  sequence_ = new SequencePanel(settings, content);
+  joint_ = new JointPanel(settings, ask, content);
+  sequence_ = new SequencePanel(settings, ask, content);
   chooser_ = named(new QTabBar(content), "handPages");
   chooser_->setDrawBase(false);
   chooser_->setExpanding(false);
@@ -236,16 +236,16 @@ void HandDock::connectMotions() {
   };
 }
 
-QWidget* HandDock::makeBody(QSettings& settings) {
+QWidget* HandDock::makeBody(QSettings& settings, Ask& ask) {
   auto* area = new QScrollArea(this);
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   area->setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(area);
-  makePages(settings, content);
+  makePages(settings, ask, content);
   sensitivity_ = new SensitivityModes(content);
-  tactile_ = new TactileSettingsPanel(settings, content);
+  tactile_ = new TactileSettingsPanel(settings, ask, content);
   angles_ = named(new FactsView(content), "liveAngles", {}, "Joint angles");
   temperatures_ = named(new FactsView(content), "liveTemperatures", {}, "Temperatures");
   const auto section = [content](const char* name, const QString& title, QWidget* view) {

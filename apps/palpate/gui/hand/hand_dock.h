@@ -28,6 +28,7 @@ class QTabBar;
 
 namespace palpate::gui {
 
+class Ask;
 struct HandActions;
 class FactsView;
 class FittingPages;
@@ -44,7 +45,7 @@ class HandDock : public QWidget {
   Q_OBJECT
  public:
   // Stores choices and named settings in `settings`, which must outlive this.
-  explicit HandDock(QSettings& settings, QWidget* parent = nullptr);
+  HandDock(QSettings& settings, Ask& ask, QWidget* parent = nullptr);
   ~HandDock() override;
   // Sets the connected hand; null when there is none. Both must outlive this, or be replaced by
   // null before they are destroyed.
@@ -119,8 +120,8 @@ class HandDock : public QWidget {
   // The size of text has just changed, and parts of the dock change their sizes.
   bool textChanged_ = false;
   QWidget* makeHead();
-  QWidget* makeBody(QSettings& settings);
-  void makePages(QSettings& settings, QWidget* content);
+  QWidget* makeBody(QSettings& settings, Ask& ask);
+  void makePages(QSettings& settings, Ask& ask, QWidget* content);
   void connectMotions();
   bool isReadOnly() const { return session_ && !control_; }
   // `more` is told by the tool tip only.

@@ -36,7 +36,7 @@ HandActions::HandActions(ActionRegistry& book) {
 HandFeature::HandFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
-      panel_(new HandDock(windowState.settings, window)) {
+      panel_(new HandDock(windowState.settings, windowState.ask, window)) {
   dock_ = new Dock("Hand", panel_, nullptr, window);
   panel_->bind(actions_);
   auto* dialogs = new DialogStop(*actions_.stopHand, this);
@@ -85,11 +85,6 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &HandDock::stopPressed, &windowState.handCommands, &HandCommands::stopped);
   connect(panel_, &HandDock::asked, &windowState.handCommands, &HandCommands::asked);
   followUnits(panel_);
-  const auto confirmed = [&windowState](const QString& text, const QString& button) {
-    return windowState.prompts.confirmed && windowState.prompts.confirmed(text, button);
-  };
-  panel_->joints().confirmed = confirmed;
-  panel_->tactileSettings().confirmed = confirmed;
   SensitivityModes& modes = panel_->sensitivity();
   modes.noiseLines = [&windowState](const std::string& hand) {
     const auto& lines = windowState.handCommands.noiseLines;

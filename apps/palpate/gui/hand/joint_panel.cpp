@@ -3,9 +3,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QGridLayout>
-#include <QInputDialog>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
@@ -22,6 +20,7 @@
 #include <palpate/core/text_file.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/motion_button.h"
 #include "gui/widgets/make.h"
@@ -44,18 +43,8 @@ QString angleText(double value, const AxisDescription& axis) {
 
 }  // namespace
 
-JointPanel::JointPanel(QSettings& settings, QWidget* parent)
-    : QWidget(parent), settings_(settings) {
-  askForName = [this](const QString& suggestion) {
-    return QInputDialog::getText(this, "Pose", "Name", QLineEdit::Normal, suggestion);
-  };
-  askForFileToOpen = [this] {
-    return QFileDialog::getOpenFileName(this, "Import poses", {}, kPoseFilter);
-  };
-  askForFileToSave = [this] {
-    return QFileDialog::getSaveFileName(this, "Export poses", "poses.json", kPoseFilter);
-  };
-  confirmed = [](const QString&, const QString&) { return false; };
+JointPanel::JointPanel(QSettings& settings, Ask& ask, QWidget* parent)
+    : QWidget(parent), settings_(settings), ask_(ask) {
   reactiveLimits = [] { return GraspRequest{}; };
   auto* grid = new QGridLayout;
   grid->setContentsMargins(0, 0, 0, 0);
@@ -207,7 +196,8 @@ void JointPanel::savePose() {
   if (!control_) return;
   const std::vector<double> angles = control_->status().anglesDeg;
   const QString name =
-      askForName(names_->currentIndex() > 0 ? names_->currentText() : QString()).trimmed();
+      ask_.text("Pose", "Name", names_->currentIndex() > 0 ? names_->currentText() : QString())
+          .value_or(QString());
   if (name.isEmpty()) return;
   SavedPose pose{name.toStdString(), movableHand().name, angles};
   // A joint can be a few hundredths of a degree beyond its range.
@@ -219,7 +209,7 @@ void JointPanel::savePose() {
   if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
     return emit refused(QString::fromStdString(problem));
   if (saved().names().contains(name) &&
-      !confirmed("Replace the pose \"" + name + "\" by the present angles?", "Replace"))
+      !ask_.confirmed("Replace the pose \"" + name + "\" by the present angles?", "Replace"))
     return;
   saved().save(QString::fromStdString(pose.name), pose);
   // The name says what the targets are: those that were set before are other ones.
@@ -231,7 +221,7 @@ void JointPanel::savePose() {
 void JointPanel::removePose() {
   if (names_->currentIndex() <= 0) return;
   const QString name = names_->currentText();
-  if (!confirmed("Delete the pose \"" + name + "\"?", "Delete")) return;
+  if (!ask_.confirmed("Delete the pose \"" + name + "\"?", "Delete")) return;
   saved().remove(name);
   listPoses();
 }
@@ -241,7 +231,7 @@ void JointPanel::renamePose() {
   const QString before = names_->currentText();
   auto pose = saved().load(before);
   if (!pose) return emit refused("the pose '" + before + "' can't be read");
-  const QString name = askForName(before).trimmed();
+  const QString name = ask_.text("Pose", "Name", before).value_or(QString());
   if (name.isEmpty() || name == before) return;
   if (saved().names().contains(name)) return emit refused("a pose '" + name + "' exists already");
   pose->name = name.toStdString();
@@ -252,7 +242,7 @@ void JointPanel::renamePose() {
 
 // All poses of the file, or none.
 void JointPanel::importPoses() {
-  const QString path = askForFileToOpen();
+  const QString path = ask_.file("Import poses", {}, kPoseFilter);
   if (path.isEmpty()) return;
   reading_.start(
       [this, file = std::filesystem::path(path.toStdString())]() -> FileReading::Take {
@@ -288,7 +278,7 @@ void JointPanel::exportPoses() {
   for (const QString& name : saved().names())
     if (auto pose = saved().load(name)) poses.push_back(std::move(*pose));
   if (poses.empty()) return emit refused("there is no pose to export");
-  const QString path = askForFileToSave();
+  const QString path = ask_.newFile("Export poses", "poses.json", kPoseFilter);
   if (path.isEmpty()) return;
   try {
     // The dialogue has asked about an existing file.

@@ -22,13 +22,14 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class Ask;
 class ValueSlider;
 
 class JointPanel : public QWidget {
   Q_OBJECT
  public:
   // Stores velocity and poses in `settings`, which must outlive this.
-  JointPanel(QSettings& settings, QWidget* parent);
+  JointPanel(QSettings& settings, Ask& ask, QWidget* parent);
   // As GraspPanel::setControl().
   void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
   // Call this repeatedly: shows present angles, and what is possible now. `phase`: what the hand
@@ -40,12 +41,6 @@ class JointPanel : public QWidget {
 
   // The limits of a reactive grasp, for moving under tactile control.
   std::function<GraspRequest()> reactiveLimits;
-  // Ask the user; an empty answer means cancelled. Tests replace them.
-  std::function<QString(const QString& suggestion)> askForName;
-  std::function<QString()> askForFileToOpen;
-  std::function<QString()> askForFileToSave;
-  // Asks before a pose is lost; `button`: what is done ("Replace"). Until it is set, none is lost.
-  std::function<bool(const QString& text, const QString& button)> confirmed;
 
  signals:
   void begins();
@@ -82,6 +77,7 @@ class JointPanel : public QWidget {
   void setChangedByHand(Row& row);
 
   QSettings& settings_;
+  Ask& ask_;
   GraspControl* control_ = nullptr;
   QString whyNot_ = "No hand is connected";
   std::vector<Row> rows_;

@@ -1,7 +1,6 @@
 #include "gui/hand/sequence_panel.h"
 
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QLabel>
 #include <QListWidget>
 #include <QMenu>
@@ -14,6 +13,7 @@
 #include <palpate/core/output_file.h>
 #include <palpate/core/text_file.h>
 
+#include "gui/desktop/ask.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/motion_button.h"
 #include "gui/widgets/make.h"
@@ -33,18 +33,11 @@ constexpr int kSequenceLines = 6;
 
 }  // namespace
 
-SequencePanel::SequencePanel(QSettings& settings, QWidget* parent)
-    : QWidget(parent), settings_(settings) {
+SequencePanel::SequencePanel(QSettings& settings, Ask& ask, QWidget* parent)
+    : QWidget(parent), settings_(settings), ask_(ask) {
   graspRequest = [](GraspMode) { return GraspRequest{}; };
   poses = [] { return std::vector<SavedPose>(); };
   poseVelocity = [] { return GraspRequest{}.velocityDegPerS; };
-  askForFileToOpen = [this] {
-    return QFileDialog::getOpenFileName(this, "Open a sequence", {}, kSequenceFilter);
-  };
-  askForFileToSave = [this] {
-    return QFileDialog::getSaveFileName(
-        this, "Save the sequence", "sequence.json", kSequenceFilter);
-  };
   sequence_.hand = movableHand().name;
   steps_ = named(new QListWidget(this), "sequenceSteps", {}, "Steps of the sequence");
   fitToText(*steps_, [steps = steps_] {
@@ -231,7 +224,7 @@ void SequencePanel::start() {
 }
 
 void SequencePanel::openFile() {
-  const QString path = askForFileToOpen();
+  const QString path = ask_.file("Open a sequence", {}, kSequenceFilter);
   if (path.isEmpty()) return;
   reading_.start(
       [this, file = std::filesystem::path(path.toStdString())]() -> FileReading::Take {
@@ -255,7 +248,7 @@ void SequencePanel::openFile() {
 }
 
 void SequencePanel::saveFile() {
-  const QString path = askForFileToSave();
+  const QString path = ask_.newFile("Save the sequence", "sequence.json", kSequenceFilter);
   if (path.isEmpty()) return;
   try {
     // The dialogue has asked about an existing file.

@@ -21,13 +21,14 @@ class QSpinBox;
 
 namespace palpate::gui {
 
+class Ask;
 class StatusLines;
 
 class SequencePanel : public QWidget {
   Q_OBJECT
  public:
   // Stores the table in `settings`, which must outlive this.
-  SequencePanel(QSettings& settings, QWidget* parent);
+  SequencePanel(QSettings& settings, Ask& ask, QWidget* parent);
   // Null: no hand that can be moved; the tool tips then tell `whyNot`. Both must outlive this, or
   // be replaced by null before they are destroyed.
   void setHand(CaptureSession* session,
@@ -45,9 +46,6 @@ class SequencePanel : public QWidget {
   // Own poses that can be added, and the velocity of the page Joints.
   std::function<std::vector<SavedPose>()> poses;
   std::function<double()> poseVelocity;
-  // Ask the user for a path; empty: cancelled. Tests replace them.
-  std::function<QString()> askForFileToOpen;
-  std::function<QString()> askForFileToSave;
 
  signals:
   void begins();
@@ -66,6 +64,7 @@ class SequencePanel : public QWidget {
   void saveFile();
 
   QSettings& settings_;
+  Ask& ask_;
   CaptureSession* session_ = nullptr;
   GraspControl* control_ = nullptr;
   QString whyNot_ = "No hand is connected";

@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
-#include <QInputDialog>
 #include <QLabel>
 #include <QPushButton>
 #include <QSlider>
@@ -15,6 +14,7 @@
 
 #include <palpate/model/hand_description.h>
 
+#include "gui/desktop/ask.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 #include "gui/widgets/value_slider.h"
@@ -34,12 +34,8 @@ QLabel* tactileSettingsPanelCaption(const QString& text, QWidget* parent) {
 
 }  // namespace
 
-TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
-    : QWidget(parent), settings_(settings) {
-  askForName = [this](const QString& suggestion) {
-    return QInputDialog::getText(this, "Save settings", "Name", QLineEdit::Normal, suggestion);
-  };
-  confirmed = [](const QString&, const QString&) { return false; };
+TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, Ask& ask, QWidget* parent)
+    : QWidget(parent), settings_(settings), ask_(ask) {
   table_ = new QWidget(this);
   note_ = tactileSettingsPanelCaption({}, this);
   // Keeps room for one line, so that nothing moves when a note appears.
@@ -168,11 +164,11 @@ void TactileSettingsPanel::makeButtons() {
   });
   connect(save_, &QPushButton::clicked, this, [this] {
     if (!session_) return;
-    const QString name =
-        askForName(names_->currentIndex() > 0 ? names_->currentText() : QString()).trimmed();
+    const QString before = names_->currentIndex() > 0 ? names_->currentText() : QString();
+    const QString name = ask_.text("Save settings", "Name", before).value_or(QString());
     if (name.isEmpty()) return;
     if (names_->findText(name, Qt::MatchExactly | Qt::MatchCaseSensitive) > 0 &&
-        !confirmed("Replace the settings \"" + name + "\" by the present ones?", "Replace"))
+        !ask_.confirmed("Replace the settings \"" + name + "\" by the present ones?", "Replace"))
       return;
     saved().save(name, session_->device().facts().matrices);
     listNames();
@@ -180,7 +176,7 @@ void TactileSettingsPanel::makeButtons() {
   });
   connect(remove_, &QPushButton::clicked, this, [this] {
     if (names_->currentIndex() <= 0 ||
-        !confirmed("Delete the settings \"" + names_->currentText() + "\"?", "Delete"))
+        !ask_.confirmed("Delete the settings \"" + names_->currentText() + "\"?", "Delete"))
       return;
     saved().remove(names_->currentText());
     listNames();

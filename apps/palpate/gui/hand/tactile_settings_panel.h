@@ -20,13 +20,14 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class Ask;
 class ValueSlider;
 
 class TactileSettingsPanel : public QWidget {
   Q_OBJECT
  public:
   // `settings` must outlive this.
-  TactileSettingsPanel(QSettings& settings, QWidget* parent);
+  TactileSettingsPanel(QSettings& settings, Ask& ask, QWidget* parent);
   // Null: no hand. Both must outlive this, or be replaced by null before they are destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
   // Shows one row for each matrix of `hand`, and one for all.
@@ -41,11 +42,6 @@ class TactileSettingsPanel : public QWidget {
   // Marks the matrices that cannot detect a limit [counts] with their settings: one reason for each
   // matrix; empty when it can.
   void showUnmeasurable(const std::vector<QString>& why, int limitCounts);
-  // Asks the user for a name; an empty answer means cancelled. Tests replace it.
-  std::function<QString(const QString& suggestion)> askForName;
-  // Asks before saved settings are lost; `button`: what is done ("Replace"). Until it is set, none
-  // are lost.
-  std::function<bool(const QString& text, const QString& button)> confirmed;
 
  signals:
   void refused(const QString& why);
@@ -73,6 +69,7 @@ class TactileSettingsPanel : public QWidget {
   NamedItems<TactileSettings> saved() const;
 
   QSettings& settings_;
+  Ask& ask_;
   CaptureSession* session_ = nullptr;
   GraspControl* control_ = nullptr;
   // The first row sets all matrices.

@@ -4,11 +4,9 @@
 #include <QComboBox>
 #include <QDir>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHeaderView>
-#include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -21,6 +19,7 @@
 #include <palpate/model/hand_file.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/import/import_fields.h"
 #include "gui/widgets/make.h"
 
@@ -56,23 +55,13 @@ QString sampleText(const ImportPreview& preview) {
 
 ImportDialog::ImportDialog(QSettings& settings,
                            std::vector<std::filesystem::path> folders,
+                           Ask& ask,
                            QWidget* parent)
-    : QDialog(parent), settings_(settings), folders_(std::move(folders)) {
+    : QDialog(parent), settings_(settings), ask_(ask), folders_(std::move(folders)) {
   setWindowTitle("Import");
   const ImportRequest last = loadImportRequest(settings);
   setLayout(inColumn({inRow({{makeFile(), 3}, {makeMapping(), 4}}), {makePreview(), 1}, makeFoot()},
                      kPageEdges));
-  askForData = [this, folder = last.data] {
-    return QFileDialog::getOpenFileName(
-        this,
-        "Choose a file to import",
-        folder,
-        "Tables (*.csv *.tsv *.txt *.log *.dat *.npy *.npz *.h5 *.hdf5 *.mat);;All files (*)");
-  };
-  askForHand = [this] { return QFileDialog::getExistingDirectory(this, "Folder of a hand"); };
-  askForName = [this](const QString& suggestion) {
-    return QInputDialog::getText(this, "Save the mapping", "Name", QLineEdit::Normal, suggestion);
-  };
   for (const KnownHand& each : knownHands(folders_))
     hand_->addItem(QString::fromStdString(each.key));
   strict_->setChecked(last.strict);
@@ -104,18 +93,22 @@ QWidget* ImportDialog::makeFile() {
   data_ = named(new QLineEdit, "importData");
   data_->setPlaceholderText("CSV, text, .npy, .npz, HDF5");
   form->addRow(makeTitle("&File", data_), withButton(data_, "Bro&wse…", "importBrowse", [this] {
-                 const QString chosen = askForData();
+                 const QString chosen =
+                     ask_.file("Choose a file to import",
+                               loadImportRequest(settings_).data,
+                               "Tables (*.csv *.tsv *.txt *.log *.dat *.npy *.npz *.h5 *.hdf5 "
+                               "*.mat);;All files (*)");
                  if (!chosen.isEmpty()) setData(chosen);
                }));
   hand_ = named(new QComboBox, "importHand");
   form->addRow(makeTitle("&Hand", hand_), withButton(hand_, "Fol&der…", "importHandFolder", [this] {
-                 const QString chosen = askForHand();
+                 const QString chosen = ask_.folder("Folder of a hand", {});
                  if (!chosen.isEmpty()) setHand(chosen);
                }));
   preset_ = named(new QComboBox, "importPreset");
   auto* presets = withButton(preset_, "&Save…", "importSavePreset", [this] {
     const QString now = preset_->currentData().toString();
-    const QString name = askForName(now).trimmed();
+    const QString name = ask_.text("Save the mapping", "Name", now).value_or(QString());
     if (name.isEmpty()) return;
     importPresets(settings_).save(name, request().mapping);
     listPresets(name);

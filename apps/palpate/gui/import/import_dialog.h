@@ -5,7 +5,6 @@
 #include <QDialog>
 #include <QSettings>
 #include <filesystem>
-#include <functional>
 #include <vector>
 
 #include "gui/import/import_request.h"
@@ -22,6 +21,7 @@ class QTableWidget;
 
 namespace palpate::gui {
 
+class Ask;
 class ImportFields;
 
 class ImportDialog : public QDialog {
@@ -30,6 +30,7 @@ class ImportDialog : public QDialog {
   // `settings` must outlive the dialog. `folders`: where hands are looked for by name.
   ImportDialog(QSettings& settings,
                std::vector<std::filesystem::path> folders,
+               Ask& ask,
                QWidget* parent = nullptr);
   ~ImportDialog() override;
 
@@ -41,12 +42,6 @@ class ImportDialog : public QDialog {
 
   void setData(const QString& path);
   void setHand(const QString& nameOrFolder);
-
-  // Asks for the file to import, the folder of a hand, and the name of a preset; empty: cancelled.
-  // Tests replace them.
-  std::function<QString()> askForData;
-  std::function<QString()> askForHand;
-  std::function<QString(const QString& suggestion)> askForName;
 
  public slots:
   // Closes the dialog only when the request can be carried out.
@@ -72,6 +67,7 @@ class ImportDialog : public QDialog {
   void showProblem();
 
   QSettings& settings_;
+  Ask& ask_;
   std::vector<std::filesystem::path> folders_;
   // The mapping that the fields began with; they show a part of it.
   ImportMapping first_;

@@ -32,7 +32,8 @@ ImportFeature::ImportFeature(WindowState& windowState, QWidget* window)
 }
 
 void ImportFeature::askAndImport() {
-  ImportDialog dialog(state().settings, handFolders(state().environment.dataFolder), window());
+  ImportDialog dialog(
+      state().settings, handFolders(state().environment.dataFolder), state().ask, window());
   if (dialog.exec() != QDialog::Accepted) return;
   saveImportRequest(dialog.request(), state().settings);
   importNow(dialog.request());

@@ -22,8 +22,11 @@ QString cacheFolderFor(const QSettings& settings) {
 
 LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
-      panel_(new LibraryPanel(
-          windowState.settings, cacheFolderFor(windowState.settings), catalogRecordings, window)) {
+      panel_(new LibraryPanel(windowState.settings,
+                              windowState.ask,
+                              cacheFolderFor(windowState.settings),
+                              catalogRecordings,
+                              window)) {
   dock_ = new Dock("Library", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   connect(panel_, &LibraryPanel::openRequested, this, [&windowState](const QStringList& paths) {
     std::vector<std::filesystem::path> files;

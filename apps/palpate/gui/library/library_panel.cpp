@@ -2,7 +2,6 @@
 
 #include <QApplication>
 #include <QClipboard>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -17,6 +16,7 @@
 
 #include "gui/appearance/icons.h"
 #include "gui/appearance/settings_file.h"
+#include "gui/desktop/ask.h"
 #include "gui/desktop/reveal_file.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
@@ -53,6 +53,7 @@ QString unknownKeysText(const RecordingSearch& search) {
 }  // namespace
 
 LibraryPanel::LibraryPanel(QSettings& settings,
+                           Ask& ask,
                            const QString& cacheFolder,
                            LibraryScanner::Catalog catalog,
                            QWidget* parent)
@@ -60,13 +61,11 @@ LibraryPanel::LibraryPanel(QSettings& settings,
       comparable([] { return false; }),
       reveal(revealInFileManager),
       settings_(settings),
+      ask_(ask),
       scanner_(cacheFolder, std::move(catalog)),
       model_(new LibraryModel(this)),
       filter_(new LibraryFilter(*model_, this)) {
   setObjectName("LibraryPanel");
-  askForFolder = [this](const QString& start) {
-    return QFileDialog::getExistingDirectory(this, "Folder with recordings", start);
-  };
   buildTop();
   pages_ = new FittingPages(this);
   setLayout(inColumn({{pages_, 1}}, Space::kNone));
@@ -336,7 +335,7 @@ void LibraryPanel::showSummary() {
 }
 
 void LibraryPanel::chooseFolder() {
-  const QString folder = askForFolder(folder_);
+  const QString folder = ask_.folder("Folder with recordings", folder_);
   if (folder.isEmpty()) return;
   setFolder(QFileInfo(folder).absoluteFilePath());
   // The button that had the keyboard may be hidden now: the next one is "Stop reading".

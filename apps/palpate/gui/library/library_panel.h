@@ -21,6 +21,7 @@ class QToolButton;
 
 namespace palpate::gui {
 
+class Ask;
 class EmptyPage;
 
 class LibraryPanel : public QWidget {
@@ -28,6 +29,7 @@ class LibraryPanel : public QWidget {
  public:
   // `settings` stores folder, columns and sort order; it must outlive this.
   LibraryPanel(QSettings& settings,
+               Ask& ask,
                const QString& cacheFolder,
                LibraryScanner::Catalog catalog = catalogRecordings,
                QWidget* parent = nullptr);
@@ -45,8 +47,6 @@ class LibraryPanel : public QWidget {
   QStringList chosen() const;
   bool scanning() const noexcept { return scanner_.busy(); }
 
-  // Asks the user for a folder; an empty answer means cancelled.
-  std::function<QString(const QString& start)> askForFolder;
   // Whether a recording is shown that another can be compared with.
   std::function<bool()> comparable;
   // Shows a file in the file manager.
@@ -86,6 +86,7 @@ class LibraryPanel : public QWidget {
   void openChosen();
 
   QSettings& settings_;
+  Ask& ask_;
   LibraryScanner scanner_;
   LibraryModel* model_;
   LibraryFilter* filter_;

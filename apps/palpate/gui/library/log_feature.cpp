@@ -19,7 +19,7 @@ QString openedText(const OpenedRecording& recording) {
 }  // namespace
 
 LogFeature::LogFeature(WindowState& windowState, QWidget* window)
-    : Feature(windowState, window), panel_(new LogPanel(windowState.log, window)) {
+    : Feature(windowState, window), panel_(new LogPanel(windowState.log, windowState.ask, window)) {
   dock_ = new Dock("Log", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   connect(&windowState.opener,
           &RecordingOpener::opened,

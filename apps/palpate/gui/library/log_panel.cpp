@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLineEdit>
@@ -17,6 +16,7 @@
 #include <palpate/core/error.h>
 #include <palpate/core/output_file.h>
 
+#include "gui/desktop/ask.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/make.h"
@@ -135,12 +135,9 @@ void LogTable::fitRows(int first, int last) {
   }
 }
 
-LogPanel::LogPanel(ActivityLog& log, QWidget* parent)
-    : QWidget(parent), log_(log), filter_(new LogFilter(log, this)) {
+LogPanel::LogPanel(ActivityLog& log, Ask& ask, QWidget* parent)
+    : QWidget(parent), log_(log), ask_(ask), filter_(new LogFilter(log, this)) {
   setObjectName("LogPanel");
-  askForFile = [this](const QString& suggestion) {
-    return QFileDialog::getSaveFileName(this, "Save the log", suggestion, "Text (*.txt)");
-  };
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -246,7 +243,7 @@ QString LogPanel::text() const {
 }
 
 void LogPanel::save() {
-  const QString path = askForFile("palpate-log.txt");
+  const QString path = ask_.newFile("Save the log", "palpate-log.txt", "Text (*.txt)");
   if (path.isEmpty()) return;
   try {
     // The dialog has asked before it replaces a file.

@@ -5,7 +5,6 @@
 #include <QSortFilterProxyModel>
 #include <QTableView>
 #include <QWidget>
-#include <functional>
 
 #include "gui/appearance/theme.h"
 #include "gui/window_state/activity_log.h"
@@ -16,6 +15,7 @@ class QStackedWidget;
 
 namespace palpate::gui {
 
+class Ask;
 class EmptyPage;
 
 // The lines of the log that match severity and words.
@@ -65,12 +65,10 @@ class LogPanel : public QWidget {
   Q_OBJECT
  public:
   // `log` must outlive this.
-  explicit LogPanel(ActivityLog& log, QWidget* parent = nullptr);
+  LogPanel(ActivityLog& log, Ask& ask, QWidget* parent = nullptr);
   // The chosen lines, else all shown lines, one below the other.
   QString text() const;
 
-  // Asks the user for a file to save the log in; an empty answer means cancelled.
-  std::function<QString(const QString& suggestion)> askForFile;
   QSize sizeHint() const override { return {420, 300}; }
 
  signals:
@@ -84,6 +82,7 @@ class LogPanel : public QWidget {
   void showState();
 
   ActivityLog& log_;
+  Ask& ask_;
   LogFilter* filter_;
   QComboBox* severity_ = nullptr;
   QLineEdit* words_ = nullptr;

@@ -2,7 +2,6 @@
 
 #include <QComboBox>
 #include <QDragEnterEvent>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMenu>
 #include <QMimeData>
@@ -56,21 +55,6 @@ OpenFeature::OpenFeature(WindowState& windowState, QWidget* window)
       strip_(new OpeningStrip(window)) {
   actions_.openDemo->setVisible(hasDemo(windowState));
   actions_.openDemo->setEnabled(hasDemo(windowState));
-  windowState.prompts.recordings = [&windowState, window] {
-    return QFileDialog::getOpenFileNames(
-        window,
-        "Open recordings",
-        windowState.recent.lastFolder(),
-        "Recordings (*.dsa *.palpate *.h5 *.hdf5 *.mcap *.xml);;All files (*)");
-  };
-  windowState.prompts.file =
-      [window](const QString& title, const QString& folder, const QString& filter) {
-        return QFileDialog::getOpenFileName(window, title, folder, filter);
-      };
-  windowState.prompts.newFile =
-      [window](const QString& title, const QString& suggestion, const QString& filter) {
-        return QFileDialog::getSaveFileName(window, title, suggestion, filter);
-      };
   connectOpener();
   connectActions();
   window->installEventFilter(this);

@@ -98,17 +98,17 @@ void RecoveryFeature::offer() {
 void RecoveryFeature::recoverChosen() {
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (recording && !damageOfDisplayed().isEmpty()) return recover(recording->path);
-  const QString path = state().prompts.file(kRecoverTitle,
-                                            state().recent.lastFolder(),
-                                            "Recordings (*.dsa *.palpate *.mcap);;All files (*)");
+  const QString path = state().ask.file(kRecoverTitle,
+                                        state().recent.lastFolder(),
+                                        "Recordings (*.dsa *.palpate *.mcap);;All files (*)");
   if (!path.isEmpty()) recover(path.toStdString());
 }
 
 void RecoveryFeature::recover(const std::filesystem::path& path) {
-  QString saved = state().prompts.newFile(
-      "Save what can be read",
-      pathText(recoveredPathOf(path)),
-      "Palpate recording (*.palpate);;MCAP (*.mcap);;DSA recording (*.dsa)");
+  QString saved =
+      state().ask.newFile("Save what can be read",
+                          pathText(recoveredPathOf(path)),
+                          "Palpate recording (*.palpate);;MCAP (*.mcap);;DSA recording (*.dsa)");
   if (saved.isEmpty()) return offer();
   if (QFileInfo(saved).suffix().isEmpty()) saved += ".palpate";
   // The file is recovered: labels that aren't in it yet would be missing in the new one.

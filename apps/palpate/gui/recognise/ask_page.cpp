@@ -2,7 +2,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
@@ -11,6 +10,7 @@
 #include <palpate/recognition/training_choice.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/recognise/answer_view.h"
 #include "gui/widgets/long_word_label.h"
 #include "gui/widgets/make.h"
@@ -23,15 +23,18 @@ constexpr double kButtonScale = 1.25;
 
 }  // namespace
 
-AskPage::AskPage(RecognitionController& controller, QWidget* parent)
+AskPage::AskPage(RecognitionController& controller, Ask& ask, QWidget* parent)
     : QWidget(parent), controller_(controller) {
   setObjectName("askPage");
   model_ = named(new LongWordLabel(this), "recogniseModel");
   models_ = new QMenu(this);
   auto* choose = makeButton(this, "recogniseModelButton", "Model");
   choose->setMenu(models_);
-  connect(models_->addAction("&Open a model…"), &QAction::triggered, this, [this] {
-    if (const auto path = askForModel(); !path.empty()) controller_.openModel(path);
+  connect(models_->addAction("&Open a model…"), &QAction::triggered, this, [this, &ask] {
+    const QString path = ask.file("Open a model",
+                                  QString::fromStdString(controller_.modelPath().string()),
+                                  "Models (*.json);;All files (*)");
+    if (!path.isEmpty()) controller_.openModel(path.toStdString());
   });
   connect(models_->addAction("The &emulated objects"),
           &QAction::triggered,
@@ -77,14 +80,6 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
         [&](RecognitionSession& session) { session.setLabel(*grasp, chosen); });
     emit controller_.said("labelled: " + classes_->currentText());
   });
-  askForModel = [this] {
-    return std::filesystem::path(
-        QFileDialog::getOpenFileName(this,
-                                     "Open a model",
-                                     QString::fromStdString(controller_.modelPath().string()),
-                                     "Models (*.json);;All files (*)")
-            .toStdString());
-  };
   view_->setAnswer(controller_.answer());
   setLive(false);
   showModel();

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <QWidget>
-#include <filesystem>
-#include <functional>
 
 #include "gui/appearance/theme.h"
 #include "gui/recognise/recognition_controller.h"
@@ -17,20 +15,18 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class Ask;
 class AnswerView;
 
 class AskPage : public QWidget {
   Q_OBJECT
  public:
-  explicit AskPage(RecognitionController& controller, QWidget* parent = nullptr);
+  AskPage(RecognitionController& controller, Ask& ask, QWidget* parent = nullptr);
   // `live`: a connected hand is shown, which can be asked repeatedly. `silence`: why nothing
   // arrives from it, so that it can't be asked; empty: frames arrive.
   void setLive(bool live, const QString& silence = {});
   bool byItself() const;
   AnswerView& view() noexcept { return *view_; }
-
-  // Asks the user for a model file; an empty answer means cancelled.
-  std::function<std::filesystem::path()> askForModel;
 
  signals:
   void asked();

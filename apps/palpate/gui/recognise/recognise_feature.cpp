@@ -39,7 +39,8 @@ constexpr double kAirS = 1.0;  // [s] margin around a shown grasp
 RecogniseFeature::RecogniseFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
-      panel_(new RecognisePanel(windowState.settings, windowState.environment.dataFolder, window)) {
+      panel_(new RecognisePanel(
+          windowState.settings, windowState.environment.dataFolder, windowState.ask, window)) {
   dock_ = new Dock(
       "Recognise", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
   connectAll();

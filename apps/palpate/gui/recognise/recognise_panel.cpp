@@ -15,14 +15,15 @@ namespace palpate::gui {
 
 RecognisePanel::RecognisePanel(QSettings& settings,
                                const std::filesystem::path& dataFolder,
+                               Ask& ask,
                                QWidget* parent)
     : PagedPanel(settings, "recognise", parent) {
   setObjectName("RecognisePanel");
   controller_ = new RecognitionController(settings, dataFolder, this);
   teaching_ = new TrainingController(settings, this);
-  ask_ = new AskPage(*controller_, &pages());
-  today_ = new TodayPage(*controller_, &pages());
-  teach_ = new TrainingPage(*teaching_, &pages());
+  ask_ = new AskPage(*controller_, ask, &pages());
+  today_ = new TodayPage(*controller_, ask, &pages());
+  teach_ = new TrainingPage(*teaching_, ask, &pages());
   grasps_ = new GraspsPage(*teaching_, settings, &pages());
   check_ = new CheckPage(*teaching_, &pages());
   strip_ = new OpeningStrip(this, "Working on", "recognise");

@@ -11,6 +11,7 @@
 
 namespace palpate::gui {
 
+class Ask;
 class AskPage;
 class CheckPage;
 class GraspsPage;
@@ -23,6 +24,7 @@ class RecognisePanel : public PagedPanel {
  public:
   RecognisePanel(QSettings& settings,
                  const std::filesystem::path& dataFolder,
+                 Ask& ask,
                  QWidget* parent = nullptr);
 
   RecognitionController& controller() noexcept { return *controller_; }

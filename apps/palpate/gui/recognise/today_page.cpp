@@ -1,7 +1,6 @@
 #include "gui/recognise/today_page.h"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -12,6 +11,7 @@
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
@@ -33,7 +33,7 @@ std::vector<FigureColumn> todayPageColumns() {
 
 }  // namespace
 
-TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
+TodayPage::TodayPage(RecognitionController& controller, Ask& ask, QWidget* parent)
     : QWidget(parent), controller_(controller) {
   setObjectName("todayPage");
   offset_ = makeLines(this, "todayOffset");
@@ -67,10 +67,15 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
   connect(forget_, &QPushButton::clicked, this, [this] {
     controller_.changeSession([](RecognitionSession& session) { session.reset(); });
   });
-  connect(save_, &QPushButton::clicked, this, [this] {
+  connect(save_, &QPushButton::clicked, this, [this, &ask] {
     const auto& from = controller_.modelPath();
-    const auto path = askForPlace(QString::fromStdString(
-        (from.parent_path() / (from.stem().string() + "_today.json")).string()));
+    const std::filesystem::path path =
+        ask.newFile("Save today's model",
+                    QString::fromStdString(
+                        (from.parent_path() / (from.stem().string() + "_today.json")).string()),
+                    "Models (*.json)",
+                    ".json")
+            .toStdString();
     if (path.empty()) return;
     try {
       // The dialog has asked before it replaces a file.
@@ -80,12 +85,6 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
       emit controller_.said(error.what());
     }
   });
-  askForPlace = [this](const QString& suggestion) {
-    QString path =
-        QFileDialog::getSaveFileName(this, "Save today's model", suggestion, "Models (*.json)");
-    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
-    return std::filesystem::path(path.toStdString());
-  };
   connect(&controller_, &RecognitionController::sessionChanged, this, &TodayPage::showDay);
   showDay();
 }

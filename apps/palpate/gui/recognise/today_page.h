@@ -3,8 +3,6 @@
 #pragma once
 
 #include <QWidget>
-#include <filesystem>
-#include <functional>
 #include <optional>
 
 #include <palpate/recognition/empty_hand.h>
@@ -19,19 +17,18 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class Ask;
 class FiguresTable;
 
 class TodayPage : public QWidget {
   Q_OBJECT
  public:
-  explicit TodayPage(RecognitionController& controller, QWidget* parent = nullptr);
+  TodayPage(RecognitionController& controller, Ask& ask, QWidget* parent = nullptr);
   // `why`: why the hand cannot be closed now; empty when it can. `closing`: the measurement is
   // running.
   void setZeroPossible(const QString& why, bool closing);
   // The zero of the empty hand that was measured in this connection, or none.
   void setMeasuredZero(std::optional<EmptyHandZero> zero);
-
-  std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
 
  signals:
   void zeroRequested();

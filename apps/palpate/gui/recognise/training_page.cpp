@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QCompleter>
 #include <QDir>
-#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -13,6 +12,7 @@
 #include <array>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/make.h"
 
@@ -94,8 +94,8 @@ QString stateText(const TrainingClip& clip) {
 
 }  // namespace
 
-TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
-    : QWidget(parent), controller_(controller) {
+TrainingPage::TrainingPage(TrainingController& controller, Ask& ask, QWidget* parent)
+    : QWidget(parent), controller_(controller), ask_(ask) {
   setObjectName("teachPage");
   auto* choose = makeButton(this,
                             "teachFolder",
@@ -156,7 +156,9 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
                      kPageEdges));
 
   connect(choose, &QPushButton::clicked, this, [this] {
-    if (const auto path = askForFolder(); !path.empty()) controller_.setFolder(path);
+    const QString folder = ask_.folder("A folder with a folder of recordings per object",
+                                       QString::fromStdString(controller_.folder().string()));
+    if (!folder.isEmpty()) controller_.setFolder(folder.toStdString());
   });
   for (QComboBox* box : {set_, classifier_})
     connect(box, &QComboBox::activated, this, &TrainingPage::choose);
@@ -174,19 +176,6 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
   connect(&controller_, &TrainingController::clipsChanged, this, &TrainingPage::showClips);
   connect(&controller_.job(), &BackgroundJob::started, this, &TrainingPage::showState);
   connect(&controller_.job(), &BackgroundJob::finished, this, &TrainingPage::showState);
-  askForFolder = [this] {
-    return std::filesystem::path(
-        QFileDialog::getExistingDirectory(this,
-                                          "A folder with a folder of recordings per object",
-                                          QString::fromStdString(controller_.folder().string()))
-            .toStdString());
-  };
-  askForPlace = [this](const QString& suggestion) {
-    QString path =
-        QFileDialog::getSaveFileName(this, "Save the model", suggestion, "Models (*.json)");
-    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
-    return std::filesystem::path(path.toStdString());
-  };
   showFolder();
   showChoice();
   showClips();
@@ -338,13 +327,16 @@ void TrainingPage::train() {
   const auto& folder = controller_.folder();
   // Not beside the recordings: they may be shared, or read-only.
   const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  const auto out = askForPlace((documents.isEmpty() ? QDir::homePath() : documents) + "/" +
-                               QString::fromStdString(folder.filename().string()) + ".json");
-  if (out.empty()) {
+  const QString out = ask_.newFile("Save the model",
+                                   (documents.isEmpty() ? QDir::homePath() : documents) + "/" +
+                                       QString::fromStdString(folder.filename().string()) + ".json",
+                                   "Models (*.json)",
+                                   ".json");
+  if (out.isEmpty()) {
     emit controller_.said("Nothing was trained: no file was chosen for the model");
     return;
   }
-  controller_.train(out, zeroNow ? zeroNow() : std::nullopt);
+  controller_.train(out.toStdString(), zeroNow ? zeroNow() : std::nullopt);
 }
 
 }  // namespace palpate::gui

@@ -4,7 +4,6 @@
 
 #include <QList>
 #include <QWidget>
-#include <filesystem>
 #include <functional>
 
 #include "gui/appearance/theme.h"
@@ -17,12 +16,13 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class Ask;
 class FiguresTable;
 
 class TrainingPage : public QWidget {
   Q_OBJECT
  public:
-  explicit TrainingPage(TrainingController& controller, QWidget* parent = nullptr);
+  TrainingPage(TrainingController& controller, Ask& ask, QWidget* parent = nullptr);
   // `live`: a hand is connected, so that grasps can be captured.
   void setLive(bool live);
   bool capturing() const;
@@ -33,9 +33,6 @@ class TrainingPage : public QWidget {
   // Takes the newest grasp out; returns whether there was one.
   bool undo();
 
-  // Ask the user for a folder or file; an empty answer means cancelled.
-  std::function<std::filesystem::path()> askForFolder;
-  std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
   // The zero of the empty hand that the new model will store.
   std::function<std::optional<EmptyHandZero>()> zeroNow;
 
@@ -50,6 +47,7 @@ class TrainingPage : public QWidget {
   int chosenClip() const;
 
   TrainingController& controller_;
+  Ask& ask_;
   bool live_ = false;
   QLabel* folder_;
   QComboBox* set_;

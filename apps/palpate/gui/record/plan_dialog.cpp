@@ -307,25 +307,22 @@ void PlanDialog::removeRow() {
 
 void PlanDialog::importTable() {
   const QString path =
-      windowState_.prompts.file("Read a plan", windowState_.recent.lastFolder(), kPlanTables);
-  // The file dialogue is one of the main window, which would have the keyboard then.
-  activateWindow();
+      windowState_.ask.file("Read a plan", windowState_.recent.lastFolder(), kPlanTables);
   if (path.isEmpty()) return;
   const bool replaces = controller_.plan().numDone() > 0;
-  if (replaces && !windowState_.prompts.confirmed(
-                      "The plan with its " + controller_.progressText() +
-                          " takes is replaced by the table; files stay. Replace it?",
-                      "Replace"))
+  if (replaces &&
+      !windowState_.ask.confirmed("The plan with its " + controller_.progressText() +
+                                      " takes is replaced by the table; files stay. Replace it?",
+                                  "Replace"))
     return;
   say("reading " + QFileInfo(path).fileName() + "…");
   controller_.importCsv(path.toStdString());
 }
 
 void PlanDialog::exportTable() {
-  QString path = windowState_.prompts.newFile(
-      "Save the plan", windowState_.recent.lastFolder() + "/plan.csv", kPlanTables);
+  const QString path = windowState_.ask.newFile(
+      "Save the plan", windowState_.recent.lastFolder() + "/plan.csv", kPlanTables, ".csv");
   if (path.isEmpty()) return;
-  if (!path.endsWith(".csv")) path += ".csv";
   try {
     controller_.exportCsv(path.toStdString());
     say({});
@@ -336,7 +333,7 @@ void PlanDialog::exportTable() {
 }
 
 void PlanDialog::beginAnew() {
-  if (windowState_.prompts.confirmed(
+  if (windowState_.ask.confirmed(
           "All takes of the plan are to be made again; their files stay. Begin anew?",
           "Begin anew"))
     controller_.beginAnew();

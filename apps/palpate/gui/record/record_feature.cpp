@@ -1,7 +1,5 @@
 #include "gui/record/record_feature.h"
 
-#include <QMessageBox>
-#include <QPushButton>
 #include <QTimer>
 #include <algorithm>
 #include <iterator>
@@ -144,28 +142,12 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
       take_(windowState),
       countdownStrip_(new CountdownStrip(window)),
       unfinished_(windowState.settings) {
-  windowState.prompts.recording = [window](
+  windowState.prompts.recording = [&windowState, window](
                                       const RecordingSettings& last,
                                       const QString& button) -> std::optional<RecordingSettings> {
-    RecordingDialog dialog(last, button, window);
+    RecordingDialog dialog(last, button, windowState.ask, window);
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.settings();
-  };
-  windowState.prompts.confirmed = [window](const QString& text, const QString& button) {
-    QMessageBox box(QMessageBox::Question, "Palpate", text, QMessageBox::Cancel, window);
-    const QPushButton* yes = box.addButton(button, QMessageBox::DestructiveRole);
-    box.setDefaultButton(QMessageBox::Cancel);
-    box.exec();
-    return box.clickedButton() == yes;
-  };
-  windowState.prompts.plan = [window](const QString& text) {
-    QMessageBox box(QMessageBox::Question, "Palpate", text, QMessageBox::Cancel, window);
-    const QPushButton* follow = box.addButton("Follow the plan", QMessageBox::AcceptRole);
-    const QPushButton* leave = box.addButton("Don't follow it", QMessageBox::DestructiveRole);
-    box.setDefaultButton(QMessageBox::Cancel);
-    box.exec();
-    if (box.clickedButton() == follow) return UserPrompts::Plan::kFollow;
-    return box.clickedButton() == leave ? UserPrompts::Plan::kLeave : UserPrompts::Plan::kCancel;
   };
   connectActions();
   connectTake();
@@ -489,7 +471,9 @@ void RecordFeature::toggle() {
   LiveController& live = state().live;
   if (live.recording()) {
     // What can't be written now would be lost: another folder is offered first.
-    if (!live.health().recorder.writeError.empty() && !mayStop()) return;
+    if (!live.health().recorder.writeError.empty() &&
+        !state().prompts.endRecording(UserPrompts::Ending::kStop))
+      return;
     return live.stopRecording();
   }
   if (countdown_.cancel()) return;
@@ -520,11 +504,12 @@ bool RecordFeature::isPlanSure() {
   if (!source || plan_.nextTake().isEmpty() || !plan_.followed()) return true;
   const QString hand = handKey(source->session->device());
   if (const QString doubt = plan_.doubt(hand); !doubt.isEmpty()) {
-    const auto answer =
-        state().prompts.plan("The plan of recordings was followed " + doubt +
-                             ". Next in it: " + plan_.nextTake() + ". Is it still followed?");
-    if (answer == UserPrompts::Plan::kCancel) return false;
-    if (answer == UserPrompts::Plan::kLeave) {
+    const int answer =
+        state().ask.choice("The plan of recordings was followed " + doubt +
+                               ". Next in it: " + plan_.nextTake() + ". Is it still followed?",
+                           {"Follow the plan", "Don't follow it"});
+    if (answer < 0) return false;
+    if (answer == 1) {
       plan_.setFollowed(false);
       state().messages.flash("The plan is no longer followed");
       return true;
@@ -551,14 +536,6 @@ void RecordFeature::offerAnotherFolder() {
         waitsForDisk_ = false;
         if (state().live.recording()) toggle();
       });
-}
-
-bool RecordFeature::mayStop() {
-  UserPrompts& prompts = state().prompts;
-  prompts.ending = UserPrompts::Ending::kStop;
-  const bool may = prompts.endRecording();
-  prompts.ending = UserPrompts::Ending::kDisconnect;
-  return may;
 }
 
 void RecordFeature::begin(const RecordingSettings& counted, bool planned) {

@@ -77,7 +77,6 @@ class RecordFeature : public Feature {
   void toggle();
   // Asks whether a plan of another session or hand is still followed. False: nothing is recorded.
   bool isPlanSure();
-  bool mayStop();
   void offerAnotherFolder();
   // `counted`: the settings when the countdown began; `planned`: they were those of a planned take.
   void begin(const RecordingSettings& counted, bool planned);

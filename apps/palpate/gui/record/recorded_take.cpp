@@ -64,10 +64,10 @@ void RecordedTake::rename() {
   if (!windowState_.events.settle(open)) return;
   const bool shown = !open.empty() && windowState_.displayed.recorded() == open.front();
   const QString heading = "Rename " + nameOfTake(paths_);
-  QString title = heading;
+  QString question = heading;
   QString name = pathText(paths_.front().stem());
   for (;;) {
-    const auto typed = windowState_.prompts.text(title, name);
+    const auto typed = windowState_.ask.text(heading, question + ":", name);
     if (!typed) return;
     try {
       const std::string stem = stemFromText(*typed);
@@ -84,7 +84,7 @@ void RecordedTake::rename() {
       return;
     } catch (const std::exception& refusal) {
       const QString why = QString::fromUtf8(refusal.what());
-      title = heading + "\n" + why;
+      question = why;
       // Asked once more with what was typed; typed again, it is refused.
       if (*typed == name) return windowState_.messages.fail(why);
       name = *typed;
@@ -134,7 +134,7 @@ bool RecordedTake::discardFiles(QStringList& moved) {
                 nameOfTake(paths_)
           : "Only " + moved.join(", ") + " could be moved to the trash. Delete the rest of " +
                 nameOfTake(paths_);
-  if (!windowState_.prompts.confirmed(why + " for good?", "Delete")) return false;
+  if (!windowState_.ask.confirmed(why + " for good?", "Delete")) return false;
   deleteRecording(paths_);
   windowState_.messages.flash("deleted: " + nameOfTake(paths_));
   return true;
@@ -142,8 +142,8 @@ bool RecordedTake::discardFiles(QStringList& moved) {
 
 void RecordedTake::discard() {
   if (paths_.empty()) return;
-  if (!windowState_.prompts.confirmed(
-          "Discard " + nameOfTake(paths_) + "? It is moved to the trash.", "Discard"))
+  if (!windowState_.ask.confirmed("Discard " + nameOfTake(paths_) + "? It is moved to the trash.",
+                                  "Discard"))
     return;
   QStringList moved;
   try {

@@ -2,7 +2,6 @@
 
 #include <QCheckBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFrame>
 #include <QGridLayout>
@@ -17,6 +16,7 @@
 #include <algorithm>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/ask.h"
 #include "gui/record/key_labels.h"
 #include "gui/record/recording_timing.h"
 #include "gui/widgets/content_scroll.h"
@@ -87,14 +87,12 @@ void letShrink(QLabel* label) {
 
 RecordingDialog::RecordingDialog(const RecordingSettings& settings,
                                  const QString& okText,
+                                 Ask& ask,
                                  QWidget* parent,
                                  const Clock& clock)
-    : QDialog(parent), clock_(clock) {
+    : QDialog(parent), ask_(ask), clock_(clock) {
   setWindowTitle("Recording");
   setStyleSheet(kRecordingDialogStyle);
-  askForFolder = [this](const QString& begin) {
-    return QFileDialog::getExistingDirectory(this, "Folder for recordings", begin);
-  };
   auto* content = new QWidget;
   auto* fields = makeFields();
   timing_ = new RecordingTiming(content);
@@ -294,7 +292,8 @@ void RecordingDialog::browse() {
   QDir begin(folderFromText(folder_->text()));
   while (!begin.exists() && begin.isAbsolute() && !begin.isRoot())
     begin.setPath(QFileInfo(begin.path()).path());
-  const QString chosen = askForFolder(begin.isAbsolute() ? begin.path() : QDir::homePath());
+  const QString chosen =
+      ask_.folder("Folder for recordings", begin.isAbsolute() ? begin.path() : QDir::homePath());
   if (!chosen.isEmpty()) folder_->setText(chosen);
 }
 

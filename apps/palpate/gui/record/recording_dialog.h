@@ -24,6 +24,7 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class Ask;
 class ContentScroll;
 class KeyLabels;
 class RecordingTiming;
@@ -35,14 +36,13 @@ class RecordingDialog : public QDialog {
   // time in the file name; it must outlive the dialog.
   RecordingDialog(const RecordingSettings& settings,
                   const QString& okText,
+                  Ask& ask,
                   QWidget* parent = nullptr,
                   const Clock& clock = systemClock());
 
   // The values of the fields without leading and trailing blanks.
   RecordingSettings settings() const;
 
-  // Asks the user for a folder; an empty answer changes nothing. Tests replace it.
-  std::function<QString(const QString& begin)> askForFolder;
   // The free space of the folder's disk, said while it is little; empty: not known. Tests replace
   // it.
   std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes = freeBytesOf;
@@ -70,6 +70,7 @@ class RecordingDialog : public QDialog {
   void refresh();
   void showTexts();
 
+  Ask& ask_;
   const Clock& clock_;
   QLineEdit* operator_ = nullptr;
   QLineEdit* object_ = nullptr;

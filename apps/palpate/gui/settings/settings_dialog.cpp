@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QLabel>
@@ -17,6 +16,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/text_size.h"
+#include "gui/desktop/ask.h"
 #include "gui/source/recording_settings.h"
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/make.h"
@@ -72,12 +72,10 @@ const std::vector<Forgettable>& forgettable() {
 
 SettingsDialog::SettingsDialog(const WindowChoices& choices,
                                std::function<QString(const QString&)> problemOf,
+                               Ask& ask,
                                QWidget* parent)
-    : QDialog(parent), before_(choices), problemOf_(std::move(problemOf)) {
+    : QDialog(parent), before_(choices), problemOf_(std::move(problemOf)), ask_(ask) {
   setWindowTitle("Settings");
-  askForFolder = [this](const QString& title, const QString& begin) {
-    return QFileDialog::getExistingDirectory(this, title, begin);
-  };
   auto* fields = new QWidget;
   auto* form = new QFormLayout(fields);
   form->setContentsMargins(0, 0, 0, 0);
@@ -184,7 +182,7 @@ QLineEdit* SettingsDialog::addFolder(QFormLayout& form, const QString& label, co
   form.addRow(makeTitle(label, field), row);
   connect(browse, &QPushButton::clicked, this, [this, field, label] {
     const QString chosen =
-        askForFolder("Folder of " + QString(label).remove('&').toLower(), field->text());
+        ask_.folder("Folder of " + QString(label).remove('&').toLower(), field->text());
     if (!chosen.isEmpty()) field->setText(chosen);
   });
   connect(field, &QLineEdit::textChanged, this, &SettingsDialog::tell);

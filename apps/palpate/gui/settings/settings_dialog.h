@@ -24,6 +24,8 @@ class QSpinBox;
 
 namespace palpate::gui {
 
+class Ask;
+
 // What the dialog shows and changes.
 struct WindowChoices {
   ThemeChoice theme = ThemeChoice::kSystem;
@@ -58,11 +60,10 @@ class SettingsDialog : public QDialog {
   // `problemOf` says in one line why recordings can't be written to a folder; empty: they can.
   SettingsDialog(const WindowChoices& choices,
                  std::function<QString(const QString& folder)> problemOf,
+                 Ask& ask,
                  QWidget* parent);
 
   WindowChoices choices() const;
-  // Asks the user for a folder; an empty answer changes nothing. Tests replace it.
-  std::function<QString(const QString& title, const QString& begin)> askForFolder;
 
   void reject() override;
 
@@ -84,6 +85,7 @@ class SettingsDialog : public QDialog {
 
   const WindowChoices before_;
   std::function<QString(const QString&)> problemOf_;
+  Ask& ask_;
   bool filling_ = false;
   QComboBox* theme_ = nullptr;
   QSpinBox* textPt_ = nullptr;

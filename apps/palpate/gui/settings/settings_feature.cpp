@@ -86,6 +86,7 @@ void SettingsFeature::ask() {
       [this](const QString& folder) {
         return problemOfRecordings(loadRecordingSettings(state().settings), folder);
       },
+      state().ask,
       window());
   connect(&dialog, &SettingsDialog::changed, this, &SettingsFeature::apply);
   dialog.exec();

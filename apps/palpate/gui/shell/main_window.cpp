@@ -254,18 +254,16 @@ void MainWindow::remember() {
 // Then the window closes.
 void MainWindow::closeEvent(QCloseEvent* event) {
   LiveController& live = windowState_->live;
-  UserPrompts::Ending& ending = windowState_->prompts.ending;
-  const auto mayEnd = [this, &ending] {
-    ending = UserPrompts::Ending::kQuit;
-    const bool may = windowState_->prompts.endRecording();
-    ending = UserPrompts::Ending::kDisconnect;
-    return may;
-  };
   if (closing_) {
     if (live.state() != LiveController::State::kNone) return event->ignore();
-  } else if ((live.recording() && !mayEnd()) ||
-             (windowState_->batchRunning() && !windowState_->prompts.endBatch()) ||
-             !windowState_->events.settle(windowState_->recordings.all())) {
+  } else if ((!unasked_ &&
+              ((live.recording() &&
+                !windowState_->prompts.endRecording(UserPrompts::Ending::kQuit)) ||
+               (windowState_->batchRunning() &&
+                !windowState_->ask.confirmed("A batch is running. What is finished stays; the rest "
+                                             "is not made. End the batch?",
+                                             "&Yes")))) ||
+             !windowState_->events.settle(windowState_->recordings.all(), !unasked_)) {
     // All questions come before anything is discarded.
     return event->ignore();
   }
@@ -290,12 +288,9 @@ void MainWindow::endNow() {
 }
 
 void MainWindow::closeUnasked() {
-  const UserPrompts asking = windowState_->prompts;
-  windowState_->prompts.endRecording = [] { return true; };
-  windowState_->prompts.endBatch = [] { return true; };
-  windowState_->prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kSave; };
+  unasked_ = true;
   // What can't be saved keeps the window open: it asks again when the user closes it.
-  if (!close() && !closing_) windowState_->prompts = asking;
+  unasked_ = close() || closing_;
 }
 
 void MainWindow::settle() {

@@ -50,9 +50,11 @@ class MainWindow : public QMainWindow {
     throw std::logic_error("MainWindow: no such feature");
   }
 
-  // Stops a moving hand at once, then closes without asking: unsaved events are saved, a recording
-  // is finished. The window stays open when events can't be saved.
+  // Stops a moving hand at once, then closes unasked.
   void endNow();
+  // Closes without asking: unsaved events are saved, a recording is finished. The window stays open
+  // when events can't be saved.
+  void closeUnasked();
   // Waits until all reading, computing and writing has ended; for tests and pictures.
   void settle();
 
@@ -73,7 +75,6 @@ class MainWindow : public QMainWindow {
   void showBorder();
   void setFullScreen(bool on);
   void remember();
-  void closeUnasked();
 
   std::unique_ptr<WindowState> windowState_;
   ShellActions actions_;
@@ -85,6 +86,8 @@ class MainWindow : public QMainWindow {
   std::vector<std::unique_ptr<Feature>> features_;
   // Closes the window as soon as nothing is connected any more; unset: the window stays open.
   QMetaObject::Connection closing_;
+  // It is closed without asking.
+  bool unasked_ = false;
 };
 
 }  // namespace palpate::gui

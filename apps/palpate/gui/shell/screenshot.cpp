@@ -216,10 +216,8 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   settle(window);
   if (image.isNull()) image = window.grab().toImage();
   // There is no user to ask; an opened recording stays unchanged.
-  window.state().prompts.endRecording = [] { return true; };
-  window.state().prompts.endBatch = [] { return true; };
-  window.state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
-  window.close();
+  window.state().events.discardAll();
+  window.closeUnasked();
   writePng(options.out, image, options.force ? Overwrite::kReplace : Overwrite::kRefuse);
   return 0;
 }

@@ -1,6 +1,5 @@
 #include "gui/timeline/crop_job.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QPushButton>
 #include <QToolButton>
@@ -42,10 +41,6 @@ CropJob::CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidg
     : windowState_(windowState),
       strip_(new OpeningStrip(window, "Saving", "working")),
       offer_(new OfferStrip(window)) {
-  windowState.prompts.cropped = [window](const QString& suggestion) {
-    return QFileDialog::getSaveFileName(
-        window, "Crop to a new recording", suggestion, formatFilter());
-  };
   connect(&crop, &QAction::triggered, this, &CropJob::cropSelection);
   connect(&saveAs, &QAction::triggered, this, &CropJob::saveAs);
   connect(&job_, &BackgroundJob::started, strip_, &OpeningStrip::begin);
@@ -94,8 +89,10 @@ void CropJob::cropSelection() {
   const QString here = QFileInfo(pathText(recording->path)).absolutePath();
   const QString folder = windowState_.settings.value(kCropFolder, here).toString();
   const QString stem = QFileInfo(fileNameOf(*recording)).completeBaseName();
-  QString path = windowState_.prompts.cropped(folder + "/" + stem + "_" + number(frames->first) +
-                                              "-" + number(frames->last) + ".palpate");
+  QString path = windowState_.ask.newFile(
+      "Crop to a new recording",
+      folder + "/" + stem + "_" + number(frames->first) + "-" + number(frames->last) + ".palpate",
+      formatFilter());
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += ".palpate";
   windowState_.settings.setValue(kCropFolder, QFileInfo(path).absolutePath());
@@ -111,7 +108,7 @@ void CropJob::saveAs() {
   QString suggestion = folder + "/" + file.completeBaseName() + ".palpate";
   if (QFileInfo::exists(suggestion))
     suggestion = folder + "/" + file.completeBaseName() + "_copy.palpate";
-  QString path = windowState_.prompts.newFile("Save the recording as", suggestion, formatFilter());
+  QString path = windowState_.ask.newFile("Save the recording as", suggestion, formatFilter());
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += ".palpate";
   windowState_.settings.setValue(kCropFolder, QFileInfo(path).absolutePath());

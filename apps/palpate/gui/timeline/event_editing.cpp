@@ -1,7 +1,6 @@
 #include "gui/timeline/event_editing.h"
 
 #include <QMenu>
-#include <QMessageBox>
 #include <QUndoStack>
 #include <algorithm>
 
@@ -12,20 +11,8 @@ namespace palpate::gui {
 
 EventEditing::EventEditing(WindowState& windowState,
                            const TimelineActions& actions,
-                           EventRows& rows,
-                           QWidget* window)
+                           EventRows& rows)
     : windowState_(windowState), actions_(actions), rows_(rows) {
-  windowState.prompts.unsaved = [window](const QString& names) {
-    QMessageBox box(QMessageBox::Question,
-                    "Palpate",
-                    "Labels, notes or grasps were changed and not saved:\n" + names,
-                    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
-                    window);
-    const int answer = box.exec();
-    return answer == QMessageBox::Save      ? UserPrompts::Unsaved::kSave
-           : answer == QMessageBox::Discard ? UserPrompts::Unsaved::kDiscard
-                                            : UserPrompts::Unsaved::kCancel;
-  };
   connectActions();
   connectRows();
   addConditions();
@@ -241,7 +228,8 @@ void EventEditing::add(const char* kind, const QString& title, const QString& na
   const double fromS = span ? span->fromS : windowState_.playback.positionS();
   const QString when = span ? " from " + figure(fromS, 2) + " s to " + figure(span->toS, 2) + " s"
                             : " at " + figure(fromS, 2) + " s";
-  const auto text = windowState_.prompts.text(title + when + " in " + fileNameOf(*recording), {});
+  const QString heading = title + when + " in " + fileNameOf(*recording);
+  const auto text = windowState_.ask.text(heading, heading + ":", {});
   if (!text) return;
   if (text->isEmpty()) return windowState_.messages.flash("a " + name + " needs a text");
   event.text = text->toStdString();

@@ -17,10 +17,7 @@ class EventEditing : public QObject {
   Q_OBJECT
  public:
   // All arguments must outlive this object.
-  EventEditing(WindowState& windowState,
-               const TimelineActions& actions,
-               EventRows& rows,
-               QWidget* window);
+  EventEditing(WindowState& windowState, const TimelineActions& actions, EventRows& rows);
 
  private:
   void connectActions();

@@ -61,7 +61,7 @@ void GraspExport::exportEach() {
   const QFileInfo source(pathText(recording->path));
   const QString folder =
       windowState_.settings.value(kGraspFolder, source.absolutePath()).toString();
-  QString path = windowState_.prompts.newFile(
+  QString path = windowState_.ask.newFile(
       "Export each grasp ({n} is its number)",
       folder + "/" + source.completeBaseName() + "_" + kNumber + ".palpate",
       "Palpate recording (*.palpate);;DSA recording (*.dsa);;CSV table (*.csv);;NumPy "

@@ -78,7 +78,7 @@ void LabelExchange::exportLabels() {
   const auto rows = labelRows(editor->events(), recording->profile);
   if (rows.empty()) return windowState_.messages.flash("there are no labels to export");
   const QFileInfo source(pathText(recording->path));
-  QString path = windowState_.prompts.newFile(
+  QString path = windowState_.ask.newFile(
       "Export labels",
       source.absolutePath() + "/" + source.completeBaseName() + "_labels.csv",
       kTableFilter);
@@ -118,7 +118,7 @@ void LabelExchange::withdrawWhenUndone() {
 void LabelExchange::importLabels() {
   const OpenedRecordingPtr recording = windowState_.displayed.recorded();
   if (!recording || !windowState_.events.editor()) return;
-  const QString path = windowState_.prompts.file(
+  const QString path = windowState_.ask.file(
       "Import labels", QFileInfo(pathText(recording->path)).absolutePath(), kTableFilter);
   // The dialogue runs an event loop: the recording may have been closed meanwhile.
   EventEditor* editor = windowState_.events.editor();

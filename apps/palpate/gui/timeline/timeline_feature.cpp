@@ -1,7 +1,5 @@
 #include "gui/timeline/timeline_feature.h"
 
-#include <QInputDialog>
-#include <QLabel>
 #include <QMenu>
 #include <QPainter>
 #include <QPicture>
@@ -113,24 +111,6 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   charts_->addWidget(liveChart_);
   dock_ = new Dock("Timeline", charts_, header_, window);
   crop_ = std::make_unique<CropJob>(windowState, *actions_.crop, *actions_.saveAs, window);
-  windowState.prompts.text = [window](const QString& title,
-                                      const QString& text) -> std::optional<QString> {
-    QInputDialog dialog(window);
-    const QString heading = title.section('\n', 0, 0);
-    const QString question = title.contains('\n') ? title.section('\n', 1) : heading;
-    dialog.setWindowTitle(heading);
-    dialog.setLabelText(question + ":");
-    dialog.setTextValue(text);
-    // The present text is seen whole, as far as it is not very long.
-    constexpr int kLeastWidth = 360, kMostWidth = 640, kAround = 60;  // [px]
-    const int widest = std::max(dialog.fontMetrics().horizontalAdvance(question),
-                                dialog.fontMetrics().horizontalAdvance(text));
-    dialog.resize(std::clamp(widest + kAround, kLeastWidth, kMostWidth),
-                  dialog.sizeHint().height());
-    if (auto* label = dialog.findChild<QLabel*>()) label->setWordWrap(true);
-    if (dialog.exec() != QDialog::Accepted) return std::nullopt;
-    return dialog.textValue().simplified();
-  };
   connect(&windowState.appearance, &ViewAppearance::timeAxisChanged, this, [this, &windowState] {
     chart_->setRight(windowState.appearance.timeAxisRight());
   });
@@ -140,7 +120,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   connectSelection();
   connectActions();
   connectCurves();
-  editing_ = std::make_unique<EventEditing>(windowState, actions_, panel_->rows(), window);
+  editing_ = std::make_unique<EventEditing>(windowState, actions_, panel_->rows());
   new LabelExchange(windowState, this);
   graspExport_ = new GraspExport(windowState, window, this);
 }
@@ -635,7 +615,7 @@ void TimelineFeature::nameChosenTaxels() {
   Messages& messages = state().messages;
   if (chosen.empty())
     return messages.flash("no taxel is chosen: click or drag over some of the matrices");
-  const auto name = state().prompts.text("Name of the taxels", "");
+  const auto name = state().ask.text("Name of the taxels", "Name of the taxels:", "");
   if (!name) return;
   if (name->isEmpty()) return messages.flash("a group of taxels needs a name");
   if (!groups_.keep(*name, chosen))

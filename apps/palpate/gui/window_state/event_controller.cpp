@@ -19,13 +19,13 @@ QString unsavedTopic(const OpenedRecording& recording) {
 EventController::EventController(DisplayedSource& displayed,
                                  OpenRecordings& recordings,
                                  Messages& messages,
-                                 const UserPrompts& prompts,
+                                 Ask& ask,
                                  QObject* parent)
     : QObject(parent),
       displayed_(displayed),
       recordings_(recordings),
       messages_(messages),
-      prompts_(prompts) {
+      ask_(ask) {
   connect(&displayed_, &DisplayedSource::shown, this, &EventController::renewMarks);
   connect(&displayed_, &DisplayedSource::moreKnown, this, &EventController::renewMarks);
   connect(&recordings_, &OpenRecordings::gone, this, &EventController::forget);
@@ -214,7 +214,7 @@ void EventController::savedElsewhere(const OpenedRecordingPtr& recording) {
   messages_.withdraw(unsavedTopic(*recording));
 }
 
-bool EventController::settle(const std::vector<OpenedRecordingPtr>& recordings) {
+bool EventController::settle(const std::vector<OpenedRecordingPtr>& recordings, bool asks) {
   std::vector<OpenedRecordingPtr> unsaved;
   QStringList names;
   for (const OpenedRecordingPtr& recording : recordings) {
@@ -223,9 +223,13 @@ bool EventController::settle(const std::vector<OpenedRecordingPtr>& recordings) 
     names.append(fileNameOf(*recording));
   }
   if (unsaved.empty()) return true;
-  const UserPrompts::Unsaved answer = prompts_.unsaved(names.join("\n"));
-  if (answer == UserPrompts::Unsaved::kCancel) return false;
-  if (answer == UserPrompts::Unsaved::kDiscard) return true;
+  if (asks) {
+    const int answer =
+        ask_.choice("Labels, notes or grasps were changed and not saved:\n" + names.join("\n"),
+                    {"Save", "Discard"},
+                    0);
+    if (answer != 0) return answer == 1;
+  }
   bool saved = true;
   for (const OpenedRecordingPtr& recording : unsaved) saved = save(recording) && saved;
   return saved;

@@ -21,7 +21,6 @@
 #include "gui/window_state/displayed_source.h"
 #include "gui/window_state/event_marks.h"
 #include "gui/window_state/messages.h"
-#include "gui/window_state/user_prompts.h"
 
 namespace palpate::gui {
 
@@ -32,7 +31,7 @@ class EventController : public QObject {
   EventController(DisplayedSource& displayed,
                   OpenRecordings& recordings,
                   Messages& messages,
-                  const UserPrompts& prompts,
+                  Ask& ask,
                   QObject* parent = nullptr);
 
   // Editor of the events of the displayed recording; null: no recording is shown.
@@ -71,10 +70,10 @@ class EventController : public QObject {
   bool save(const OpenedRecordingPtr& recording);
   // The events of the recording were saved in another file: a shown failure has been dealt with.
   void savedElsewhere(const OpenedRecordingPtr& recording);
-  // Asks the user once about all unsaved events; returns false when the user cancels or saving
-  // fails. Discarded events stay in the editor until their recording is closed, or until
-  // discardAll().
-  bool settle(const std::vector<OpenedRecordingPtr>& recordings);
+  // Asks the user once about all unsaved events, or saves them unasked; returns false when the user
+  // cancels or saving fails. Discarded events stay in the editor until their recording is closed,
+  // or until discardAll().
+  bool settle(const std::vector<OpenedRecordingPtr>& recordings, bool asks = true);
   void discardAll() { editors_.clear(); }
 
  signals:
@@ -88,7 +87,7 @@ class EventController : public QObject {
   DisplayedSource& displayed_;
   OpenRecordings& recordings_;
   Messages& messages_;
-  const UserPrompts& prompts_;
+  Ask& ask_;
   // Finds the grasps of long recordings.
   BackgroundJob finder_;
   std::map<const OpenedRecording*, std::unique_ptr<EventEditor>> editors_;

@@ -44,13 +44,15 @@ WindowState::WindowState(const WindowEnvironment& given, QWidget* window)
       appearance(settings),
       log(clockOf(given)),
       messages(log),
+      dialogs(window),
+      ask(given.ask ? *given.ask : dialogs),
       actions(window),
       playback(clockOf(given)),
       opener(readerOf(given), damagedReaderOf(given)),
       recordings(opener),
       live(given.dataFolder),
       displayed(live, playback, selection),
-      events(displayed, recordings, messages, prompts),
+      events(displayed, recordings, messages, ask),
       activeFilters(displayed, events, live, messages, settings),
       currentFrame(displayed, activeFilters, live, playback),
       formulas(settings) {}
@@ -83,14 +85,18 @@ void WindowState::openOrShow(const std::vector<std::filesystem::path>& files) {
 
 void WindowState::askAndOpen(OpenRequest::Then then) {
   std::vector<std::filesystem::path> files;
-  for (const QString& path : prompts.recordings()) files.emplace_back(path.toStdString());
+  for (const QString& path :
+       ask.files("Open recordings",
+                 recent.lastFolder(),
+                 "Recordings (*.dsa *.palpate *.h5 *.hdf5 *.mcap *.xml);;All files (*)"))
+    files.emplace_back(path.toStdString());
   if (files.empty()) return;
   recent.setLastFolder(QFileInfo(pathText(files[0])).path());
   open(files, then);
 }
 
 void WindowState::connectTo(const Connection& connection) {
-  if (live.recording() && !prompts.endRecording()) return;
+  if (live.recording() && !prompts.endRecording(UserPrompts::Ending::kDisconnect)) return;
   messages.dismissFailures();
   live.connectTo(connection);
 }

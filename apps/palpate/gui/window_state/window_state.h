@@ -14,6 +14,7 @@
 #include <palpate/filter/recipe.h>
 
 #include "gui/appearance/settings_file.h"
+#include "gui/desktop/ask.h"
 #include "gui/picture/exported_view.h"
 #include "gui/source/live_controller.h"
 #include "gui/source/open_recordings.h"
@@ -57,6 +58,8 @@ struct WindowEnvironment {
   // Whether the window, when it opens, offers to recover recordings that an earlier session left
   // unfinished.
   bool offerUnfinished = false;
+  // Null: the user is asked by dialogues.
+  Ask* ask = nullptr;
 };
 
 // The members are constructed in this order and destroyed in the reverse order.
@@ -70,6 +73,8 @@ struct WindowState {
   ViewAppearance appearance;
   ActivityLog log;
   Messages messages;
+  DialogAsk dialogs;
+  Ask& ask;
   UserPrompts prompts;
   EscapeHandler escapeHandler;
   ActionRegistry actions;
