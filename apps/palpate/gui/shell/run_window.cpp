@@ -20,7 +20,7 @@
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/main_window.h"
 #include "gui/shell/screen_room.h"
-#include "gui/source/file_reading.h"
+#include "gui/source/abandonable.h"
 
 namespace palpate::gui {
 namespace {
@@ -91,7 +91,7 @@ int showWindow(int& argc, char** argv, const WindowOptions& options) {
 int runWindow(int& argc, char** argv, const WindowOptions& options) {
   const int code = showWindow(argc, argv, options);
   using namespace std::chrono_literals;
-  if (FileReading::awaitThreads(500ms)) return code;
+  if (Abandonable::awaitThreads(500ms)) return code;
   // A file doesn't answer: its thread must not see how the statics are destroyed.
   std::fflush(nullptr);
   std::_Exit(code);
