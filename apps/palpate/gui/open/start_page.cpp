@@ -160,6 +160,7 @@ void StartPage::setTheme(Theme theme) {
 
 void StartPage::showEvent(QShowEvent* event) {
   // Files may have been created or deleted meanwhile.
+  recent_.look();
   listRecent();
   QWidget::showEvent(event);
 }
@@ -173,7 +174,7 @@ void StartPage::listRecent() {
   for (const QString& path : recent_.paths()) {
     auto* row = new QHBoxLayout;
     row->setSpacing(4);
-    auto* button = new RecentRow(path, RecentFiles::exists(path), list_);
+    auto* button = new RecentRow(path, !recent_.isMissing(path), list_);
     connect(button, &QPushButton::clicked, this, [this, path] { emit fileChosen(path); });
     auto* remove = new QToolButton(list_);
     remove->setObjectName("removeRecent");
