@@ -192,8 +192,7 @@ ExportController::Copy ExportController::withText(const Copy& asked, const Progr
   std::size_t done = 0;
   TextTable table = *asked.table;
   table.row = [&](std::size_t row) {
-    const auto all = 2.0 * static_cast<double>(std::min(table.numRows, kMostCopiedRows));
-    if (!progress(static_cast<double>(done++) / all)) throw Cancelled();
+    reportProgress(progress, done++, 2 * std::min(table.numRows, kMostCopiedRows));
     return asked.table->row(row);
   };
   copy.tabbed = QString::fromStdString(tabbedText(table, kMostCopiedRows));

@@ -6,8 +6,6 @@
 #include <QPicture>
 #include <algorithm>
 
-#include <palpate/core/error.h>
-
 #include "gui/appearance/captions.h"
 #include "gui/export/export_work.h"
 #include "gui/picture/movie_writer.h"
@@ -91,7 +89,7 @@ void ExportPreview::showTable(const ExportedView& view, const ExportRequest& req
     double length = 0.0;
     // Samples rows from the whole table, because later rows have longer numbers.
     for (std::size_t i = 0; i < count; ++i) {
-      if (!progress(static_cast<double>(i) / static_cast<double>(count))) throw Cancelled();
+      reportProgress(progress, i, count);
       length += static_cast<double>(csvLine(table.row(i * table.numRows / count)).size());
     }
     measured.bytes = static_cast<double>(csvLine(table.header).size());
