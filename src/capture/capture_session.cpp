@@ -277,11 +277,19 @@ LinkInputs CaptureSession::inputs() const {
 
 LinkHealth CaptureSession::health() const { return assessHealth(inputs(), options_.health); }
 
+FolderState folderStateOf(const fs::path& folder) {
+  return {folder, ::access(folder.c_str(), W_OK | X_OK) == 0, freeBytesOf(folder)};
+}
+
 PreflightCheck CaptureSession::checkPreflight(const fs::path& folder) const {
   const auto& ask = options_.recorder.freeBytes;
-  const FolderState state{
-      folder, ::access(folder.c_str(), W_OK | X_OK) == 0, ask ? ask(folder) : freeBytesOf(folder)};
-  return palpate::checkPreflight(inputs(), state, options_.health);
+  FolderState state = folderStateOf(folder);
+  if (ask) state.freeBytes = ask(folder);
+  return checkPreflight(state);
+}
+
+PreflightCheck CaptureSession::checkPreflight(const FolderState& folder) const {
+  return palpate::checkPreflight(inputs(), folder, options_.health);
 }
 
 }  // namespace palpate

@@ -74,6 +74,7 @@ class CaptureSession : private DeviceSink {
 
   LinkHealth health() const;
   PreflightCheck checkPreflight(const std::filesystem::path& folder) const;
+  PreflightCheck checkPreflight(const FolderState& folder) const;
 
   // Adds a consumer with its own queue; it ends when the pointer is released. `consumer` is named
   // in gaps.
@@ -125,5 +126,8 @@ class CaptureSession : private DeviceSink {
   std::vector<std::shared_ptr<CaptureQueue>> feeds_;
   std::atomic<std::size_t> numFeeds_ = 0;
 };
+
+// Looks at the folder: that takes long, or for ever, where its network doesn't answer.
+FolderState folderStateOf(const std::filesystem::path& folder);
 
 }  // namespace palpate

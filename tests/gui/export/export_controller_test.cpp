@@ -7,7 +7,10 @@
 #include <QMimeData>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <cmath>
+#include <latch>
+#include <memory>
 #include <set>
 #include <sstream>
 
@@ -113,7 +116,7 @@ TEST_F(ExportControllerTest, TheViewThatWasExportedOrClickedLastComesFirst) {
   };
   const auto exported = [&] {
     exportController().exportNow();
-    exportController().waitForDone();
+    exportController().settle();
     QCoreApplication::processEvents();
     return suggested.back();
   };
@@ -298,11 +301,13 @@ TEST_F(ExportControllerTest, OnceMoreTakesTheNextFreeName) {
 
 TEST_F(ExportControllerTest, CopyTakesTheViewThatWasClickedInto) {
   press(Qt::Key_C, Qt::ControlModifier);
+  exportController().settle();
   EXPECT_EQ(notice(), "copied: Matrices as picture");
   EXPECT_FALSE(QApplication::clipboard()->mimeData()->hasText());
   auto* chart = window().findChild<TimelineChart*>();
   clickInto(chart);
   press(Qt::Key_C, Qt::ControlModifier);
+  exportController().settle();
   const QMimeData* data = QApplication::clipboard()->mimeData();
   EXPECT_TRUE(data->hasImage());
   EXPECT_EQ(QApplication::clipboard()->image().size(), 2 * chart->size());
@@ -313,12 +318,14 @@ TEST_F(ExportControllerTest, CopyTakesTheViewThatWasClickedInto) {
   EXPECT_EQ(notice(), "copied: Timeline as picture and 20 rows");
   clickInto(&window().feature<MatricesFeature>().panel().view());
   press(Qt::Key_C, Qt::ControlModifier);
+  exportController().settle();
   EXPECT_EQ(notice(), "copied: Matrices as picture");
 }
 
 TEST_F(ExportControllerTest, CopyTableTakesTheRowsAlone) {
   playback().seekFrame(7);
   press(Qt::Key_C, Qt::ControlModifier | Qt::AltModifier);
+  exportController().settle();
   const QMimeData* data = QApplication::clipboard()->mimeData();
   EXPECT_FALSE(data->hasImage());
   EXPECT_EQ(cellsOf(data->text().toStdString(), '\t').size(), sdh2().layout->numTaxels() + 1);
@@ -376,6 +383,36 @@ TEST_F(ExportControllerTest, AFolderThatMayNotBeWrittenIsSaid) {
   write(asked);
   EXPECT_NE(bannerText(), "");
   EXPECT_FALSE(std::filesystem::exists("/proc/a.pdf"));
+}
+
+// Window F13: of a long recording each row is read from its file.
+TEST_F(ExportControllerTest, CopyingDoesNotWaitForTheRows) {
+  const auto end = std::make_shared<std::latch>(1);
+  ExportedView view;
+  view.name = "Rows";
+  view.isThere = [] { return true; };
+  view.tables = [end] {
+    const TextTable table{{"n"}, 2, [end](std::size_t row) {
+                            end->wait();
+                            return std::vector<std::string>{std::to_string(row)};
+                          }};
+    return std::vector<ExportedTable>{{"rows", [table] { return table; }}};
+  };
+  ExportController controller(window().state().settings, &window());
+  controller.add(view);
+  QSignalSpy said(&controller, &ExportController::said);
+  QApplication::clipboard()->setText("before");
+  controller.copyTable();
+  EXPECT_EQ(QApplication::clipboard()->text(), "before");
+  controller.cancel();
+  EXPECT_FALSE(controller.busy()) << "Esc waits for nothing";
+  controller.copyTable();
+  end->count_down();
+  controller.settle();
+  EXPECT_EQ(QApplication::clipboard()->text(), "n\n0\n1\n");
+  ASSERT_EQ(said.count(), 2);
+  EXPECT_EQ(said[0][0].toString(), "copying was cancelled");
+  EXPECT_EQ(said[1][0].toString(), "copied: Rows, rows, 2 rows");
 }
 
 TEST_F(ExportControllerTest, MakingThePictureDoesntBlockTheWindow) {

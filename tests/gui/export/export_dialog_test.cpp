@@ -278,6 +278,7 @@ TEST_F(ExportDialogTest, ATableIsShownByItsFirstRows) {
   request_.form = ExportFormat::kCsv;
   open();
   EXPECT_FALSE(find<QComboBox>("exportPreset")->isVisible());
+  find<ExportPreview>("exportPreview")->settle();
   EXPECT_TRUE(summary().startsWith("3 rows · about 8 B")) << summary().toStdString();  // n, 0, 1, 2
   auto* table = find<QComboBox>("exportTable");
   table->setCurrentIndex(table->findText("all"));

@@ -288,6 +288,8 @@ TEST_F(OpeningTest, MissingRecentFilesAreMarkedAndCanBeForgotten) {
   open({"good1.dsa", "good2.dsa"});
   std::filesystem::remove(folder_ / "good1.dsa");
   emit recentMenu()->aboutToShow();
+  window().state().recent.settle();
+  emit recentMenu()->aboutToShow();
   const auto entryOf = [&](const QString& start) -> QAction* {
     for (QAction* entry : recentMenu()->actions())
       if (entry->text().startsWith(start)) return entry;
@@ -310,6 +312,7 @@ TEST_F(OpeningTest, TheStartPageListsRecentFilesAfterARestart) {
   std::filesystem::remove(folder_ / "good1.dsa");
   window().close();
   start();
+  window().state().recent.settle();
   auto rows = window().findChildren<QPushButton*>("RecentRow");
   ASSERT_EQ(rows.size(), 2);
   EXPECT_EQ(rows[0]->accessibleName().toStdString(), file("good2.dsa"));

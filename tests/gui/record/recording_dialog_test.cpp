@@ -11,6 +11,8 @@
 #include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
+#include <latch>
+#include <memory>
 
 #include "gui/testing/fake_ask.h"
 #include "gui/testing/layout_faults.h"
@@ -41,6 +43,7 @@ class RecordingDialogTest : public ::testing::Test {
     dialog_ = std::make_unique<RecordingDialog>(given_, okText, ask_, nullptr, clock_);
     dialog_->show();
     dialog_->activateWindow();
+    dialog_->settle();
   }
   template <class Widget>
   Widget* find(const char* name) {
@@ -54,6 +57,7 @@ class RecordingDialogTest : public ::testing::Test {
     edit->selectAll();
     QTest::keyClick(edit, Qt::Key_Delete);
     QTest::keyClicks(edit, text);
+    dialog_->settle();
   }
   QString nextName() { return find<QLabel>("recordingNextName")->accessibleName(); }
   QString place() { return find<QLabel>("recordingNextFolder")->accessibleName(); }
@@ -127,6 +131,24 @@ TEST_F(RecordingDialogTest, AFolderWithLittleSpaceSaysSo) {
   EXPECT_EQ(place(), "in " + given_.folder);
 }
 
+// Window F13.
+TEST_F(RecordingDialogTest, NeitherTypingNorStartNorLeavingWaitsForTheFolder) {
+  const auto end = std::make_shared<std::latch>(1);
+  dialog_->freeBytes = [end](const fs::path&) {
+    end->wait();
+    return std::optional<std::uint64_t>();
+  };
+  find<QLineEdit>("recordingObject")->setText("cup");
+  EXPECT_EQ(nextName(), "2014-11-27_foam_ball_001.palpate") << "as long as nothing is known";
+  QSignalSpy accepted(dialog_.get(), &QDialog::accepted);
+  ok()->click();
+  EXPECT_EQ(accepted.size(), 0) << "not before the folder has answered";
+  dialog_.reset();
+  EXPECT_FALSE(Abandonable::awaitThreads(std::chrono::milliseconds(1))) << "it still hangs";
+  end->count_down();
+  EXPECT_TRUE(Abandonable::awaitThreads(std::chrono::seconds(20)));
+}
+
 TEST_F(RecordingDialogTest, WhatNeverHappensIsSaidInWords) {
   for (const char* field : {"recordingSplitMinutes", "recordingSplitMb"})
     EXPECT_EQ(find<QAbstractSpinBox>(field)->text(), "never");
@@ -153,6 +175,7 @@ TEST_F(RecordingDialogTest, AProblemIsSaidAndNothingCanStart) {
   EXPECT_FALSE(ok()->isEnabled());
   QTest::keyClick(find<QLineEdit>("recordingTemplate"), Qt::Key_Return);
   QTest::keyClick(find<QPlainTextEdit>("recordingNotes"), Qt::Key_Return, Qt::ControlModifier);
+  dialog_->settle();
   EXPECT_EQ(accepted.size(), 0);
   EXPECT_TRUE(dialog_->isVisible());
   type("recordingTemplate", "{object}");
@@ -165,6 +188,7 @@ TEST_F(RecordingDialogTest, AProblemIsSaidAndNothingCanStart) {
 TEST_F(RecordingDialogTest, EnterStartsEscapeCancels) {
   QSignalSpy accepted(dialog_.get(), &QDialog::accepted);
   QTest::keyClick(find<QLineEdit>("recordingObject"), Qt::Key_Return);
+  dialog_->settle();
   EXPECT_EQ(accepted.size(), 1);
   open();
   QSignalSpy rejected(dialog_.get(), &QDialog::rejected);
@@ -192,6 +216,7 @@ TEST_F(RecordingDialogTest, EnterInTheNotesIsANewLineWithCtrlItStarts) {
   EXPECT_EQ(accepted.size(), 0);
   EXPECT_EQ(dialog_->settings().notes, "first\nsecond");
   QTest::keyClick(notes, Qt::Key_Return, Qt::ControlModifier);
+  dialog_->settle();
   EXPECT_EQ(accepted.size(), 1);
 }
 
@@ -204,6 +229,7 @@ TEST_F(RecordingDialogTest, PlaceholdersGoWhereTheCursorIsWithWhatJoinsThem) {
   field->setCursorPosition(static_cast<int>(field->text().size()));
   placeholder("{operator}")->trigger();
   EXPECT_EQ(field->text(), "{date}_{object}_{run}_{operator}");
+  dialog_->settle();
   EXPECT_EQ(nextName(), "2014-11-27_foam_ball_001_Anna.palpate");
   // What stands there already isn't offered: twice would be refused.
   emit find<QPushButton>("recordingInsert")->menu()->aboutToShow();
@@ -221,6 +247,7 @@ TEST_F(RecordingDialogTest, BrowseBeginsWhereTheFolderIsOrWillBe) {
   ask_.folders = {answer};
   QTest::mouseClick(find<QPushButton>("recordingBrowse"), Qt::LeftButton);
   EXPECT_EQ(dialog_->settings().folder, answer);
+  dialog_->settle();
   EXPECT_EQ(place(), "in " + answer);
 }
 

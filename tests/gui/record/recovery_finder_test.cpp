@@ -2,6 +2,7 @@
 
 #include <QSignalSpy>
 #include <QTest>
+#include <latch>
 #include <map>
 
 #include <palpate/core/error.h>
@@ -187,6 +188,20 @@ TEST_F(RecoveryFinderTest, CancelGivesUpWhatWaits) {
   EXPECT_EQ(found_->size(), 1);
 }
 
+// Window F7.
+TEST_F(RecoveryFinderTest, LeavingDoesNotWaitForAFolderThatDoesNotAnswer) {
+  const auto end = std::make_shared<std::latch>(1);
+  start([end](const auto&, const auto&, const Progress&) {
+    end->wait();
+    return RecoverReport{};
+  });
+  finder_->recover({path("a.palpate")});
+  finder_.reset();
+  EXPECT_FALSE(Abandonable::awaitThreads(std::chrono::milliseconds(1))) << "it still hangs";
+  end->count_down();
+  EXPECT_TRUE(Abandonable::awaitThreads(std::chrono::milliseconds(kPatienceMs)));
+}
+
 TEST_F(RecoveryFinderTest, CanBeDestroyedWhileItWorks) {
   writeSamples(folder_ / "long.palpate", 2000, false);
   const auto before = content();
@@ -197,6 +212,7 @@ TEST_F(RecoveryFinderTest, CanBeDestroyedWhileItWorks) {
     finder.recover({path("long.palpate")});
     QTest::qWait(i);  // at different moments of its work
   }
+  ASSERT_TRUE(Abandonable::awaitThreads(std::chrono::milliseconds(kPatienceMs)));
   // Whatever became of them: whole files, or none.
   for (const auto& entry : fs::directory_iterator(folder_.path())) {
     const std::string name = entry.path().filename().string();

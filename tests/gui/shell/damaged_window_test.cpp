@@ -143,6 +143,7 @@ TEST_F(DamagedWindowTest, ATableThatNeedsDamagedFramesIsNotCopied) {
   QTest::mouseClick(chart, Qt::LeftButton, {}, chart->rect().center());
   QTest::mouseClick(chart, Qt::LeftButton, {}, chart->rect().center());
   window().feature<ExportFeature>().exportController().copyTable();
+  window().feature<ExportFeature>().exportController().settle();
   EXPECT_TRUE(bannerText().contains("damaged")) << bannerText().toStdString();
   EXPECT_EQ(QApplication::clipboard()->text().left(300).toStdString(), "before");
 }

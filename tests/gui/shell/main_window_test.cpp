@@ -229,6 +229,7 @@ TEST_F(MainWindowTest, CopyPutsTheFrameOnTheClipboard) {
   QApplication::clipboard()->clear();
   playback().seekFrame(19);
   press(Qt::Key_C, Qt::ControlModifier);
+  window().feature<ExportFeature>().exportController().settle();
   const QImage copied = QApplication::clipboard()->image();
   ASSERT_FALSE(copied.isNull());
   // The taxel of 200 counts, the recording's maximum, has the highest colour.
@@ -278,7 +279,7 @@ TEST_F(MainWindowTest, ExportCancelledDoesNothing) {
     return std::nullopt;
   };
   press(Qt::Key_E, Qt::ControlModifier);
-  window().feature<ExportFeature>().exportController().waitForDone();
+  window().feature<ExportFeature>().exportController().settle();
   EXPECT_EQ(bannerText(), "");
 }
 

@@ -3,6 +3,8 @@
 #include <QCoreApplication>
 #include <QSignalSpy>
 #include <latch>
+#include <memory>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -13,10 +15,6 @@ namespace {
 
 class BackgroundJobTest : public ::testing::Test {
  protected:
-  void settle() {
-    while (job_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
-  }
-
   BackgroundJob job_;
   QSignalSpy failed_{&job_, &BackgroundJob::failed};
   QSignalSpy cancelled_{&job_, &BackgroundJob::cancelled};
@@ -28,7 +26,7 @@ TEST_F(BackgroundJobTest, JobsRunOneAfterTheOther) {
   for (const char* name : {"a", "b", "c"})
     job_.start(
         name, [](const Progress&) {}, [&done, name] { done << name; });
-  settle();
+  job_.settle();
   EXPECT_EQ(done, (QStringList{"a", "b", "c"}));
   EXPECT_EQ(finished_.count(), 1);
 }
@@ -39,7 +37,7 @@ TEST_F(BackgroundJobTest, AFailureIsReportedAndTheNextJobRuns) {
       "a", [](const Progress&) { throw Error("the disk is full"); }, [] { FAIL(); });
   job_.start(
       "b", [](const Progress&) {}, [&] { isDone = true; });
-  settle();
+  job_.settle();
   ASSERT_EQ(failed_.count(), 1);
   EXPECT_EQ(failed_.at(0).at(0).toString(), "the disk is full");
   EXPECT_TRUE(isDone);
@@ -56,7 +54,7 @@ TEST_F(BackgroundJobTest, CancelEndsTheRunningJobAndDropsThoseThatWait) {
       "b", [](const Progress&) {}, [] { FAIL(); });
   running.wait();
   job_.cancel();
-  settle();
+  job_.settle();
   ASSERT_EQ(cancelled_.count(), 1);
   EXPECT_EQ(cancelled_.at(0).at(0).toString(), "a");
   EXPECT_EQ(failed_.count(), 0);
@@ -77,10 +75,41 @@ TEST_F(BackgroundJobTest, AJobThatFailsAfterItWasCancelledIsCancelled) {
   job_.start(
       "new", [](const Progress&) {}, [&] { isDone = true; });
   end.count_down();
-  settle();
+  job_.settle();
   EXPECT_EQ(failed_.count(), 0);
   EXPECT_EQ(cancelled_.count(), 1);
   EXPECT_TRUE(isDone);
+}
+
+// What it wrote is whole then, or was removed.
+TEST_F(BackgroundJobTest, LeavingCancelsAndWaits) {
+  std::latch running(1);
+  bool isOver = false;
+  {
+    BackgroundJob left;
+    left.start("a", [&](const Progress& progress) {
+      running.count_down();
+      while (progress(0.5)) std::this_thread::yield();
+      isOver = true;
+    });
+    running.wait();
+  }
+  EXPECT_TRUE(isOver);
+}
+
+// Window F7.
+TEST_F(BackgroundJobTest, WhereOnlyIsReadLeavingWaitsForNothing) {
+  const auto end = std::make_shared<std::latch>(1);
+  {
+    BackgroundJob left(BackgroundJob::Leaving::kAtOnce);
+    left.start(
+        "a", [end](const Progress&) { end->wait(); }, [] { FAIL(); });
+    left.start("b", [](const Progress&) { FAIL(); });
+  }
+  EXPECT_FALSE(Abandonable::awaitThreads(std::chrono::milliseconds(1))) << "it still hangs";
+  end->count_down();
+  EXPECT_TRUE(Abandonable::awaitThreads(std::chrono::seconds(20)));
+  QCoreApplication::processEvents();
 }
 
 }  // namespace

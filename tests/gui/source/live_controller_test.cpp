@@ -3,6 +3,9 @@
 
 #include <QSignalSpy>
 #include <QTest>
+#include <atomic>
+#include <latch>
+#include <memory>
 
 #include <palpate/capture/recording_name.h>
 #include <palpate/recording/recording.h>
@@ -208,6 +211,32 @@ TEST_F(LiveControllerTest, ARecordingThatGoesOnElsewhereIsCheckedThere) {
   std::filesystem::create_directory(other);
   live_.continueRecordingIn(other);
   EXPECT_TRUE(await([&] { return !toldOfProc(); }));
+}
+
+// Window F7.
+TEST_F(LiveControllerTest, AFolderThatDoesNotAnswerHoldsUpNoOtherAndNoEnd) {
+  const auto end = std::make_shared<std::latch>(1);
+  const auto asked = std::make_shared<std::atomic<int>>(0);
+  {
+    LiveController live(testing::dataFolder());
+    live.lookAtFolder = [end, asked](const fs::path& folder) {
+      if (folder == "/proc") {
+        ++*asked;
+        end->wait();
+      }
+      return folderStateOf(folder);
+    };
+    live.setFolder("/proc");
+    live.connectTo(emulated("empty"));
+    ASSERT_TRUE(await([&] { return *asked == 1; }));
+    live.setFolder(folder_.path());
+    ASSERT_TRUE(await([&] { return live.preflight().has_value(); }));
+    live.setFolder("/proc");
+    ASSERT_TRUE(await([&] { return *asked == 2; }));
+  }
+  EXPECT_FALSE(Abandonable::awaitThreads(std::chrono::milliseconds(1))) << "it still hangs";
+  end->count_down();
+  EXPECT_TRUE(Abandonable::awaitThreads(std::chrono::seconds(20)));
 }
 
 TEST_F(LiveControllerTest, SilenceMakesThePictureOldUntilFramesComeAgain) {

@@ -1,6 +1,8 @@
 #include "gui/source/recording_opener.h"
 
 #include <QSignalSpy>
+#include <latch>
+#include <memory>
 #include <new>
 
 #include <gtest/gtest.h>
@@ -99,6 +101,21 @@ TEST(RecordingOpener, CanBeDestroyedWhileItWorks) {
     RecordingOpener opener(&endless);
     opener.open("a.dsa");
   }
+}
+
+// Window F7.
+TEST(RecordingOpener, LeavingDoesNotWaitForAFileThatDoesNotAnswer) {
+  const auto end = std::make_shared<std::latch>(1);
+  {
+    RecordingOpener opener([end](const auto&, const Progress&) {
+      end->wait();
+      return twentyFrames();
+    });
+    opener.open("a.dsa");
+  }
+  EXPECT_FALSE(Abandonable::awaitThreads(std::chrono::milliseconds(1))) << "it still hangs";
+  end->count_down();
+  EXPECT_TRUE(Abandonable::awaitThreads(std::chrono::milliseconds(kPatienceMs)));
 }
 
 TEST(RecordingOpener, CancelReachesTheComputationOfSignals) {

@@ -1,11 +1,13 @@
 // Runs the tests of the window: under the display that is there, else drawing to memory. Settings
 // go to a temporary folder.
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <vector>
 
 #include "gui/desktop/application.h"
+#include "gui/source/abandonable.h"
 #include "gui/testing/thrown_at_events.h"
 #include "testing/test_run.h"
 #include "testing/test_selection.h"
@@ -33,5 +35,8 @@ int main(int argc, char** argv) {
     ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
   const auto application = palpate::gui::makeApplication(argc, argv);
   ::testing::UnitTest::GetInstance()->listeners().Append(new palpate::testing::ThrownAtEvents);
-  return palpate::testing::runTests(arguments.data());
+  const int result = palpate::testing::runTests(arguments.data());
+  // No thread may see the application being destroyed.
+  palpate::gui::Abandonable::awaitThreads(std::chrono::seconds(20));
+  return result;
 }

@@ -35,7 +35,11 @@ WindowTest::WindowTest() {
                   .ask = &ask_};
 }
 
-WindowTest::~WindowTest() { window_.reset(); }
+WindowTest::~WindowTest() {
+  window_.reset();
+  // What it left may still read the files of the test.
+  EXPECT_TRUE(Abandonable::awaitThreads(std::chrono::seconds(20)));
+}
 
 MainWindow& WindowTest::start() {
   window_.reset();

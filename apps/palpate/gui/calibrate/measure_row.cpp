@@ -1,6 +1,5 @@
 #include "gui/calibrate/measure_row.h"
 
-#include <QCoreApplication>
 #include <QDateTime>
 #include <QLabel>
 #include <QProgressBar>
@@ -181,9 +180,7 @@ bool MeasureRow::cancel() {
   return true;
 }
 
-void MeasureRow::settle() {
-  while (job_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
-}
+void MeasureRow::settle() { job_.settle(); }
 
 void MeasureRow::endWith(const QString& text) {
   timer_.stop();

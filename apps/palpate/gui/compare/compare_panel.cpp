@@ -252,7 +252,7 @@ std::optional<TimeSpan> ComparePanel::common() const {
 }
 
 void ComparePanel::pairChanged() {
-  worker_.cancel();
+  worker_.abandon();
   answer_ = {};
   comparison_.reset();
   asked_ = false;
@@ -293,7 +293,7 @@ void ComparePanel::fillMatrices() {
 
 void ComparePanel::setActive(bool on) {
   active_ = on;
-  if (!on) return worker_.cancel();
+  if (!on) return worker_.abandon();
   // Grasps may have been edited meanwhile.
   const bool ofGrasps = alignment_ == Alignment::kGrasp || overlay_ == CompareOverlay::kGraspsOfA ||
                         overlay_ == CompareOverlay::kAllGrasps;
@@ -414,7 +414,7 @@ void ComparePanel::setOffset(double offsetS) {
 void ComparePanel::moveTo(double offsetS, bool keepSeen) {
   if (!answer_.a || !answer_.b) return;
   const bool changed = alignment_ != Alignment::kManual;
-  worker_.cancel();
+  worker_.abandon();
   handOffsetS_ = offsetS;
   alignment_ = Alignment::kManual;
   answer_.alignment = alignment_;

@@ -82,7 +82,6 @@ class ComparePanel : public QWidget {
   CompareView& view() noexcept { return *view_; }
   CompareChart& chart() noexcept { return *chart_; }
   CompareStrip& strip() noexcept { return *strip_; }
-  CompareWorker& worker() noexcept { return worker_; }
 
   // Exports: a picture of the heat maps and curves, a table of figures for each matrix, and a table
   // of the curves.

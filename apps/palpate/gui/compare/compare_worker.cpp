@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 
 #include <palpate/core/error.h>
@@ -74,11 +75,15 @@ std::optional<TimeSpan> drawnSpanOf(const ComparedCurves& compared) {
   return span;
 }
 
-}  // namespace
-
 // Results are found by the address of their recording; the pointers are weak, so that a closed
 // recording is freed.
-struct CompareWorker::Kept {
+class CompareKept {
+ public:
+  CompareAnswer answerTo(const CompareQuestion& question,
+                         const Progress& progress,
+                         const CompareWorker::Tell& tell);
+
+ private:
   struct Timed {
     std::weak_ptr<const OpenedRecording> of;
     std::shared_ptr<const TimedProfile> timed;
@@ -94,64 +99,47 @@ struct CompareWorker::Kept {
     std::vector<RecordingEvent> segments;
     std::vector<GraspFrames> grasps;
   };
-  std::deque<Grasps> grasps;
-  std::deque<Timed> timed;
-  std::deque<Curve> curves;
 
+  std::shared_ptr<const TimedProfile> timed(const OpenedRecordingPtr& recording,
+                                            const Progress& progress);
+  std::shared_ptr<const Series> curve(const OpenedRecordingPtr& recording,
+                                      const SeriesChoice& choice,
+                                      const Progress& progress,
+                                      std::size_t* numUnreadable = nullptr);
+  std::vector<GraspFrames> grasps(const ComparedRecording& of, const Progress& progress);
+  ComparedCurves overlaid(const CompareQuestion& question,
+                          const CompareAnswer& answer,
+                          const Progress& progress);
   void forgetClosed() {
-    std::erase_if(timed, [](const Timed& each) { return each.of.expired(); });
-    std::erase_if(curves, [](const Curve& each) { return each.of.expired(); });
-    std::erase_if(grasps, [](const Grasps& each) { return each.of.expired(); });
+    std::erase_if(timed_, [](const Timed& each) { return each.of.expired(); });
+    std::erase_if(curves_, [](const Curve& each) { return each.of.expired(); });
+    std::erase_if(grasps_, [](const Grasps& each) { return each.of.expired(); });
   }
+
+  std::deque<Grasps> grasps_;
+  std::deque<Timed> timed_;
+  std::deque<Curve> curves_;
 };
 
-ChosenOffset chosenOffset(const TimedProfile& a,
-                          const TimedProfile& b,
-                          Alignment alignment,
-                          double handOffsetS) {
-  if (alignment == Alignment::kManual) return {alignment, handOffsetS};
-  if (const auto offsetS = offsetBetween(a, b, alignment)) return {alignment, *offsetS};
-  return {Alignment::kStart, 0.0};
-}
-
-CompareWorker::CompareWorker(QObject* parent) : QObject(parent), kept_(std::make_shared<Kept>()) {
-  pool_.setMaxThreadCount(1);
-}
-
-CompareWorker::~CompareWorker() {
-  cancel();
-  pool_.waitForDone();
-}
-
-void CompareWorker::cancel() {
-  ++generation_;
-  pool_.clear();
-}
-
-void CompareWorker::ask(const CompareQuestion& question) {
-  cancel();
-  pool_.start([this, question, generation = generation_.load()] { work(question, generation); });
-}
-
-std::shared_ptr<const TimedProfile> CompareWorker::timed(const OpenedRecordingPtr& recording,
-                                                         const Progress& progress) {
-  for (const auto& each : kept_->timed)
+std::shared_ptr<const TimedProfile> CompareKept::timed(const OpenedRecordingPtr& recording,
+                                                       const Progress& progress) {
+  for (const auto& each : timed_)
     if (each.of.lock() == recording) return each.timed;
   UnreadableSamples unreadable;  // the curve counts them
   auto timed =
       std::make_shared<TimedProfile>(timedProfile(recording->profile, {}, progress, &unreadable));
-  kept_->timed.push_back({recording, timed});
-  if (kept_->timed.size() > kCompareWorkerMostKept) kept_->timed.pop_front();
+  timed_.push_back({recording, timed});
+  if (timed_.size() > kCompareWorkerMostKept) timed_.pop_front();
   return timed;
 }
 
-std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& recording,
-                                                   const SeriesChoice& choice,
-                                                   const Progress& progress,
-                                                   std::size_t* numUnreadable) {
+std::shared_ptr<const Series> CompareKept::curve(const OpenedRecordingPtr& recording,
+                                                 const SeriesChoice& choice,
+                                                 const Progress& progress,
+                                                 std::size_t* numUnreadable) {
   // The index that means "all matrices" differs between hands.
   if (!hasSeries(recording->profile, choice)) return nullptr;
-  for (const auto& each : kept_->curves)
+  for (const auto& each : curves_)
     if (each.of.lock() == recording && each.choice == choice) {
       if (numUnreadable) *numUnreadable = each.unreadable;
       return each.series;
@@ -160,23 +148,21 @@ std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& rec
   auto series = std::make_shared<Series>(
       readSeries(recording->profile, choice, -kEndOfTimeS, kEndOfTimeS, progress, &unreadable));
   if (numUnreadable) *numUnreadable = unreadable.count;
-  kept_->curves.push_back({recording, choice, series, unreadable.count});
-  if (kept_->curves.size() > kCompareWorkerMostKept) kept_->curves.pop_front();
+  curves_.push_back({recording, choice, series, unreadable.count});
+  if (curves_.size() > kCompareWorkerMostKept) curves_.pop_front();
   return series;
 }
 
-std::vector<GraspFrames> CompareWorker::grasps(const ComparedRecording& of,
-                                               const Progress& progress) {
+std::vector<GraspFrames> CompareKept::grasps(const ComparedRecording& of,
+                                             const Progress& progress) {
   const auto segments = segmentsAmong(of.events);
-  for (const auto& each : kept_->grasps)
+  for (const auto& each : grasps_)
     if (each.of.lock() == of.recording && each.segments == segments) return each.grasps;
   auto found = graspFrames(of.recording->profile, of.events, progress);
-  kept_->grasps.push_back({of.recording, segments, found});
-  if (kept_->grasps.size() > kCompareWorkerMostKept) kept_->grasps.pop_front();
+  grasps_.push_back({of.recording, segments, found});
+  if (grasps_.size() > kCompareWorkerMostKept) grasps_.pop_front();
   return found;
 }
-
-namespace {
 
 // `ofEach`: an average for each recording, of its grasps.
 void addAverages(bool ofEach, ComparedCurves& compared, const Progress& progress) {
@@ -214,11 +200,9 @@ void addAverages(bool ofEach, ComparedCurves& compared, const Progress& progress
   compared.leftOut += "No average of one grasp: " + single.join(", ");
 }
 
-}  // namespace
-
-ComparedCurves CompareWorker::overlaid(const CompareQuestion& question,
-                                       const CompareAnswer& answer,
-                                       const Progress& progress) {
+ComparedCurves CompareKept::overlaid(const CompareQuestion& question,
+                                     const CompareAnswer& answer,
+                                     const Progress& progress) {
   constexpr double kMarginS = 0.5;  // before and after a grasp
   const bool ofGrasps = question.overlay == CompareOverlay::kGraspsOfA ||
                         question.overlay == CompareOverlay::kAllGrasps;
@@ -297,31 +281,28 @@ ComparedCurves CompareWorker::overlaid(const CompareQuestion& question,
   return compared;
 }
 
-void CompareWorker::work(const CompareQuestion& question, int generation) {
+CompareAnswer CompareKept::answerTo(const CompareQuestion& question,
+                                    const Progress& progress,
+                                    const CompareWorker::Tell& tell) {
   CompareAnswer answer;
   const auto report = [&] {
-    if (generation != generation_) throw Cancelled();
-    QMetaObject::invokeMethod(
-        this,
-        [this, generation, answer] {
-          if (generation == generation_) emit answered(answer);
-        },
-        Qt::QueuedConnection);
+    if (!progress(answer.done)) throw Cancelled();
+    tell(answer);
   };
   // Progress of one part of the work, which starts at what is done so far.
   const auto part = [&](double share) {
-    return Progress([this, generation, base = answer.done, share, &answer, &report](double done) {
+    return Progress([&, base = answer.done, share](double done) {
       const double now = base + share * done;
       constexpr double kStep = 0.02;
       if (now - answer.done >= kStep) {
         answer.done = now;
         report();
       }
-      return generation == generation_;
+      return progress(answer.done);
     });
   };
   try {
-    kept_->forgetClosed();
+    forgetClosed();
     answer.a = timed(question.a, part(kTimedShare / 2));
     answer.done = kTimedShare / 2;
     answer.b = timed(question.b, part(kTimedShare / 2));
@@ -387,17 +368,40 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
     answer.largestDifference = largest;
     answer.largestValue = static_cast<double>(largestValue);
   } catch (const Cancelled&) {
-    return;
+    throw;
   } catch (const std::exception& error) {
     answer.failure = QString::fromUtf8(error.what());
   }
   answer.done = 1.0;
   answer.complete = true;
-  try {
-    report();
-    // A new question was asked meanwhile.
-  } catch (const Cancelled&) {
-  }
+  return answer;
 }
+
+}  // namespace
+
+ChosenOffset chosenOffset(const TimedProfile& a,
+                          const TimedProfile& b,
+                          Alignment alignment,
+                          double handOffsetS) {
+  if (alignment == Alignment::kManual) return {alignment, handOffsetS};
+  if (const auto offsetS = offsetBetween(a, b, alignment)) return {alignment, *offsetS};
+  return {Alignment::kStart, 0.0};
+}
+
+CompareWorker::CompareWorker(QObject* parent)
+    : LatestAnswer(
+          [kept = std::make_shared<CompareKept>()](
+              const CompareQuestion& question, const Progress& progress, const Tell& tell) {
+            return kept->answerTo(question, progress, tell);
+          },
+          [this](const CompareAnswer& answer) { emit answered(answer); },
+          [this](const QString& why) {
+            CompareAnswer answer;
+            answer.done = 1.0;
+            answer.complete = true;
+            answer.failure = why;
+            emit answered(answer);
+          },
+          parent) {}
 
 }  // namespace palpate::gui

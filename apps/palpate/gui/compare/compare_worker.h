@@ -1,11 +1,7 @@
-// Computes in its own thread what a comparison needs and what takes long: first contacts, curves
-// and figures. Results are kept for later questions; a new question cancels the running one.
+// Computes what a comparison needs and what takes long: first contacts, curves and figures.
 #pragma once
 
-#include <QObject>
-#include <QThreadPool>
-#include <atomic>
-#include <deque>
+#include <QString>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,6 +13,7 @@
 #include <palpate/signals/profile_series.h>
 
 #include "gui/compare/compare_overlay.h"
+#include "gui/source/latest_answer.h"
 #include "gui/source/opened_recording.h"
 
 namespace palpate::gui {
@@ -86,41 +83,15 @@ ChosenOffset chosenOffset(const TimedProfile& a,
                           Alignment alignment,
                           double handOffsetS);
 
-class CompareWorker : public QObject {
+// answered() comes several times, the last time with a complete answer. Results are kept for later
+// questions.
+class CompareWorker : public LatestAnswer<CompareQuestion, CompareAnswer> {
   Q_OBJECT
  public:
   explicit CompareWorker(QObject* parent = nullptr);
-  // Cancels the work and waits until it ends.
-  ~CompareWorker() override;
-
-  // Replaces the previous question; answered() is emitted several times, the last time with a
-  // complete answer.
-  void ask(const CompareQuestion& question);
-  void cancel();
-  void waitForDone() { pool_.waitForDone(); }
 
  signals:
   void answered(const palpate::gui::CompareAnswer& answer);
-
- private:
-  struct Kept;
-  void work(const CompareQuestion& question, int generation);
-  std::shared_ptr<const TimedProfile> timed(const OpenedRecordingPtr& recording,
-                                            const Progress& progress);
-  std::shared_ptr<const Series> curve(const OpenedRecordingPtr& recording,
-                                      const SeriesChoice& choice,
-                                      const Progress& progress,
-                                      std::size_t* numUnreadable = nullptr);
-  std::vector<GraspFrames> grasps(const ComparedRecording& of, const Progress& progress);
-  ComparedCurves overlaid(const CompareQuestion& question,
-                          const CompareAnswer& answer,
-                          const Progress& progress);
-
-  // Has one thread, which alone uses `kept_`.
-  QThreadPool pool_;
-  std::shared_ptr<Kept> kept_;
-  // Number of the newest question.
-  std::atomic<int> generation_ = 0;
 };
 
 }  // namespace palpate::gui

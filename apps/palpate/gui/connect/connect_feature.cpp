@@ -221,7 +221,7 @@ void ConnectFeature::fillMenu() {
     add(replays, path.section('/', -1), connection);
   };
   for (const QString& path : windowState.recent.paths())
-    if (RecentFiles::exists(path)) replay(path);
+    if (!windowState.recent.isMissing(path)) replay(path);
   if (windowState.actions.at("openDemo")->isEnabled())
     replay(pathText(windowState.demoRecording()));
   if (replays->isEmpty()) replays->addAction("no recent recording")->setEnabled(false);

@@ -7,6 +7,7 @@
 #include <QFocusEvent>
 #include <QMimeData>
 #include <QPainter>
+#include <algorithm>
 #include <memory>
 
 #include <palpate/core/error.h>
@@ -21,16 +22,6 @@ namespace {
 constexpr std::size_t kMostCopiedRows = 100'000;  // as many as a spreadsheet can paste
 constexpr double kCopyDpi = 192.0;                // twice the screen's resolution
 constexpr const char* kHasExported = "export/done";
-
-// Throws Error: a part of the recording that the table needs is damaged.
-std::unique_ptr<QMimeData> dataOf(const ExportedTable& table, std::size_t& rows) {
-  const TextTable text = table.make();
-  auto data = std::make_unique<QMimeData>();
-  data->setText(QString::fromStdString(tabbedText(text, kMostCopiedRows)));
-  data->setData("text/csv", QByteArray::fromStdString(csvText(text, kMostCopiedRows)));
-  rows = text.numRows;
-  return data;
-}
 
 // Several views together have no widget.
 bool isVisible(const ExportedView* view) {
@@ -48,19 +39,25 @@ QString rowsText(std::size_t rows) {
 }  // namespace
 
 ExportController::ExportController(QSettings& settings, Ask& places, QWidget* window)
-    : source([] { return QString(); }), settings_(settings), window_(window) {
-  worker_.setMaxThreadCount(1);
+    : source([] { return QString(); }),
+      settings_(settings),
+      window_(window),
+      copying_(
+          [](const Copy& asked, const Progress& progress, const auto&) {
+            return withText(asked, progress);
+          },
+          [this](const Copy& copy) { toClipboard(copy); },
+          [this](const QString& why) { emit failed(inWindowWords(why)); }) {
+  connect(&job_, &BackgroundJob::started, this, &ExportController::started);
+  connect(&job_, &BackgroundJob::progressed, this, &ExportController::progressed);
+  connect(&job_, &BackgroundJob::failed, this, &ExportController::failed);
+  connect(&job_, &BackgroundJob::finished, this, &ExportController::finished);
   ask = [this, &places](const ExportRequest& suggested) -> std::optional<ExportRequest> {
     ExportDialog dialog(present(), suggested, places, window_);
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.request();
   };
   qApp->installEventFilter(this);
-}
-
-ExportController::~ExportController() {
-  cancelled_ = true;
-  worker_.waitForDone();
 }
 
 void ExportController::add(ExportedView view) { views_.push_back(std::move(view)); }
@@ -159,59 +156,72 @@ void ExportController::write(const ExportRequest& request) {
   const ExportedView* view = viewNamed(request.view);
   if (!view) return;
   const QString name = QString::fromStdString(pathOf(request).filename().string());
-  waiting_.push_back({name, prepareExport(*view, request)});
-  if (waiting_.size() == 1) startNext();
-}
-
-void ExportController::startNext() {
-  cancelled_ = false;
-  emit started(waiting_.front().what);
-  worker_.start([this, work = waiting_.front().work] {
-    int lastPermille = -1;
-    const ExportReport report = work([&](double fraction) {
-      constexpr double kPermille = 1000.0;
-      const int permille = static_cast<int>(fraction * kPermille);
-      if (permille != lastPermille)
-        QMetaObject::invokeMethod(
-            this, [this, fraction] { emit progressed(fraction); }, Qt::QueuedConnection);
-      lastPermille = permille;
-      return !cancelled_;
-    });
-    QMetaObject::invokeMethod(
-        this, [this, report] { conclude(report); }, Qt::QueuedConnection);
-  });
+  auto report = std::make_shared<ExportReport>();
+  job_.start(
+      name,
+      [report, work = prepareExport(*view, request)](const Progress& progress) {
+        *report = work(progress);
+      },
+      [this, report] { conclude(*report); });
 }
 
 void ExportController::conclude(const ExportReport& report) {
-  waiting_.pop_front();
   if (!report.failure.isEmpty())
     emit failed(textOf(report));
   else
     emit said(textOf(report));
   if (report.failure.isEmpty() && !report.cancelled) emit written(report.path);
-  if (waiting_.empty())
-    emit finished();
-  else
-    startNext();
 }
 
 void ExportController::cancel() {
-  if (!busy()) return;
-  waiting_.erase(waiting_.begin() + 1, waiting_.end());
-  cancelled_ = true;
+  if (job_.busy()) job_.cancel();
+  if (!copying_.busy()) return;
+  copying_.abandon();
+  emit said("copying was cancelled");
 }
 
-void ExportController::waitForDone() { worker_.waitForDone(); }
+void ExportController::settle() {
+  job_.settle();
+  copying_.settle();
+}
+
+// Rows of a long recording are read from its file. Throws Error where that is damaged.
+ExportController::Copy ExportController::withText(const Copy& asked, const Progress& progress) {
+  Copy copy = asked;
+  if (!asked.table) return copy;
+  std::size_t done = 0;
+  TextTable table = *asked.table;
+  table.row = [&](std::size_t row) {
+    reportProgress(progress, done++, 2 * std::min(table.numRows, kMostCopiedRows));
+    return asked.table->row(row);
+  };
+  copy.tabbed = QString::fromStdString(tabbedText(table, kMostCopiedRows));
+  copy.csv = QByteArray::fromStdString(csvText(table, kMostCopiedRows));
+  return copy;
+}
+
+void ExportController::toClipboard(const Copy& copy) {
+  auto data = std::make_unique<QMimeData>();
+  if (copy.table) {
+    data->setText(copy.tabbed);
+    data->setData("text/csv", copy.csv);
+  }
+  if (!copy.image.isNull()) data->setImageData(copy.image);
+  QApplication::clipboard()->setMimeData(data.release());
+  emit said("copied: " + copy.what + (copy.table ? rowsText(copy.table->numRows) : QString()));
+}
 
 void ExportController::copyPicture() try {
   const ExportedView* view = active();
   if (!view) return;
   const auto tables = view->tablesNow();
-  std::size_t rows = 0;
+  Copy copy{.what = view->name + " as picture"};
   // Heat maps are copied only as a picture; a program that accepts text would paste their rows
   // instead.
-  const bool withRows = !tables.empty() && !view->framePictures;
-  auto data = withRows ? dataOf(tables.front(), rows) : std::make_unique<QMimeData>();
+  if (!tables.empty() && !view->framePictures) {
+    copy.table = tables.front().make();
+    copy.what += " and ";
+  }
   if (view->paint) {
     ExportRequest request;
     request.forPrint = false;
@@ -219,11 +229,9 @@ void ExportController::copyPicture() try {
     paper.dpi = kCopyDpi;
     PictureLook look = lookOf(request, view->sizeOnScreen());
     look.pixelRatio = paper.scale();
-    data->setImageData(pictureImage([&](QPainter& painter) { view->paint(painter, look); }, paper));
+    copy.image = pictureImage([&](QPainter& painter) { view->paint(painter, look); }, paper);
   }
-  QApplication::clipboard()->setMimeData(data.release());
-  emit said("copied: " + view->name +
-            (withRows ? " as picture and " + rowsText(rows) : QString(" as picture")));
+  copying_.ask(copy);
 } catch (const Error& error) {
   emit failed(inWindowWords(QString::fromUtf8(error.what())));
 }
@@ -232,9 +240,8 @@ void ExportController::copyTable() try {
   const ExportedView* view = active();
   const auto tables = view ? view->tablesNow() : std::vector<ExportedTable>();
   if (tables.empty()) return;
-  std::size_t rows = 0;
-  QApplication::clipboard()->setMimeData(dataOf(tables.front(), rows).release());
-  emit said("copied: " + view->name + ", " + tables.front().name + ", " + rowsText(rows));
+  copying_.ask(
+      {.what = view->name + ", " + tables.front().name + ", ", .table = tables.front().make()});
 } catch (const Error& error) {
   emit failed(inWindowWords(QString::fromUtf8(error.what())));
 }

@@ -1,15 +1,14 @@
-// Exports what the views show: asks for the form, writes files in its own thread, repeats the last
+// Exports what the views show: asks for the form, writes files in the background, repeats the last
 // export, and copies to the clipboard. Each feature registers its views here.
 #pragma once
 
+#include <QByteArray>
+#include <QImage>
 #include <QObject>
 #include <QPointer>
 #include <QSettings>
 #include <QString>
-#include <QThreadPool>
 #include <QWidget>
-#include <atomic>
-#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -17,6 +16,8 @@
 #include "gui/export/export_request.h"
 #include "gui/export/export_work.h"
 #include "gui/picture/exported_view.h"
+#include "gui/source/background_job.h"
+#include "gui/source/latest_answer.h"
 
 namespace palpate::gui {
 
@@ -28,8 +29,6 @@ class ExportController : public QObject {
   // `window` is the parent of the dialogs, in which `places` asks for folders. All must outlive
   // this.
   ExportController(QSettings& settings, Ask& places, QWidget* window);
-  // Cancels the running export and waits for it; no incomplete file remains.
-  ~ExportController() override;
 
   // Registers a view. The first one is the default when the user has not clicked into another.
   void add(ExportedView view);
@@ -50,10 +49,11 @@ class ExportController : public QObject {
   void copyPicture();
   void copyTable();
   void write(const ExportRequest& request);
-  // Cancels everything that is being written.
+  // Cancels everything that is being written or copied.
   void cancel();
-  bool busy() const noexcept { return !waiting_.empty(); }
-  void waitForDone();
+  bool busy() const noexcept { return job_.busy() || copying_.busy(); }
+  // Waits until all is written and copied, with events.
+  void settle();
 
   // Asks the user for a request; returns nothing when cancelled. Tests replace it.
   std::function<std::optional<ExportRequest>(const ExportRequest& suggestion)> ask;
@@ -77,13 +77,18 @@ class ExportController : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  struct Job {
+  struct Copy {
     QString what;
-    ExportWork work;
+    QImage image = {};
+    std::optional<TextTable> table = {};
+    // The rows of the table as text.
+    QString tabbed = {};
+    QByteArray csv = {};
   };
   const ExportedView* viewNamed(const QString& name) const;
   void touch(const QWidget* widget);
-  void startNext();
+  static Copy withText(const Copy& asked, const Progress& progress);
+  void toClipboard(const Copy& copy);
   void conclude(const ExportReport& report);
 
   QSettings& settings_;
@@ -93,10 +98,9 @@ class ExportController : public QObject {
   QString touched_;
   // A view was used since the last export. Until then the view of that export is suggested.
   bool isTouchedSinceExport_ = false;
-  // The first job is running.
-  std::deque<Job> waiting_;
-  std::atomic<bool> cancelled_ = false;
-  QThreadPool worker_;
+  LatestAnswer<Copy, Copy> copying_;
+  // Is waited for at the end: no incomplete file remains.
+  BackgroundJob job_;
 };
 
 }  // namespace palpate::gui

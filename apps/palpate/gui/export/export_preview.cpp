@@ -20,27 +20,37 @@ constexpr std::size_t kMeasuredRows = 400;  // sample for the mean length of a r
 
 }  // namespace
 
-ExportPreview::ExportPreview(QWidget* parent) : QWidget(parent) {
-  worker_.setMaxThreadCount(1);
+ExportPreview::ExportPreview(QWidget* parent)
+    : QWidget(parent),
+      measuring_(
+          [](const Measure& measure, const Progress& progress, const auto&) {
+            return measure(progress);
+          },
+          [this](const Measured& measured) {
+            rows_ = measured.rows;
+            bytes_ = measured.bytes;
+            movie_ = measured.movie;
+            update();
+            emit summaryChanged();
+          },
+          // The picture is too large for the memory, or the file is gone: the export reports
+          // it, and the size in pixels is still shown.
+          [](const QString&) {}) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   soon_.setSingleShot(true);
   soon_.setInterval(kMeasureAfterMs);
   connect(&soon_, &QTimer::timeout, this, &ExportPreview::measure);
 }
 
-ExportPreview::~ExportPreview() {
-  // Makes the running work's result obsolete.
-  ++generation_;
-  worker_.waitForDone();
-}
-
 void ExportPreview::show(const ExportedView& view, const ExportRequest& request) {
+  // Until its rows are read again, those of the same table stay.
+  if (request.view != request_.view || request.table != request_.table) rows_.clear();
   request_ = request;
   isTable_ = request.form == ExportFormat::kCsv;
   bytes_ = 0.0;
   numFiles_ = 1;
   movie_ = {};
-  ++generation_;
+  measuring_.abandon();
   soon_.stop();
   view_ = nullptr;
   if (isTable_) {
@@ -61,86 +71,58 @@ void ExportPreview::show(const ExportedView& view, const ExportRequest& request)
   emit summaryChanged();
 }
 
+// Rows of a long recording are read from its file: in the background, as all that is measured.
 void ExportPreview::showTable(const ExportedView& view, const ExportRequest& request) {
-  rows_.clear();
   numRows_ = 0;
   const auto tables = view.tablesNow();
   const ExportedTable* chosen = nullptr;
   for (const ExportedTable& table : tables)
     if (!chosen || table.name == request.table) chosen = &table;
-  if (!chosen) return;
+  if (!chosen) return rows_.clear();
   const TextTable table = chosen->make();
   numRows_ = table.numRows;
-  rows_ = QString::fromStdString(csvText(table, kPreviewRows)).split('\n', Qt::SkipEmptyParts);
-  const std::size_t measured = std::min(table.numRows, kMeasuredRows);
-  double length = 0.0;
-  // Samples rows from the whole table, because later rows have longer numbers.
-  for (std::size_t i = 0; i < measured; ++i)
-    length += static_cast<double>(csvLine(table.row(i * table.numRows / measured)).size());
-  bytes_ = static_cast<double>(csvLine(table.header).size());
-  if (measured > 0)
-    bytes_ += length / static_cast<double>(measured) * static_cast<double>(table.numRows);
-}
-
-// Writes the file in memory, in the worker thread, to measure its size.
-void ExportPreview::measure() {
-  worker_.clear();
-  if (request_.isMovie()) return measureMovie();
-  if (!view_) return;
-  worker_.start([this,
-                 picture = pictureOf(*view_, look_),
-                 paper = paper_,
-                 form = request_.form,
-                 now = generation_.load()] {
-    const ImageFormat pictureForm = form == ExportFormat::kSvg   ? ImageFormat::kSvg
-                                    : form == ExportFormat::kPdf ? ImageFormat::kPdf
-                                                                 : ImageFormat::kPng;
-    double bytes = 0.0;
-    try {
-      bytes = static_cast<double>(
-          pictureBytes(
-              pictureForm, [&](QPainter& painter) { replay(painter, picture); }, paper, "preview")
-              .size());
-    } catch (const std::exception&) {
-      // The picture is too large for the memory; its size in pixels is still shown.
-      return;
+  measuring_.ask([table](const Progress& progress) {
+    Measured measured;
+    measured.rows =
+        QString::fromStdString(csvText(table, kPreviewRows)).split('\n', Qt::SkipEmptyParts);
+    const std::size_t count = std::min(table.numRows, kMeasuredRows);
+    double length = 0.0;
+    // Samples rows from the whole table, because later rows have longer numbers.
+    for (std::size_t i = 0; i < count; ++i) {
+      reportProgress(progress, i, count);
+      length += static_cast<double>(csvLine(table.row(i * table.numRows / count)).size());
     }
-    QMetaObject::invokeMethod(
-        this,
-        [this, bytes, now] {
-          if (now != generation_) return;
-          bytes_ = bytes;
-          emit summaryChanged();
-        },
-        Qt::QueuedConnection);
+    measured.bytes = static_cast<double>(csvLine(table.header).size());
+    if (count > 0)
+      measured.bytes += length / static_cast<double>(count) * static_cast<double>(table.numRows);
+    return measured;
   });
 }
 
-// Runs in the worker thread, because a recording of a day has millions of time stamps.
+void ExportPreview::measure() {
+  if (request_.isMovie()) return measureMovie();
+  if (!view_) return;
+  const ImageFormat form = request_.form == ExportFormat::kSvg   ? ImageFormat::kSvg
+                           : request_.form == ExportFormat::kPdf ? ImageFormat::kPdf
+                                                                 : ImageFormat::kPng;
+  // Writes the file in memory.
+  measuring_.ask([picture = pictureOf(*view_, look_), paper = paper_, form](const Progress&) {
+    const auto paint = [&](QPainter& painter) { replay(painter, picture); };
+    Measured measured;
+    measured.bytes = static_cast<double>(pictureBytes(form, paint, paper, "preview").size());
+    return measured;
+  });
+}
+
+// A recording of a day has millions of time stamps.
 void ExportPreview::measureMovie() {
   if (!timeUs_) return;
-  worker_.start([this,
-                 timeUs = timeUs_,
-                 frames = frames_,
-                 options = movieOptionsOf(request_),
-                 now = generation_.load()] {
-    MovieTiming timing;
-    try {
-      timing =
-          plannedMovie(frames, timeUs, options, [&](double) { return now == generation_; }).timing;
-    } catch (const std::exception&) {
-      // Cancelled, or the file is gone; then the export reports it.
-      return;
-    }
-    timing.shots.clear();
-    QMetaObject::invokeMethod(
-        this,
-        [this, timing, now] {
-          if (now != generation_) return;
-          movie_ = timing;
-          emit summaryChanged();
-        },
-        Qt::QueuedConnection);
+  measuring_.ask([timeUs = timeUs_, frames = frames_, options = movieOptionsOf(request_)](
+                     const Progress& progress) {
+    Measured measured;
+    measured.movie = plannedMovie(frames, timeUs, options, progress).timing;
+    measured.movie.shots.clear();
+    return measured;
   });
 }
 

@@ -4,13 +4,13 @@
 
 #include <QImage>
 #include <QStringList>
-#include <QThreadPool>
 #include <QTimer>
 #include <QWidget>
-#include <atomic>
+#include <functional>
 
 #include "gui/export/export_request.h"
 #include "gui/picture/exported_view.h"
+#include "gui/source/latest_answer.h"
 
 namespace palpate::gui {
 
@@ -18,7 +18,6 @@ class ExportPreview : public QWidget {
   Q_OBJECT
  public:
   explicit ExportPreview(QWidget* parent = nullptr);
-  ~ExportPreview() override;
 
   // `view` must outlive this or be replaced before it is destroyed.
   void show(const ExportedView& view, const ExportRequest& request);
@@ -29,6 +28,9 @@ class ExportPreview : public QWidget {
   double bytes() const noexcept { return bytes_; }
   // Number of files that will be written.
   std::size_t numFiles() const noexcept { return numFiles_; }
+
+  // Waits for what is being measured, with events; for tests.
+  void settle() { measuring_.settle(); }
 
   QSize sizeHint() const override { return {460, 420}; }
   QSize minimumSizeHint() const override { return {300, 260}; }
@@ -41,6 +43,16 @@ class ExportPreview : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  // What takes long to find out.
+  struct Measured {
+    // The first lines of a table.
+    QStringList rows = {};
+    double bytes = 0.0;
+    // Without its shots.
+    MovieTiming movie = {};
+  };
+  using Measure = std::function<Measured(const Progress&)>;
+
   void drawPreview();
   void showTable(const ExportedView& view, const ExportRequest& request);
   void measure();
@@ -57,7 +69,6 @@ class ExportPreview : public QWidget {
   QImage preview_;
   bool isDrawn_ = false;
   bool isTable_ = false;
-  // The first lines of a table.
   QStringList rows_;
   std::size_t numRows_ = 0;
   std::size_t numFiles_ = 1;
@@ -65,12 +76,10 @@ class ExportPreview : public QWidget {
   // Time stamps of the frames of a movie.
   FramePictures::TimeUs timeUs_;
   FrameSpan frames_;
-  // Once it is computed; without its shots.
+  // Once it is computed.
   MovieTiming movie_;
-  // Number of the newest measurement; results of older ones are ignored.
-  std::atomic<int> generation_ = 0;
   QTimer soon_;
-  QThreadPool worker_;
+  LatestAnswer<Measure, Measured> measuring_;
 };
 
 }  // namespace palpate::gui

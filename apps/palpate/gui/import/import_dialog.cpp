@@ -57,7 +57,20 @@ ImportDialog::ImportDialog(QSettings& settings,
                            std::vector<std::filesystem::path> folders,
                            Ask& ask,
                            QWidget* parent)
-    : QDialog(parent), settings_(settings), ask_(ask), folders_(std::move(folders)) {
+    : QDialog(parent),
+      settings_(settings),
+      ask_(ask),
+      folders_(std::move(folders)),
+      looking_(
+          [folders = folders_](const ImportRequest& request, const Progress&, const auto&) {
+            return lookAtImport(request, folders);
+          },
+          [this](const ImportLook& look) { take(look); },
+          [this](const QString& why) {
+            ImportLook look;
+            look.problem = why;
+            take(look);
+          }) {
   setWindowTitle("Import");
   const ImportRequest last = loadImportRequest(settings);
   setLayout(inColumn({inRow({{makeFile(), 3}, {makeMapping(), 4}}), {makePreview(), 1}, makeFoot()},
@@ -204,7 +217,6 @@ void ImportDialog::connectFields() {
   connect(preset_, &QComboBox::activated, this, &ImportDialog::usePreset);
   connect(out_, &QLineEdit::textChanged, this, &ImportDialog::showProblem);
   connect(replace_, &QCheckBox::toggled, this, &ImportDialog::showProblem);
-  connect(&job_, &BackgroundJob::finished, this, &ImportDialog::showProblem);
 }
 
 // A rate that was typed belongs to the file before.
@@ -302,19 +314,7 @@ ImportRequest ImportDialog::request() const {
 // Starts a new preview.
 void ImportDialog::look() {
   if (filling_) return;
-  const std::size_t change = ++change_;
-  job_.cancel();
-  auto look = std::make_shared<ImportLook>();
-  job_.start(
-      data_->text(),
-      [request = request(), folders = folders_, look](const Progress&) {
-        *look = lookAtImport(request, folders);
-      },
-      [this, look, change] {
-        if (change != change_) return;
-        shown_ = change;
-        take(*look);
-      });
+  looking_.ask(request());
   showProblem();
 }
 
@@ -373,7 +373,7 @@ void ImportDialog::showColumns(const ImportPreview& preview) {
 
 QString ImportDialog::problem() const {
   if (const QString wrong = fields_->problem(); !wrong.isEmpty()) return wrong;
-  if (shown_ != change_) return "reading the file";
+  if (busy()) return "reading the file";
   if (!looked_.problem.isEmpty()) return looked_.problem;
   const QString out = this->out();
   if (out.isEmpty()) return "choose where to save the recording";

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gui/import/import_request.h"
-#include "gui/source/background_job.h"
+#include "gui/source/latest_answer.h"
 
 class QCheckBox;
 class QComboBox;
@@ -38,7 +38,7 @@ class ImportDialog : public QDialog {
   // Why the request can't be carried out; empty when it can.
   QString problem() const;
   // Whether the preview is being computed.
-  bool busy() const { return job_.busy(); }
+  bool busy() const { return looking_.busy(); }
 
   void setData(const QString& path);
   void setHand(const QString& nameOrFolder);
@@ -72,9 +72,6 @@ class ImportDialog : public QDialog {
   // The mapping that the fields began with; they show a part of it.
   ImportMapping first_;
   ImportLook looked_;
-  // Counts the changes of the fields: a preview of an earlier request is not shown.
-  std::size_t change_ = 0;
-  std::size_t shown_ = 0;
   bool filling_ = false;
   QLineEdit* data_ = nullptr;
   QComboBox* hand_ = nullptr;
@@ -98,7 +95,7 @@ class ImportDialog : public QDialog {
   QCheckBox* replace_ = nullptr;
   QLabel* problem_ = nullptr;
   QPushButton* ok_ = nullptr;
-  BackgroundJob job_;
+  LatestAnswer<ImportRequest, ImportLook> looking_;
 };
 
 }  // namespace palpate::gui

@@ -1,19 +1,19 @@
-// Scans a folder of recordings in its own thread and delivers the entries in small portions, so
-// that the window stays responsive. A thread that is blocked by its file system is abandoned.
-// Signals are emitted in the thread of this object. Used by LibraryPanel.
+// Scans a folder of recordings in the background and delivers the entries in small portions, so
+// that the window stays responsive. Used by LibraryPanel.
 #pragma once
 
 #include <QObject>
 #include <QString>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <palpate/recording/recording_catalog.h>
 #include <palpate/recording/recording_search.h>
+
+#include "gui/source/abandonable.h"
 
 namespace palpate::gui {
 
@@ -37,14 +37,12 @@ class LibraryScanner : public QObject {
                                               const Progress& progress)>;
 
   explicit LibraryScanner(const QString& cacheFolder, Catalog catalog, QObject* parent = nullptr);
-  // Cancels and waits briefly; a blocked thread is then abandoned.
-  ~LibraryScanner() override;
 
   // Cancels the running scan, which emits nothing more, and starts a new one.
   void scan(const QString& folder);
   // Cancels the running scan; emits cancelled().
   void cancel();
-  bool busy() const noexcept { return run_ != nullptr; }
+  bool busy() const noexcept { return work_.busy(); }
 
  signals:
   void listed(int numFiles);
@@ -57,19 +55,9 @@ class LibraryScanner : public QObject {
   void failed(const QString& message);
 
  private:
-  // Shared with the thread.
-  struct Run;
-  void abandonScan();
-  void processScanResults();
-  static void work(const std::shared_ptr<Run>& run,
-                   const Catalog& catalog,
-                   const std::filesystem::path& folder,
-                   const std::filesystem::path& cacheFolder);
-
   QString cacheFolder_;
   Catalog catalog_;
-  // Null when no scan is running.
-  std::shared_ptr<Run> run_;
+  Abandonable work_;
 };
 
 }  // namespace palpate::gui

@@ -1,12 +1,13 @@
 #include "gui/link/remote_controller.h"
 
-#include <QThreadPool>
 #include <stdexcept>
 #include <utility>
 
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
 #include <palpate/interop/remote_file.h>
+
+#include "gui/source/abandonable.h"
 
 namespace palpate::gui {
 namespace fs = std::filesystem;
@@ -140,11 +141,11 @@ RecordingSettings RemoteController::settingsNow() const {
 }
 
 void RemoteController::answerWithNames(RemoteAnswer answer, const Done& done) const {
-  QThreadPool::globalInstance()->start(
-      [answer = std::move(answer), settings = settingsNow(), done]() mutable {
+  if (!Abandonable::run([answer = std::move(answer), settings = settingsNow(), done]() mutable {
         addNames(answer, settings);
         done(std::move(answer));
-      });
+      }))
+    done(RemoteAnswer::refused("busy", "the folder of the recordings doesn't answer"));
 }
 
 RemoteAnswer RemoteController::status() const {

@@ -112,7 +112,13 @@ void OpenFeature::connectActions() {
   on(actions.nextRecording, [this] { showNeighbour(1); });
   on(actions.previousRecording, [this] { showNeighbour(-1); });
   on(actions.closeRecording, [this] { closeCurrent(); });
-  connect(windowState.menus.recent, &QMenu::aboutToShow, this, &OpenFeature::fillRecentMenu);
+  connect(windowState.menus.recent, &QMenu::aboutToShow, this, [this, &windowState] {
+    windowState.recent.look();
+    fillRecentMenu();
+  });
+  connect(&windowState.recent, &RecentFiles::changed, this, [this, &windowState] {
+    if (windowState.menus.recent->isVisible()) fillRecentMenu();
+  });
   connect(windowState.menus.recordings, &QComboBox::activated, this, [&windowState](int index) {
     windowState.displayed.show(windowState.recordings.all().at(static_cast<std::size_t>(index)));
   });
@@ -196,7 +202,7 @@ void OpenFeature::fillRecentMenu() {
   menu->clear();
   bool anyMissing = false;
   for (const QString& path : windowState.recent.paths()) {
-    const bool exists = RecentFiles::exists(path);
+    const bool exists = !windowState.recent.isMissing(path);
     anyMissing = anyMissing || !exists;
     QString text = QFileInfo(path).fileName();
     text.replace('&', "&&");

@@ -30,7 +30,7 @@ void restoreSession(WindowState& windowState) {
   QStringList missing;
   for (const Session::File& file : session.files) {
     const std::filesystem::path path = file.path.toStdString();
-    if (!RecentFiles::exists(file.path)) {
+    if (!QFileInfo(file.path).isFile()) {
       missing.append(QFileInfo(file.path).fileName());
       continue;
     }

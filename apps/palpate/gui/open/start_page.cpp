@@ -135,6 +135,7 @@ void StartPage::setDragging(bool on) {
 
 void StartPage::showEvent(QShowEvent* event) {
   // Files may have been created or deleted meanwhile.
+  recent_.look();
   listRecent();
   QWidget::showEvent(event);
 }
@@ -146,7 +147,7 @@ void StartPage::listRecent() {
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(5);
   for (const QString& path : recent_.paths()) {
-    auto* button = new RecentRow(path, RecentFiles::exists(path), list_);
+    auto* button = new RecentRow(path, !recent_.isMissing(path), list_);
     connect(button, &QPushButton::clicked, this, [this, path] { emit fileChosen(path); });
     auto* remove =
         named(new QToolButton(list_), "removeRecent", "Remove from this list (the file is kept)");

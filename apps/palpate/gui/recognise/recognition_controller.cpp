@@ -24,15 +24,6 @@ RecognitionController::RecognitionController(QSettings& settings,
                                              QObject* parent)
     : QObject(parent), settings_(settings), emulatedModel_(dataFolder / kEmulatedModel) {
   answer_.text = hint();
-  connect(&opening_, &BackgroundJob::failed, this, [this](const QString& message) {
-    setModel(std::nullopt, path_);
-    modelProblem_ = message;
-    emit modelChanged();
-    showProblem(message);
-  });
-  connect(&asking_, &BackgroundJob::failed, this, [this](const QString& message) {
-    showProblem(message);
-  });
 }
 
 const char* RecognitionController::settingsKey() const {
@@ -79,28 +70,32 @@ void RecognitionController::readModel(const std::filesystem::path& path, const Q
   path_ = path;
   modelProblem_.clear();
   fallback_.clear();
-  auto read = std::make_shared<std::optional<TrainedModel>>();
-  opening_.cancel();
   opening_.start(
-      "the model",
-      [read, path](const Progress&) { *read = loadModel(path); },
-      [this, read, path, gone] {
-        if (path != path_) return;
-        // A model that is gone stays the chosen one: its drive may be connected again.
-        if (gone.isEmpty())
-          settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
-        else
-          fallback_ =
-              gone + "; in use is " + QString::fromStdString(path.filename().string()) + ".";
-        setModel(std::move(*read), path);
-        if (gone.isEmpty()) return;
-        emit said(fallback_);
-        sayHowToAsk();
+      [this, path, gone](const Abandonable::Asker&) -> Abandonable::Take {
+        return [this, path, gone, model = loadModel(path)] {
+          if (path != path_) return;
+          // A model that is gone stays the chosen one: its drive may be connected again.
+          if (gone.isEmpty())
+            settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
+          else
+            fallback_ =
+                gone + "; in use is " + QString::fromStdString(path.filename().string()) + ".";
+          setModel(model, path);
+          if (gone.isEmpty()) return;
+          emit said(fallback_);
+          sayHowToAsk();
+        };
+      },
+      [this](const QString& message) {
+        setModel(std::nullopt, path_);
+        modelProblem_ = message;
+        emit modelChanged();
+        showProblem(message);
       });
 }
 
 void RecognitionController::takeModel(TrainedModel model, const std::filesystem::path& path) {
-  opening_.cancel();
+  opening_.abandon();
   fallback_.clear();
   settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
   setModel(std::move(model), path);
@@ -116,7 +111,7 @@ void RecognitionController::setModel(std::optional<TrainedModel> model,
     session_->choose({OffsetChoice::Kind::kGiven, 0.0});
   setPhotoFolder(photoFolder_);
   last_.reset();
-  ++generation_;
+  asking_.abandon();
   // The answer of the previous model is removed.
   answer_ = {};
   answer_.text = hint();
@@ -168,32 +163,34 @@ void RecognitionController::ask(const RecogniseQuestion& question) {
   } catch (const Error& error) {
     return showProblem(error.what());
   }
-  auto chosen = std::make_shared<ChosenGrasp>();
-  asking_.cancel();
   asking_.start(
-      "the grasp",
-      [chosen, question, set = table.set](const Progress& progress) {
-        const std::size_t count = question.profile.numFrames();
-        *chosen = question.frames && count > 0 ? graspWithin(question.profile,
-                                                             question.frames->first,
-                                                             question.frames->second,
-                                                             set,
-                                                             progress)
-                                               : graspOf(question.profile, set, progress);
+      [this, question, set = table.set, contact = contact_](
+          const Abandonable::Asker& asker) -> Abandonable::Take {
+        const ChosenGrasp chosen = question.frames && question.profile.numFrames() > 0
+                                       ? graspWithin(question.profile,
+                                                     question.frames->first,
+                                                     question.frames->second,
+                                                     set,
+                                                     asker.progress)
+                                       : graspOf(question.profile, set, asker.progress);
+        return [this, chosen, of = question.of, contact] {
+          take(chosen, of == kHeldNow && contact != contact_ ? QString(kLastGrasp) : of);
+        };
       },
-      [this, chosen, of = question.of, generation = ++generation_, contact = contact_] {
-        if (generation != generation_ || !session_) return;
-        if (chosen->features.problem.empty()) {
-          try {
-            session_->add(chosen->features.values, chosen->timeUs);
-            emit sessionChanged();
-          } catch (const std::invalid_argument&) {
-            // The grasp has the features of the previous model.
-            return;
-          }
-        }
-        classify(*chosen, of == kHeldNow && contact != contact_ ? QString(kLastGrasp) : of);
-      });
+      [this](const QString& message) { showProblem(message); });
+}
+
+void RecognitionController::take(const ChosenGrasp& chosen, const QString& of) {
+  if (chosen.features.problem.empty()) {
+    try {
+      session_->add(chosen.features.values, chosen.timeUs);
+      emit sessionChanged();
+    } catch (const std::invalid_argument&) {
+      // The grasp has the features of the previous model.
+      return;
+    }
+  }
+  classify(chosen, of);
 }
 
 void RecognitionController::classify(const ChosenGrasp& chosen, const QString& of) {
@@ -251,7 +248,7 @@ void RecognitionController::sayHowToAsk() {
 }
 
 void RecognitionController::showProblem(const QString& text, const QString& of) {
-  ++generation_;
+  asking_.abandon();
   RecognitionAnswer answer;
   answer.kind = RecognitionAnswer::Kind::kProblem;
   answer.text = text;
@@ -267,8 +264,6 @@ void RecognitionController::showAnswer(RecognitionAnswer answer) {
 
 bool RecognitionController::cancel() {
   if (!asking_.busy()) return false;
-  ++generation_;
-  asking_.cancel();
   showProblem("Cancelled.");
   return true;
 }

@@ -16,7 +16,7 @@
 
 #include "gui/recognise/object_photo.h"
 #include "gui/recognise/recognition_answer.h"
-#include "gui/source/background_job.h"
+#include "gui/source/abandonable.h"
 
 namespace palpate::gui {
 
@@ -86,6 +86,7 @@ class RecognitionController : public QObject {
   // `gone`: what is missing, where this model takes its place; empty: nothing.
   void readModel(const std::filesystem::path& path, const QString& gone);
   void takeDefault();
+  void take(const ChosenGrasp& chosen, const QString& of);
   void classify(const ChosenGrasp& chosen, const QString& of);
   // What the user can do: ask, or choose a model first.
   QString hint() const;
@@ -108,12 +109,11 @@ class RecognitionController : public QObject {
   std::optional<std::pair<ChosenGrasp, QString>> last_;
   // A question that waits until the model is loaded.
   std::optional<RecogniseQuestion> waiting_;
-  int generation_ = 0;
   // Counts contacts: contactEnded() adds one.
   int contact_ = 0;
   PhotoCache photos_{this};
-  BackgroundJob opening_;
-  BackgroundJob asking_;
+  Abandonable opening_;
+  Abandonable asking_;
 };
 
 }  // namespace palpate::gui

@@ -14,6 +14,7 @@
 #include <QScreen>
 #include <QTimer>
 #include <algorithm>
+#include <utility>
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/ask.h"
@@ -27,6 +28,7 @@
 namespace palpate::gui {
 namespace {
 
+constexpr const char* kLooking = "Looking at the folder …";
 constexpr int kRecordingDialogWidth = 580;  // [px]
 // Largest number of letters in a field; the file name is shortened to less.
 constexpr int kRecordingDialogMostLetters = 200;
@@ -90,7 +92,21 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
                                  Ask& ask,
                                  QWidget* parent,
                                  const Clock& clock)
-    : QDialog(parent), ask_(ask), clock_(clock) {
+    : QDialog(parent),
+      ask_(ask),
+      clock_(clock),
+      looking_(
+          [](const Look& look, const Progress&, const auto&) {
+            Next next{previewNextPath(look.settings, look.nowUs)};
+            next.free = look.freeBytes(next.path.parent_path());
+            return next;
+          },
+          [this](const Next& next) { take(next); },
+          [this](const QString& why) {
+            Next next;
+            next.problem = why;
+            take(next);
+          }) {
   setWindowTitle("Recording");
   setStyleSheet(kRecordingDialogStyle);
   auto* content = new QWidget;
@@ -120,8 +136,11 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
       fitHeight(std::max(0, notes_->height() - notes_->sizeHint().height()));
     });
   auto* timer = new QTimer(this);
-  connect(timer, &QTimer::timeout, this, &RecordingDialog::refresh);
+  connect(timer, &QTimer::timeout, this, [this] {
+    if (!looking_.busy()) refresh();
+  });
   timer->start(kRecordingDialogRefreshMs);
+  caption_->setText(kLooking);
   refresh();
   resize(kRecordingDialogWidth, height());
   fitHeight();
@@ -306,7 +325,12 @@ void RecordingDialog::fitHeight(int extraPx) {
 }
 
 void RecordingDialog::refresh() {
-  next_ = previewNextPath(settings(), clock_.wallUs());
+  isAccepting_ = false;
+  looking_.ask({settings(), clock_.wallUs(), freeBytes});
+}
+
+void RecordingDialog::take(const Next& next) {
+  next_ = next;
   const bool good = next_.problem.isEmpty();
   caption_->setText(good ? "The next recording will be"
                          : "Recording isn't possible with these entries");
@@ -317,6 +341,7 @@ void RecordingDialog::refresh() {
   problem_->setToolTip(next_.problem);
   ok_->setEnabled(good);
   showTexts();
+  if (std::exchange(isAccepting_, false) && good) QDialog::accept();
 }
 
 void RecordingDialog::showTexts() {
@@ -327,9 +352,9 @@ void RecordingDialog::showTexts() {
   const QString folder = QString::fromStdString(next_.path.parent_path().string());
   QString place = "in " + folder;
   if (next_.folderWillBeMade) place += ", which will be created";
-  const auto free = freeBytes(next_.path.parent_path());
-  const bool isLittle = free && static_cast<double>(*free) < kLittleSpace;
-  if (isLittle) place += ": only " + figure(static_cast<double>(*free) / kMegabyte, 1) + " MB free";
+  const bool isLittle = next_.free && static_cast<double>(*next_.free) < kLittleSpace;
+  if (isLittle)
+    place += ": only " + figure(static_cast<double>(*next_.free) / kMegabyte, 1) + " MB free";
   place_->setStyleSheet(isLittle ? "color: palette(bright-text);" : "");
   showElided(place_, place, place_->contentsRect().width());
 }
@@ -337,7 +362,8 @@ void RecordingDialog::showTexts() {
 void RecordingDialog::accept() {
   // The folder may have been deleted meanwhile.
   refresh();
-  if (next_.problem.isEmpty()) QDialog::accept();
+  isAccepting_ = true;
+  caption_->setText(kLooking);
 }
 
 void RecordingDialog::showEvent(QShowEvent* event) {

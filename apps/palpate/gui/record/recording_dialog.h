@@ -13,6 +13,7 @@
 #include <palpate/capture/recorder.h>
 #include <palpate/core/time.h>
 
+#include "gui/source/latest_answer.h"
 #include "gui/source/recording_settings.h"
 
 class QCheckBox;
@@ -47,8 +48,12 @@ class RecordingDialog : public QDialog {
   // it.
   std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes = freeBytesOf;
 
+  // Waits until the next name is known, with events; for tests.
+  void settle() { looking_.settle(); }
+
  public slots:
-  // Closes the dialog only when recordings can be made with these settings.
+  // Closes the dialog once the folder has been looked at, and only when recordings can be made with
+  // these settings.
   void accept() override;
 
  protected:
@@ -57,6 +62,15 @@ class RecordingDialog : public QDialog {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  struct Look {
+    RecordingSettings settings;
+    std::int64_t nowUs = 0;
+    std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes;
+  };
+  struct Next : NextRecording {
+    std::optional<std::uint64_t> free = {};
+  };
+
   QWidget* makeFields();
   QWidget* makePreview();
   QWidget* makeFoot(const QString& okText);
@@ -67,7 +81,9 @@ class RecordingDialog : public QDialog {
   void browse();
   // Makes the dialog as high as its content, as far as the screen has room for it.
   void fitHeight(int extraPx = 0);
+  // Looks for the next name and then shows it: a network folder may take long to answer.
   void refresh();
+  void take(const Next& next);
   void showTexts();
 
   Ask& ask_;
@@ -91,7 +107,10 @@ class RecordingDialog : public QDialog {
   QCheckBox* mcap_ = nullptr;
   QCheckBox* ask_ = nullptr;
   QPushButton* ok_ = nullptr;
-  NextRecording next_;
+  Next next_;
+  // It closes when the folder has been looked at and no problem was found.
+  bool isAccepting_ = false;
+  LatestAnswer<Look, Next> looking_;
 };
 
 }  // namespace palpate::gui

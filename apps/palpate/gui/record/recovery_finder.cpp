@@ -1,6 +1,5 @@
 #include "gui/record/recovery_finder.h"
 
-#include <QMetaObject>
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -25,12 +24,6 @@ QString entryOf(const QString& path, std::int64_t changedUs) {
 }
 QString pathOf(const QString& entry) { return entry.section(' ', 1); }
 
-QString unfinishedFinderMessageOf(const std::exception& error, const QString& path) {
-  if (dynamic_cast<const std::bad_alloc*>(&error))
-    return path + ": too large for this computer's memory";
-  return QString::fromUtf8(error.what());
-}
-
 }  // namespace
 
 RecoveryFinder::RecoveryFinder(QSettings& settings, QObject* parent)
@@ -42,104 +35,76 @@ RecoveryFinder::RecoveryFinder(QSettings& settings, QObject* parent)
           parent) {}
 
 RecoveryFinder::RecoveryFinder(QSettings& settings, Recover recoverFile, QObject* parent)
-    : QObject(parent), settings_(settings), recoverFile_(std::move(recoverFile)) {}
-
-RecoveryFinder::~RecoveryFinder() {
-  cancel();
-  if (worker_.joinable()) worker_.join();
-}
-
-void RecoveryFinder::look(const QString& folder) {
-  begin([this, folder](const auto& cancelled) { return lookInto(folder, cancelled); });
-}
-
-void RecoveryFinder::recover(const QStringList& paths) {
-  begin([this, paths](const auto& cancelled) { return recoverAll(paths, cancelled); });
-}
-
-void RecoveryFinder::cancel() {
-  if (inWork_) *inWork_ = true;
-  // Each cancelled task still reports its end.
-  for (Task& task : waiting_) *task.cancelled = true;
-}
-
-void RecoveryFinder::begin(Work work) {
-  waiting_.push_back({std::move(work), std::make_shared<std::atomic<bool>>(false)});
-  if (!busy_) startNext();
-}
-
-void RecoveryFinder::startNext() {
-  inWork_.reset();
-  if (waiting_.empty()) return;
-  const Task task = std::move(waiting_.front());
-  waiting_.pop_front();
-  busy_ = true;
-  inWork_ = task.cancelled;
-  // The thread has already reported, so that joining does not wait.
-  if (worker_.joinable()) worker_.join();
-  worker_ = std::jthread([this, task] {
-    Report report = task.work(*task.cancelled);
-    postResult([this, report = std::move(report)] {
-      busy_ = false;
-      report();
-      // Unless the receiver of the report started the next task.
-      if (!busy_) startNext();
-    });
+    : QObject(parent), settings_(settings), recoverFile_(std::move(recoverFile)) {
+  connect(&job_, &BackgroundJob::failed, this, [this](const QString& message, const QString& path) {
+    emit failed(path, message);
+  });
+  connect(&job_, &BackgroundJob::progressed, this, [this](double fraction) {
+    if (recoveries_ > 0) emit progressed(fraction);
+  });
+  // Those that were cancelled before they began, too.
+  connect(&job_, &BackgroundJob::finished, this, [this] {
+    while (recoveries_ > 0) endRecovery();
   });
 }
 
-void RecoveryFinder::postResult(Report report) {
-  QMetaObject::invokeMethod(this, std::move(report), Qt::QueuedConnection);
+void RecoveryFinder::look(const QString& folder) {
+  struct Result {
+    std::vector<UnfinishedRecording> recordings;
+    QString problem;
+  };
+  auto result = std::make_shared<Result>();
+  job_.start(
+      folder,
+      [result, folder](const Progress& progress) {
+        try {
+          result->recordings =
+              findUnfinished(narrow(folder), [&](double) { return progress(0.0); });
+        } catch (const Cancelled&) {
+          throw;
+        } catch (const std::exception& error) {
+          result->problem = QString::fromUtf8(error.what());
+        }
+      },
+      [this, result, folder] {
+        if (!result->problem.isEmpty()) emit failed(folder, result->problem);
+        offer(result->recordings);
+      });
 }
 
-RecoveryFinder::Report RecoveryFinder::lookInto(const QString& folder,
-                                                const std::atomic<bool>& cancelled) {
-  try {
-    auto recordings = findUnfinished(narrow(folder), [&](double) { return !cancelled; });
-    return [this, recordings = std::move(recordings)] { offer(recordings); };
-  } catch (const Cancelled&) {
-    return [] {};
-  } catch (const std::exception& error) {
-    const QString message = unfinishedFinderMessageOf(error, folder);
-    return [this, folder, message] {
-      emit failed(folder, message);
-      emit found({});
-    };
+void RecoveryFinder::recover(const QStringList& paths) {
+  ++recoveries_;
+  const auto count = static_cast<double>(paths.size());
+  for (qsizetype i = 0; i < paths.size(); ++i) {
+    const QString path = paths[i];
+    const std::filesystem::path saved = recoveredPathOf(narrow(path));
+    auto report = std::make_shared<RecoverReport>();
+    job_.start(
+        path,
+        [report, recoverFile = recoverFile_, path, saved, i, count](const Progress& progress) {
+          try {
+            *report = recoverFile(narrow(path), saved, [&](double fraction) {
+              return progress((static_cast<double>(i) + fraction) / count);
+            });
+          } catch (const std::bad_alloc&) {
+            throw Error(narrow(path) + ": too large for this computer's memory");
+          }
+        },
+        [this, report, path, saved] {
+          const QString message = QString::fromStdString(report->message);
+          if (report->state == RecoverReport::State::kNothing)
+            emit failed(path, path + ": " + message);
+          else
+            emit recovered(path, message, pathText(saved));
+        });
   }
+  job_.start(
+      {}, [](const Progress&) {}, [this] { endRecovery(); });
 }
 
-RecoveryFinder::Report RecoveryFinder::recoverAll(const QStringList& paths,
-                                                  const std::atomic<bool>& cancelled) {
-  double reported = -1.0;
-  for (qsizetype i = 0; i < paths.size() && !cancelled; ++i) {
-    const auto progress = [&](double fraction) {
-      const double now = (static_cast<double>(i) + fraction) / static_cast<double>(paths.size());
-      if (now - reported >= kRecoveryFinderSmallestNews) {
-        reported = now;
-        postResult([this, now] { emit progressed(now); });
-      }
-      return !cancelled;
-    };
-    try {
-      recoverOne(paths[i], progress);
-    } catch (const Cancelled&) {
-      break;
-    } catch (const std::exception& error) {
-      const QString message = unfinishedFinderMessageOf(error, paths[i]);
-      postResult([this, path = paths[i], message] { emit failed(path, message); });
-    }
-  }
-  return [this] { emit finished(); };
-}
-
-void RecoveryFinder::recoverOne(const QString& path, const Progress& progress) {
-  const std::filesystem::path saved = recoveredPathOf(narrow(path));
-  const RecoverReport report = recoverFile_(narrow(path), saved, progress);
-  const QString message = QString::fromStdString(report.message);
-  if (report.state == RecoverReport::State::kNothing)
-    postResult([this, path, message] { emit failed(path, path + ": " + message); });
-  else
-    postResult([this, path, message, saved] { emit recovered(path, message, pathText(saved)); });
+void RecoveryFinder::endRecovery() {
+  --recoveries_;
+  emit finished();
 }
 
 void RecoveryFinder::offer(const std::vector<UnfinishedRecording>& recordings) {

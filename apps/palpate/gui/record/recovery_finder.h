@@ -1,25 +1,22 @@
-// Finds recordings that were never finished and recovers them in a worker thread, one task after
-// the other. Found files are only read: a recovered recording is a new file next to the old one.
-// Signals are emitted in the thread of this object.
+// Finds recordings that were never finished and recovers them in the background, one task after the
+// other. Found files are only read: a recovered recording is a new file next to the old one.
 #pragma once
 
 #include <QObject>
 #include <QSettings>
 #include <QString>
 #include <QStringList>
-#include <atomic>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <memory>
-#include <thread>
 #include <vector>
 
 #include <palpate/core/progress.h>
 #include <palpate/recording/recording.h>
 #include <palpate/recording/unfinished_recordings.h>
+
+#include "gui/source/background_job.h"
 
 namespace palpate::gui {
 
@@ -33,8 +30,6 @@ class RecoveryFinder : public QObject {
   // `settings` stores the ignored recordings; it must outlive this.
   explicit RecoveryFinder(QSettings& settings, QObject* parent = nullptr);
   RecoveryFinder(QSettings& settings, Recover recoverFile, QObject* parent = nullptr);
-  // Cancels and waits for the worker.
-  ~RecoveryFinder() override;
 
   // Searches the folder; found() follows, also with an empty list, unless cancelled.
   void look(const QString& folder);
@@ -42,8 +37,8 @@ class RecoveryFinder : public QObject {
   void recover(const QStringList& paths);
   // Cancels the running and all waiting tasks; no incomplete file remains. A cancelled search emits
   // nothing, a cancelled recovery emits finished().
-  void cancel();
-  bool busy() const noexcept { return busy_; }
+  void cancel() { job_.cancel(); }
+  bool busy() const noexcept { return job_.busy(); }
 
   // Does not offer these recordings again until they change. Applies only to paths that were found.
   void ignore(const QStringList& paths);
@@ -61,32 +56,16 @@ class RecoveryFinder : public QObject {
   void finished();
 
  private:
-  // Reports the result of a task in this object's thread.
-  using Report = std::function<void()>;
-  // Runs in the worker; returns soon after the flag is set.
-  using Work = std::function<Report(const std::atomic<bool>& cancelled)>;
-  struct Task {
-    Work work;
-    std::shared_ptr<std::atomic<bool>> cancelled;
-  };
-
-  void begin(Work work);
-  void startNext();
-  Report lookInto(const QString& folder, const std::atomic<bool>& cancelled);
-  Report recoverAll(const QStringList& paths, const std::atomic<bool>& cancelled);
-  void recoverOne(const QString& path, const Progress& progress);
-  void postResult(Report report);
   void offer(const std::vector<UnfinishedRecording>& recordings);
+  void endRecovery();
 
   QSettings& settings_;
   Recover recoverFile_;
   // Time of the last change of each found recording [us].
   std::map<QString, std::int64_t> changedUs_;
-  std::deque<Task> waiting_;
-  // The cancel flag of the running task.
-  std::shared_ptr<std::atomic<bool>> inWork_;
-  bool busy_ = false;
-  std::jthread worker_;
+  // Calls of recover() without finished() so far.
+  int recoveries_ = 0;
+  BackgroundJob job_{BackgroundJob::Leaving::kAtOnce};
 };
 
 }  // namespace palpate::gui

@@ -20,7 +20,7 @@
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/main_window.h"
 #include "gui/shell/screen_room.h"
-#include "gui/source/file_reading.h"
+#include "gui/source/abandonable.h"
 
 namespace palpate::gui {
 namespace {
@@ -42,8 +42,23 @@ std::filesystem::path wholePath(const std::filesystem::path& file) {
   return failed ? file : folder / file.filename();
 }
 
-int showWindow(int& argc, char** argv, const WindowOptions& options) {
+// Ends the program where threads still run half a second after the window is gone, since their
+// files don't answer: they must see neither the application nor the statics being destroyed.
+struct LastThreads {
+  ~LastThreads() {
+    using namespace std::chrono_literals;
+    if (Abandonable::awaitThreads(500ms)) return;
+    std::fflush(nullptr);
+    std::_Exit(code);
+  }
+  int code = 0;
+};
+
+}  // namespace
+
+int runWindow(int& argc, char** argv, const WindowOptions& options) {
   const auto application = makeApplication(argc, argv);
+  LastThreads last;
   MainWindow window({.dataFolder = options.dataFolder,
                      .settingsPath = settingsPath(),
                      .clock = nullptr,
@@ -83,18 +98,7 @@ int showWindow(int& argc, char** argv, const WindowOptions& options) {
   } else if (reopensSession(window.state().settings)) {
     restoreSession(window.state());
   }
-  return QGuiApplication::exec();
-}
-
-}  // namespace
-
-int runWindow(int& argc, char** argv, const WindowOptions& options) {
-  const int code = showWindow(argc, argv, options);
-  using namespace std::chrono_literals;
-  if (FileReading::awaitThreads(500ms)) return code;
-  // A file doesn't answer: its thread must not see how the statics are destroyed.
-  std::fflush(nullptr);
-  std::_Exit(code);
+  return last.code = QGuiApplication::exec();
 }
 
 }  // namespace palpate::gui

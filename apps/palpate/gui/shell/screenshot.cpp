@@ -4,6 +4,7 @@
 #include <QTemporaryDir>
 #include <QTimer>
 #include <algorithm>
+#include <chrono>
 
 #include <palpate/core/error.h>
 #include <palpate/core/output_file.h>
@@ -191,6 +192,10 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
     qputenv("XDG_RUNTIME_DIR", settings.path().toLocal8Bit());
   const auto application = makeApplication(argc, argv);
+  // No thread may see the application being destroyed.
+  struct LastThreads {
+    ~LastThreads() { Abandonable::awaitThreads(std::chrono::hours(1)); }
+  } const last;
   useSettings(settings.filePath("palpate.ini"), options);
   MainWindow window({.dataFolder = options.dataFolder,
                      .settingsPath = settings.filePath("palpate.ini"),

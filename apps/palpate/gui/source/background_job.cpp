@@ -1,18 +1,22 @@
 #include "gui/source/background_job.h"
 
+#include <QCoreApplication>
+#include <QEventLoop>
+#include <QPointer>
+
 #include <palpate/core/error.h>
 
 namespace palpate::gui {
-namespace {
 
-constexpr double kBackgroundJobSmallestNews = 0.01;
-
-}  // namespace
+BackgroundJob::BackgroundJob(Leaving leaving, QObject* parent)
+    : QObject(parent), leaving_(leaving) {
+  connect(&thread_, &Abandonable::progressed, this, &BackgroundJob::progressed);
+  connect(&thread_, &Abandonable::finished, this, &BackgroundJob::startNext);
+}
 
 BackgroundJob::~BackgroundJob() {
-  waiting_.clear();
-  cancelAsked_ = true;
-  if (worker_.joinable()) worker_.join();
+  thread_.stop();
+  if (leaving_ == Leaving::kWaits) thread_.join();
 }
 
 void BackgroundJob::start(const QString& text, Work work, std::function<void()> done) {
@@ -23,6 +27,12 @@ void BackgroundJob::start(const QString& text, Work work, std::function<void()> 
 void BackgroundJob::cancel() {
   waiting_.clear();
   cancelAsked_ = true;
+  thread_.stop();
+}
+
+void BackgroundJob::settle() {
+  const QPointer<BackgroundJob> self(this);
+  while (self && busy_) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 
 void BackgroundJob::startNext() {
@@ -36,44 +46,21 @@ void BackgroundJob::startNext() {
   busy_ = true;
   cancelAsked_ = false;
   emit started(now.text);
-  // The thread has already reported its result: joining it takes no time.
-  if (worker_.joinable()) worker_.join();
-  worker_ = std::jthread([this, now = std::move(now)] {
-    double reported = -1.0;
-    const Progress progress = [&](double fraction) {
-      if (fraction - reported >= kBackgroundJobSmallestNews || fraction < reported) {
-        reported = fraction;
-        QMetaObject::invokeMethod(
-            this, [this, fraction] { emit progressed(fraction); }, Qt::QueuedConnection);
-      }
-      return !cancelAsked_;
-    };
-    try {
-      now.work(progress);
-      conclude([done = now.done] {
-        if (done) done();
-      });
-    } catch (const Cancelled&) {
-      conclude([this, text = now.text] { emit cancelled(text); });
-    } catch (const std::exception& error) {
-      conclude([this, text = now.text, message = QString::fromUtf8(error.what())] {
+  thread_.start(
+      [this, now](const Abandonable::Asker& asker) -> Abandonable::Take {
+        try {
+          now.work(asker.progress);
+        } catch (const Cancelled&) {
+          return [this, text = now.text] { emit cancelled(text); };
+        }
+        return now.done;
+      },
+      [this, text = now.text](const QString& message) {
         if (cancelAsked_)
           emit cancelled(text);
         else
-          emit failed(message);
+          emit failed(message, text);
       });
-    }
-  });
-}
-
-void BackgroundJob::conclude(std::function<void()> report) {
-  QMetaObject::invokeMethod(
-      this,
-      [this, report = std::move(report)] {
-        report();
-        startNext();
-      },
-      Qt::QueuedConnection);
 }
 
 }  // namespace palpate::gui

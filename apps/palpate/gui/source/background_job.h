@@ -2,14 +2,9 @@
 // and callbacks come in the thread of this object.
 #pragma once
 
-#include <QObject>
-#include <QString>
-#include <atomic>
 #include <deque>
-#include <functional>
-#include <thread>
 
-#include <palpate/core/progress.h>
+#include "gui/source/abandonable.h"
 
 namespace palpate::gui {
 
@@ -19,9 +14,12 @@ class BackgroundJob : public QObject {
   // The work runs in a thread of its own; an exception that it throws is reported by failed() or,
   // for Cancelled and where the job was cancelled, by cancelled().
   using Work = std::function<void(const Progress&)>;
+  // Whether the destructor waits for the running job, which it cancels in any case. Where it
+  // doesn't, works must use nothing but what they hold themselves.
+  enum class Leaving { kWaits, kAtOnce };
 
-  explicit BackgroundJob(QObject* parent = nullptr) : QObject(parent) {}
-  // Cancels all jobs and waits for the running one.
+  explicit BackgroundJob(QObject* parent = nullptr) : BackgroundJob(Leaving::kWaits, parent) {}
+  explicit BackgroundJob(Leaving leaving, QObject* parent = nullptr);
   ~BackgroundJob() override;
 
   // Starts the work once the running and the waiting jobs have ended. `done` is called when it has
@@ -30,11 +28,13 @@ class BackgroundJob : public QObject {
   // Cancels the running job and all that wait.
   void cancel();
   bool busy() const noexcept { return busy_; }
+  // Waits until no job runs or waits, with events.
+  void settle();
 
  signals:
   void started(const QString& text);
   void progressed(double fraction);
-  void failed(const QString& message);
+  void failed(const QString& message, const QString& text);
   void cancelled(const QString& text);
   // No job runs or waits any more.
   void finished();
@@ -46,12 +46,12 @@ class BackgroundJob : public QObject {
     std::function<void()> done;
   };
   void startNext();
-  void conclude(std::function<void()> report);
 
+  const Leaving leaving_;
   std::deque<Waiting> waiting_;
-  std::atomic<bool> cancelAsked_ = false;
+  bool cancelAsked_ = false;
   bool busy_ = false;
-  std::jthread worker_;
+  Abandonable thread_;
 };
 
 }  // namespace palpate::gui

@@ -1,10 +1,8 @@
 #include "gui/source/filter_worker.h"
 
-#include <QCoreApplication>
 #include <QElapsedTimer>
 #include <algorithm>
 
-#include <palpate/core/error.h>
 #include <palpate/filter/filter_chain.h>
 #include <palpate/filter/filtered_profile.h>
 
@@ -69,61 +67,23 @@ FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe) {
   return figures;
 }
 
-FilterWorker::FilterWorker(QObject* parent) : QObject(parent) { pool_.setMaxThreadCount(1); }
-
-FilterWorker::~FilterWorker() {
-  cancel();
-  pool_.waitForDone();
-}
-
-void FilterWorker::cancel() {
-  if (stop_) *stop_ = true;
-  ++generation_;
-  busy_ = false;
-}
-
-void FilterWorker::postResult(std::uint64_t generation, std::function<void()> what) {
-  QMetaObject::invokeMethod(
-      this,
-      [this, generation, what = std::move(what)] {
-        if (generation == generation_) what();
-      },
-      Qt::QueuedConnection);
-}
-
-void FilterWorker::start(const OpenedRecordingPtr& source, const Recipe& recipe) {
-  cancel();
-  busy_ = true;
-  stop_ = std::make_shared<std::atomic<bool>>(false);
-  pool_.start([this, source, recipe, stop = stop_, generation = generation_] {
-    if (*stop) return;
-    try {
-      const OpenedRecordingPtr filtered = filteredRecording(source, recipe, [&](double fraction) {
-        postResult(generation, [this, fraction] { emit progressed(fraction); });
-        return !*stop;
-      });
-      postResult(generation, [this, source, filtered] { emit made(source, filtered); });
-      const FilterFigures figures = figuresOf(*source, recipe);
-      postResult(generation, [this, figures] {
-        busy_ = false;
-        emit measured(figures);
-      });
-    } catch (const Cancelled&) {
-    } catch (const std::exception& error) {
-      const QString message = error.what();
-      postResult(generation, [this, message] {
-        busy_ = false;
-        emit failed(message);
-      });
-    }
-  });
-}
-
-void FilterWorker::wait() {
-  while (busy_) {
-    pool_.waitForDone();
-    QCoreApplication::sendPostedEvents(this, QEvent::MetaCall);
-  }
-}
+FilterWorker::FilterWorker(QObject* parent)
+    : LatestAnswer(
+          [](const FilterQuestion& question, const Progress& progress, const Tell& tell) {
+            FilterAnswer answer{
+                .source = question.source,
+                .filtered = filteredRecording(question.source, question.recipe, progress)};
+            tell(answer);
+            answer.figures = figuresOf(*question.source, question.recipe);
+            return answer;
+          },
+          [this](const FilterAnswer& answer) {
+            if (answer.figures)
+              emit measured(*answer.figures);
+            else
+              emit made(answer.source, answer.filtered);
+          },
+          [this](const QString& why) { emit failed(why); },
+          parent) {}
 
 }  // namespace palpate::gui

@@ -1,17 +1,13 @@
-// Filters a recording by a recipe in a background thread; delivers the filtered recording, and cost
-// and latency of each step. A new start() replaces the work in progress, so that only the last
-// recipe gives a result.
+// Filters a recording by a recipe in the background; delivers the filtered recording, and cost and
+// latency of each step.
 #pragma once
 
-#include <QObject>
-#include <QThreadPool>
-#include <atomic>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include <palpate/filter/recipe.h>
 
+#include "gui/source/latest_answer.h"
 #include "gui/source/opened_recording.h"
 
 namespace palpate::gui {
@@ -35,33 +31,28 @@ OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
 // around the middle frame).
 FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe);
 
-class FilterWorker : public QObject {
+struct FilterQuestion {
+  OpenedRecordingPtr source;
+  Recipe recipe;
+};
+
+struct FilterAnswer {
+  OpenedRecordingPtr source;
+  OpenedRecordingPtr filtered;
+  // Once they are measured.
+  std::optional<FilterFigures> figures = {};
+};
+
+class FilterWorker : public LatestAnswer<FilterQuestion, FilterAnswer> {
   Q_OBJECT
  public:
   explicit FilterWorker(QObject* parent = nullptr);
-  // Cancels and waits.
-  ~FilterWorker() override;
-
-  void start(const OpenedRecordingPtr& source, const Recipe& recipe);
-  void cancel();
-  bool busy() const noexcept { return busy_; }
-  // Waits until all work has ended; for tests and pictures.
-  void wait();
 
  signals:
-  void progressed(double fraction);
   void made(const palpate::gui::OpenedRecordingPtr& source,
             const palpate::gui::OpenedRecordingPtr& filtered);
   void measured(const palpate::gui::FilterFigures& figures);
   void failed(const QString& message);
-
- private:
-  void postResult(std::uint64_t generation, std::function<void()> what);
-
-  QThreadPool pool_;
-  std::shared_ptr<std::atomic<bool>> stop_;
-  std::uint64_t generation_ = 0;
-  bool busy_ = false;
 };
 
 }  // namespace palpate::gui

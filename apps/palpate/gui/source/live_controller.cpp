@@ -32,7 +32,6 @@ bool isPortGone(PortState state) {
 LiveController::LiveController(std::filesystem::path dataFolder, QObject* parent)
     : QObject(parent), dataFolder_(std::move(dataFolder)) {
   worker_.setMaxThreadCount(1);
-  checker_.setMaxThreadCount(1);
   refreshTimer_.setInterval(kLiveControllerRefreshMs);
   refreshTimer_.setTimerType(Qt::PreciseTimer);
   lookTimer_.setInterval(kLiveControllerLookMs);
@@ -66,6 +65,7 @@ void LiveController::release() {
   refreshTimer_.stop();
   lookTimer_.stop();
   beforeRun_.reset();
+  check_.abandon();
   if (!source_) return;
   // Even while the worker is busy.
   stopMotion();
@@ -219,19 +219,18 @@ bool LiveController::portsChanged() {
 }
 
 void LiveController::check() {
-  if (checking_) return;
-  checking_ = true;
-  checker_.start([this, folder = folder_, source = source_, generation = generation_]() mutable {
-    const PreflightCheck result = source->session->checkPreflight(existingPartOf(folder));
-    source.reset();
-    QMetaObject::invokeMethod(
-        this,
-        [this, result, generation] {
-          checking_ = false;
-          if (generation == generation_) beforeRun_ = result;
-        },
-        Qt::QueuedConnection);
-  });
+  // A folder that doesn't answer is asked once, and delays no other.
+  if (check_.busy() && checked_ == folder_) return;
+  checked_ = folder_;
+  check_.start(
+      [this, folder = folder_, look = lookAtFolder](
+          const Abandonable::Asker&) -> Abandonable::Take {
+        const FolderState state = look(existingPartOf(folder));
+        return [this, state] {
+          if (source_) beforeRun_ = source_->session->checkPreflight(state);
+        };
+      },
+      [](const QString&) {});
 }
 
 void LiveController::startRecording(std::function<RecordingOptions()> make) {

@@ -18,6 +18,7 @@
 #include <palpate/capture/link_health.h>
 #include <palpate/core/time.h>
 
+#include "gui/source/abandonable.h"
 #include "gui/source/live_source.h"
 
 namespace palpate::gui {
@@ -69,6 +70,9 @@ class LiveController : public QObject {
   // Folder of future recordings; the preflight check examines it.
   void setFolder(const std::filesystem::path& folder) { folder_ = folder; }
   const std::optional<PreflightCheck>& preflight() const noexcept { return beforeRun_; }
+
+  // How a folder is looked at, in another thread; tests supply their own.
+  std::function<FolderState(const std::filesystem::path&)> lookAtFolder = folderStateOf;
 
   // Called by the timers; public for tests.
   void refresh();
@@ -125,12 +129,12 @@ class LiveController : public QObject {
   bool stopping_ = false;
   std::filesystem::path folder_;
   std::optional<PreflightCheck> beforeRun_;
-  bool checking_ = false;
   int looks_ = 0;
   // Number of tasks in the worker that open or close a source.
   int pending_ = 0;
-  // A thread of its own for the preflight check: a folder that doesn't respond delays nothing else.
-  QThreadPool checker_;
+  // The preflight check of `checked_`.
+  Abandonable check_;
+  std::filesystem::path checked_;
   // One thread: one task after the other.
   QThreadPool worker_;
 };

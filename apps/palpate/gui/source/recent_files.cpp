@@ -1,6 +1,7 @@
 #include "gui/source/recent_files.h"
 
 #include <QFileInfo>
+#include <utility>
 
 namespace palpate::gui {
 namespace {
@@ -19,6 +20,7 @@ RecentFiles::RecentFiles(QSettings& settings, QObject* parent)
 void RecentFiles::add(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
   paths_.removeAll(absolute);
+  missing_.removeAll(absolute);
   paths_.prepend(absolute);
   paths_ = paths_.mid(0, kMost);
   store();
@@ -29,7 +31,7 @@ void RecentFiles::remove(const QString& path) {
 }
 
 void RecentFiles::removeMissing() {
-  const auto gone = [](const QString& path) { return !exists(path); };
+  const auto gone = [this](const QString& path) { return isMissing(path); };
   if (paths_.removeIf(gone) > 0) store();
 }
 
@@ -38,7 +40,19 @@ void RecentFiles::clear() {
   store();
 }
 
-bool RecentFiles::exists(const QString& path) { return QFileInfo(path).isFile(); }
+void RecentFiles::look() {
+  if (looking_.busy()) return;
+  looking_.start(
+      [this, paths = paths_](const Abandonable::Asker&) -> Abandonable::Take {
+        QStringList missing;
+        for (const QString& path : paths)
+          if (!QFileInfo(path).isFile()) missing.append(path);
+        return [this, missing] {
+          if (std::exchange(missing_, missing) != missing) emit changed();
+        };
+      },
+      [](const QString&) {});
+}
 
 QString RecentFiles::lastFolder() const { return settings_.value(kLastFolderKey).toString(); }
 

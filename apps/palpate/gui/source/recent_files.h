@@ -6,6 +6,8 @@
 #include <QSettings>
 #include <QStringList>
 
+#include "gui/source/abandonable.h"
+
 namespace palpate::gui {
 
 class RecentFiles : public QObject {
@@ -23,7 +25,13 @@ class RecentFiles : public QObject {
   void remove(const QString& path);
   void removeMissing();
   void clear();
-  static bool exists(const QString& path);
+  // As it was when they were last looked at.
+  bool isMissing(const QString& path) const { return missing_.contains(path); }
+  // Looks which are missing, in the background, as a network folder may not answer; changed()
+  // follows when they are others than before.
+  void look();
+  // Waits until that is known, with events; for tests and pictures.
+  void settle() { looking_.settle(); }
   // The folder in which files were chosen last; empty: none yet.
   QString lastFolder() const;
   void setLastFolder(const QString& folder);
@@ -36,6 +44,8 @@ class RecentFiles : public QObject {
 
   QSettings& settings_;
   QStringList paths_;
+  QStringList missing_;
+  Abandonable looking_;
 };
 
 }  // namespace palpate::gui

@@ -1,6 +1,5 @@
 #include "gui/source/recording_opener.h"
 
-#include <QMetaObject>
 #include <algorithm>
 #include <new>
 #include <utility>
@@ -13,8 +12,28 @@ namespace {
 
 // Share of reading in the whole work; computing the signals is the rest.
 constexpr double kRecordingOpenerReadShare = 0.6;
-// Least step of progress that is reported.
-constexpr double kRecordingOpenerSmallestNews = 0.01;
+
+OpenedRecordingPtr openedBy(const RecordingOpener::Read& read,
+                            const RecordingOpener::ReadDamaged& readDamaged,
+                            const std::filesystem::path& path,
+                            const Progress& progress) {
+  const Progress reading = [&](double done) { return progress(kRecordingOpenerReadShare * done); };
+  const Progress computing = [&](double done) {
+    return progress(kRecordingOpenerReadShare + (1.0 - kRecordingOpenerReadShare) * done);
+  };
+  try {
+    try {
+      return makeOpenedRecording(path, read(path, reading), computing);
+    } catch (const FormatError& error) {
+      if (!readDamaged) throw;
+      ReadableRecording readable = readDamaged(path, reading);
+      if (readable.damage.empty()) readable.damage = error.what();
+      return makeOpenedRecording(path, std::move(readable), computing);
+    }
+  } catch (const std::bad_alloc&) {
+    throw Error(path.string() + ": too large for this computer's memory");
+  }
+}
 
 }  // namespace
 
@@ -30,106 +49,42 @@ RecordingOpener::RecordingOpener(Read read, QObject* parent)
     : RecordingOpener(std::move(read), {}, parent) {}
 
 RecordingOpener::RecordingOpener(Read read, ReadDamaged readDamaged, QObject* parent)
-    : QObject(parent), read_(std::move(read)), readDamaged_(std::move(readDamaged)) {}
-
-RecordingOpener::~RecordingOpener() {
-  waiting_.clear();
-  cancelRequested_ = true;
-  if (worker_.joinable()) worker_.join();
+    : QObject(parent), read_(std::move(read)), readDamaged_(std::move(readDamaged)) {
+  connect(&job_, &BackgroundJob::started, this, [this](const QString& path) {
+    current_ = waiting_.front();
+    waiting_.pop_front();
+    emit started(path);
+  });
+  connect(&job_, &BackgroundJob::progressed, this, &RecordingOpener::progressed);
+  connect(&job_, &BackgroundJob::failed, this, [this](const QString& message, const QString& path) {
+    emit failed(path, message);
+  });
+  connect(&job_, &BackgroundJob::cancelled, this, &RecordingOpener::cancelled);
+  connect(&job_, &BackgroundJob::finished, this, &RecordingOpener::finished);
 }
 
 std::uint64_t RecordingOpener::open(const std::filesystem::path& path) {
-  waiting_.push_back({path, ++tickets_});
-  if (!busy_) startNext();
-  return tickets_;
+  const std::uint64_t ticket = ++tickets_;
+  waiting_.push_back(ticket);
+  auto recording = std::make_shared<OpenedRecordingPtr>();
+  job_.start(
+      QString::fromStdString(path.string()),
+      [recording, read = read_, readDamaged = readDamaged_, path](const Progress& progress) {
+        *recording = openedBy(read, readDamaged, path, progress);
+      },
+      [this, recording, ticket] { emit opened(*recording, ticket); });
+  return ticket;
 }
 
 void RecordingOpener::cancel() {
   waiting_.clear();
-  cancelRequested_ = true;
+  current_ = 0;
+  job_.cancel();
 }
 
 bool RecordingOpener::pending(std::uint64_t ticket) const {
-  if (busy_ && ticket == current_) return !cancelRequested_;
-  return std::any_of(waiting_.begin(), waiting_.end(), [ticket](const Asked& asked) {
-    return asked.ticket == ticket;
-  });
-}
-
-void RecordingOpener::startNext() {
-  if (waiting_.empty()) {
-    busy_ = false;
-    emit finished();
-    return;
-  }
-  const Asked asked = waiting_.front();
-  waiting_.pop_front();
-  busy_ = true;
-  current_ = asked.ticket;
-  cancelRequested_ = false;
-  emit started(QString::fromStdString(asked.path.string()));
-  // The thread has already reported its result: joining it takes no time.
-  if (worker_.joinable()) worker_.join();
-  worker_ = std::jthread([this, asked] { work(asked); });
-}
-
-void RecordingOpener::work(const Asked& asked) {
-  const std::filesystem::path& path = asked.path;
-  const QString name = QString::fromStdString(path.string());
-  double reported = -1.0;
-  const std::function<Progress(double, double)> part = [&](double from, double share) -> Progress {
-    return [this, &reported, from, share](double fraction) {
-      const double now = from + share * fraction;
-      if (now - reported >= kRecordingOpenerSmallestNews) {
-        reported = now;
-        QMetaObject::invokeMethod(
-            this, [this, now] { emit progressed(now); }, Qt::QueuedConnection);
-      }
-      return !cancelRequested_;
-    };
-  };
-  try {
-    OpenedRecordingPtr recording;
-    try {
-      Profile profile = read_(path, part(0.0, kRecordingOpenerReadShare));
-      recording =
-          makeOpenedRecording(path,
-                              std::move(profile),
-                              part(kRecordingOpenerReadShare, 1.0 - kRecordingOpenerReadShare));
-    } catch (const FormatError& error) {
-      if (!readDamaged_) throw;
-      recording = readablePart(path, error.what(), part);
-    }
-    conclude([this, recording, ticket = asked.ticket] { emit opened(recording, ticket); });
-  } catch (const Cancelled&) {
-    conclude([this, name] { emit cancelled(name); });
-  } catch (const std::bad_alloc&) {
-    conclude([this, name] { emit failed(name, name + ": too large for this computer's memory"); });
-  } catch (const std::exception& error) {
-    const QString message = QString::fromUtf8(error.what());
-    conclude([this, name, message] { emit failed(name, message); });
-  }
-}
-
-// Throws FormatError when nothing can be read.
-OpenedRecordingPtr RecordingOpener::readablePart(
-    const std::filesystem::path& path,
-    const std::string& why,
-    const std::function<Progress(double, double)>& part) const {
-  ReadableRecording readable = readDamaged_(path, part(0.0, kRecordingOpenerReadShare));
-  if (readable.damage.empty()) readable.damage = why;
-  return makeOpenedRecording(
-      path, std::move(readable), part(kRecordingOpenerReadShare, 1.0 - kRecordingOpenerReadShare));
-}
-
-void RecordingOpener::conclude(std::function<void()> report) {
-  QMetaObject::invokeMethod(
-      this,
-      [this, report = std::move(report)] {
-        report();
-        startNext();
-      },
-      Qt::QueuedConnection);
+  return (busy() && ticket == current_) ||
+         std::find(waiting_.begin(), waiting_.end(), ticket) != waiting_.end();
 }
 
 }  // namespace palpate::gui

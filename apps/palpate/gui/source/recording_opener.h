@@ -1,16 +1,14 @@
-// Opens recordings in a worker thread, one after the other, with progress and cancel. Signals come
-// in the thread of this object.
+// Opens recordings in the background, one after the other, with progress and cancel.
 #pragma once
 
 #include <QObject>
 #include <QString>
-#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
-#include <thread>
 
+#include "gui/source/background_job.h"
 #include "gui/source/opened_recording.h"
 
 namespace palpate::gui {
@@ -28,14 +26,12 @@ class RecordingOpener : public QObject {
   // Without `readDamaged` a damaged file fails.
   RecordingOpener(Read read, ReadDamaged readDamaged, QObject* parent = nullptr);
   RecordingOpener(Read read, QObject* parent = nullptr);
-  // Cancels all files and waits for the worker.
-  ~RecordingOpener() override;
 
   // Adds a file to the queue. Returns a unique ticket, which opened() passes on.
   std::uint64_t open(const std::filesystem::path& path);
   // Cancels the file that is being read and all that wait; cancelled() follows if there was any.
   void cancel();
-  bool busy() const noexcept { return busy_; }
+  bool busy() const noexcept { return job_.busy(); }
   // Whether the file of this ticket is being read or waits, and was not cancelled.
   bool pending(std::uint64_t ticket) const;
   std::size_t numWaiting() const noexcept { return waiting_.size(); }
@@ -52,29 +48,15 @@ class RecordingOpener : public QObject {
   void finished();
 
  private:
-  struct Asked {
-    std::filesystem::path path;
-    std::uint64_t ticket = 0;
-  };
-  void startNext();
-  void work(const Asked& asked);
-  // Runs `report` in the thread of this object, then starts the next file.
-  void conclude(std::function<void()> report);
-
-  OpenedRecordingPtr readablePart(const std::filesystem::path& path,
-                                  const std::string& why,
-                                  const std::function<Progress(double, double)>& part) const;
-
   Read read_;
   ReadDamaged readDamaged_;
-  std::deque<Asked> waiting_;
+  // Tickets.
+  std::deque<std::uint64_t> waiting_;
   // Number of tickets given.
   std::uint64_t tickets_ = 0;
-  // The ticket of the file that is being read, or was read last.
+  // The ticket of the file that is being read, or was read last; 0: none, or it was cancelled.
   std::uint64_t current_ = 0;
-  std::atomic<bool> cancelRequested_ = false;
-  bool busy_ = false;
-  std::jthread worker_;
+  BackgroundJob job_{BackgroundJob::Leaving::kAtOnce};
 };
 
 }  // namespace palpate::gui

@@ -1,6 +1,5 @@
 #include "gui/spectrum/spectrum_panel.h"
 
-#include <QCoreApplication>
 #include <QStackedWidget>
 #include <algorithm>
 #include <limits>
@@ -102,7 +101,7 @@ SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
   connect(linePage_, &SpectrumLinePage::otherChanged, this, &SpectrumPanel::ask);
   connect(&worker_, &SpectrumWorker::started, strip_, [this] { strip_->begin("spectra"); });
   connect(&worker_, &SpectrumWorker::progressed, strip_, &OpeningStrip::setProgress);
-  connect(&worker_, &SpectrumWorker::ended, strip_, &OpeningStrip::end);
+  connect(&worker_, &SpectrumWorker::finished, strip_, &OpeningStrip::end);
   connect(&worker_, &SpectrumWorker::answered, this, &SpectrumPanel::take);
   connect(strip_, &OpeningStrip::cancelRequested, this, &SpectrumPanel::cancel);
   connect(empty_, &EmptyPage::buttonClicked, this, [this] {
@@ -119,7 +118,7 @@ void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   live_ = live;
   taxels_ = {};
   asked_.reset();
-  worker_.cancel();
+  worker_.abandon();
   name_.clear();
   linePage_->setRecording(recording_);
   header_->setName({});
@@ -202,7 +201,7 @@ void SpectrumPanel::ask() {
 
 bool SpectrumPanel::cancel() {
   if (!worker_.busy()) return false;
-  worker_.cancel();
+  worker_.abandon();
   say("Cancelled.", "Compute the spectra");
   emit said("computing spectra was cancelled");
   return true;
@@ -289,7 +288,7 @@ bool SpectrumPanel::shown() const { return isVisible() && pages_->currentWidget(
 
 void SpectrumPanel::settle() {
   ask();
-  while (worker_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  worker_.settle();
 }
 
 std::vector<ExportedTable> SpectrumPanel::tables() const {

@@ -1,10 +1,8 @@
 #include "gui/spectrum/spectrum_worker.h"
 
-#include <QMetaObject>
 #include <algorithm>
 #include <optional>
 
-#include <palpate/core/error.h>
 #include <palpate/signals/resampled_series.h>
 #include <palpate/signals/strongest_taxel.h>
 
@@ -17,7 +15,6 @@ constexpr std::size_t kFramesLookedAt = 4000;  // to find the strongest taxel
 // Shares of the whole work.
 constexpr double kLookShare = 0.2;
 constexpr double kSpectrumWorkerReadShare = 0.5;
-constexpr double kToldStep = 0.02;
 
 // The samples of a series within a span; readSeries() also returns their neighbours.
 Series spanOf(const Profile& profile,
@@ -39,10 +36,8 @@ Progress part(const Progress& whole, double base, double share) {
   return [&whole, base, share](double done) { return whole(base + share * done); };
 }
 
-}  // namespace
-
 // Results for the last recording; the pointer is weak, so that a closed recording is freed.
-struct SpectrumWorker::Kept {
+struct SpectrumKept {
   std::weak_ptr<const OpenedRecording> of = {};
   bool looked = false;
   // Valid once `looked`; empty when no taxel has a signal.
@@ -53,77 +48,10 @@ struct SpectrumWorker::Kept {
   std::shared_ptr<const Series> series = {};
 };
 
-bool fitsWhole(const SpectrumQuestion& question) {
-  const SpectrumOptions& spectrum = question.options.spectrum;
-  const auto hop = static_cast<std::size_t>(spectrum.window - spectrum.overlap);
-  return question.recording->profile.numFrames() / hop <=
-         question.options.limitedToCells().maxSegments;
-}
-
-SpectrumWorker::SpectrumWorker(QObject* parent) : QObject(parent), kept_(std::make_shared<Kept>()) {
-  pool_.setMaxThreadCount(1);
-}
-
-SpectrumWorker::~SpectrumWorker() {
-  ++generation_;
-  pool_.clear();
-  pool_.waitForDone();
-}
-
-void SpectrumWorker::cancel() {
-  ++generation_;
-  pool_.clear();
-  if (!busy_) return;
-  busy_ = false;
-  emit ended();
-}
-
-void SpectrumWorker::ask(const SpectrumQuestion& question) {
-  ++generation_;
-  pool_.clear();
-  const bool begins = !busy_;
-  busy_ = true;
-  if (begins) emit started();
-  pool_.start([this, question, generation = generation_.load()] { work(question, generation); });
-}
-
-void SpectrumWorker::work(const SpectrumQuestion& question, int generation) {
-  double reported = 0.0;
-  const Progress progress = [&](double done) {
-    if (done - reported >= kToldStep) {
-      reported = done;
-      QMetaObject::invokeMethod(
-          this,
-          [this, generation, done] {
-            if (generation == generation_) emit progressed(done);
-          },
-          Qt::QueuedConnection);
-    }
-    return generation == generation_;
-  };
-  SpectrumAnswer answer;
-  try {
-    answer = answerTo(question, progress);
-  } catch (const Cancelled&) {
-    return;
-  } catch (const std::exception& error) {
-    answer.failure = QString::fromUtf8(error.what());
-  }
-  QMetaObject::invokeMethod(
-      this,
-      [this, generation, answer] {
-        if (generation != generation_) return;
-        busy_ = false;
-        emit answered(answer);
-        emit ended();
-      },
-      Qt::QueuedConnection);
-}
-
-void SpectrumWorker::answerOverSpan(const SpectrumQuestion& question,
-                                    const SeriesChoice& choice,
-                                    SpectrumAnswer& answer,
-                                    const Progress& progress) {
+void answerOverSpan(const SpectrumQuestion& question,
+                    const SeriesChoice& choice,
+                    SpectrumAnswer& answer,
+                    const Progress& progress) {
   const Profile& profile = question.recording->profile;
   const double half = kSpectrumWorkerReadShare / 2.0, read = kLookShare + kSpectrumWorkerReadShare;
   answer.series = std::make_shared<Series>(
@@ -145,12 +73,13 @@ void SpectrumWorker::answerOverSpan(const SpectrumQuestion& question,
                                                              part(progress, read, 1.0 - read)));
 }
 
-SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
-                                        const Progress& progress) {
+SpectrumAnswer answerTo(SpectrumKept& kept,
+                        const SpectrumQuestion& question,
+                        const Progress& progress) {
   const Profile& profile = question.recording->profile;
-  if (kept_->of.lock() != question.recording) {
-    *kept_ = {};
-    kept_->of = question.recording;
+  if (kept.of.lock() != question.recording) {
+    kept = {};
+    kept.of = question.recording;
   }
   SpectrumAnswer answer{.taxels = question.taxels,
                         .unit = unitOf(profile.hand()),
@@ -165,14 +94,14 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
     answer.unit = question.formula->unit;
   }
   if (answer.strongest) {
-    if (!kept_->looked) {
-      kept_->strongest = TaxelSelection(profile.layout());
+    if (!kept.looked) {
+      kept.strongest = TaxelSelection(profile.layout());
       if (const auto place =
               strongestTaxel(profile, kFramesLookedAt, part(progress, 0.0, kLookShare)))
-        kept_->strongest.toggle(place->matrix, place->y, place->x);
-      kept_->looked = true;
+        kept.strongest.toggle(place->matrix, place->y, place->x);
+      kept.looked = true;
     }
-    answer.taxels = kept_->strongest;
+    answer.taxels = kept.strongest;
   }
   const SeriesChoice choice =
       question.formula ? question.formula->choice()
@@ -187,13 +116,13 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
     answer.series = std::make_shared<Series>(
         readSeries(profile, choice, question.fromS, question.toS, reading));
   } else {
-    if (!kept_->series || kept_->taxels != choice.taxels || kept_->formula != choice.formula) {
-      kept_->series =
+    if (!kept.series || kept.taxels != choice.taxels || kept.formula != choice.formula) {
+      kept.series =
           std::make_shared<Series>(readSeries(profile, choice, -kEndOfTimeS, kEndOfTimeS, reading));
-      kept_->taxels = choice.taxels;
-      kept_->formula = choice.formula;
+      kept.taxels = choice.taxels;
+      kept.formula = choice.formula;
     }
-    answer.series = kept_->series;
+    answer.series = kept.series;
   }
   const double read = kLookShare + kSpectrumWorkerReadShare;
   answer.spectrogram =
@@ -203,5 +132,24 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
                                                   part(progress, read, 1.0 - read)));
   return answer;
 }
+
+}  // namespace
+
+bool fitsWhole(const SpectrumQuestion& question) {
+  const SpectrumOptions& spectrum = question.options.spectrum;
+  const auto hop = static_cast<std::size_t>(spectrum.window - spectrum.overlap);
+  return question.recording->profile.numFrames() / hop <=
+         question.options.limitedToCells().maxSegments;
+}
+
+SpectrumWorker::SpectrumWorker(QObject* parent)
+    : LatestAnswer(
+          [kept = std::make_shared<SpectrumKept>()](
+              const SpectrumQuestion& question, const Progress& progress, const Tell&) {
+            return answerTo(*kept, question, progress);
+          },
+          [this](const SpectrumAnswer& answer) { emit answered(answer); },
+          [this](const QString& why) { emit answered({.failure = why}); },
+          parent) {}
 
 }  // namespace palpate::gui

@@ -1,11 +1,7 @@
-// Computes spectra of a recording in its own thread for the dock Spectrum; a new question cancels
-// the running one.
+// Computes spectra of a recording for the dock Spectrum.
 #pragma once
 
-#include <QObject>
 #include <QString>
-#include <QThreadPool>
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,6 +12,7 @@
 #include <palpate/signals/spectrogram.h>
 #include <palpate/signals/welch.h>
 
+#include "gui/source/latest_answer.h"
 #include "gui/source/opened_recording.h"
 #include "gui/window_state/formula_curves.h"
 
@@ -77,41 +74,13 @@ struct SpectrumAnswer {
 // span.
 bool fitsWhole(const SpectrumQuestion& question);
 
-class SpectrumWorker : public QObject {
+class SpectrumWorker : public LatestAnswer<SpectrumQuestion, SpectrumAnswer> {
   Q_OBJECT
  public:
   explicit SpectrumWorker(QObject* parent = nullptr);
-  // Cancels the work and waits until it ends.
-  ~SpectrumWorker() override;
-
-  // Replaces the previous question.
-  void ask(const SpectrumQuestion& question);
-  void cancel();
-  bool busy() const noexcept { return busy_; }
-  void waitForDone() { pool_.waitForDone(); }
 
  signals:
-  void started();
-  void progressed(double fraction);
   void answered(const palpate::gui::SpectrumAnswer& answer);
-  // Answered or cancelled.
-  void ended();
-
- private:
-  struct Kept;
-  void work(const SpectrumQuestion& question, int generation);
-  void answerOverSpan(const SpectrumQuestion& question,
-                      const SeriesChoice& choice,
-                      SpectrumAnswer& answer,
-                      const Progress& progress);
-  SpectrumAnswer answerTo(const SpectrumQuestion& question, const Progress& progress);
-
-  // Has one thread, which alone uses `kept_`.
-  QThreadPool pool_;
-  std::shared_ptr<Kept> kept_;
-  // Number of the newest question.
-  std::atomic<int> generation_ = 0;
-  bool busy_ = false;
 };
 
 }  // namespace palpate::gui

@@ -1,9 +1,7 @@
 #include "gui/widgets/computed_page.h"
 
-#include <QCoreApplication>
 #include <QStackedWidget>
 #include <QVBoxLayout>
-#include <memory>
 
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
@@ -24,11 +22,8 @@ ComputedPage::ComputedPage(const QString& part, QWidget* parent) : QWidget(paren
   top_->setContentsMargins(12, 8, 12, 8);
   top_->setSpacing(6);
   setLayout(inColumn({top_, strip_, {pages_, 1}}, Space::kNone));
-  connect(&job_, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
-  connect(&job_, &BackgroundJob::finished, strip_, &OpeningStrip::end);
-  connect(&job_, &BackgroundJob::failed, this, [this](const QString& message) {
-    say(message, "Try again");
-  });
+  connect(&computing_, &Abandonable::progressed, strip_, &OpeningStrip::setProgress);
+  connect(&computing_, &Abandonable::finished, strip_, &OpeningStrip::end);
   connect(strip_, &OpeningStrip::cancelRequested, this, &ComputedPage::cancel);
   connect(empty_, &EmptyPage::buttonClicked, this, &ComputedPage::renew);
 }
@@ -71,8 +66,7 @@ QString ComputedPage::liveReason() const {
 
 void ComputedPage::renew() {
   stale_ = true;
-  ++generation_;
-  job_.cancel();
+  computing_.abandon();
   ask();
 }
 
@@ -86,22 +80,13 @@ void ComputedPage::ask() {
 }
 
 void ComputedPage::run(const QString& text, Work work) {
-  ++generation_;
-  job_.cancel();
-  auto take = std::make_shared<Take>();
   strip_->begin(text);
-  job_.start(
-      text,
-      [take, work = std::move(work)](const Progress& progress) { *take = work(progress); },
-      [this, take, generation = generation_] {
-        if (generation == generation_ && *take) (*take)();
-      });
+  computing_.ask(std::move(work));
 }
 
 bool ComputedPage::cancel() {
-  if (!job_.busy()) return false;
-  ++generation_;
-  job_.cancel();
+  if (!busy()) return false;
+  computing_.abandon();
   say("Cancelled.", "Compute");
   emit said("computing was cancelled");
   return true;
@@ -109,7 +94,7 @@ bool ComputedPage::cancel() {
 
 void ComputedPage::settle() {
   ask();
-  while (job_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  computing_.settle();
 }
 
 void ComputedPage::say(const QString& text, const QString& button) {

@@ -9,7 +9,7 @@
 
 #include "gui/appearance/theme.h"
 #include "gui/picture/exported_view.h"
-#include "gui/source/background_job.h"
+#include "gui/source/latest_answer.h"
 #include "gui/source/opened_recording.h"
 
 class QStackedWidget;
@@ -42,7 +42,7 @@ class ComputedPage : public QWidget {
   bool shown() const;
   // Why nothing is shown; empty: there is a result.
   QString emptyText() const;
-  bool busy() const { return job_.busy(); }
+  bool busy() const { return computing_.busy(); }
   // Cancels the computation; returns whether one was running.
   bool cancel();
   // Waits until the result exists; for tests and pictures.
@@ -54,6 +54,7 @@ class ComputedPage : public QWidget {
  protected:
   // Applies the result; called in the thread of the window.
   using Take = std::function<void()>;
+  // Runs in another thread: it uses nothing of the page.
   using Work = std::function<Take(const Progress&)>;
 
   // The recording to compute from or, while the source is live, what was measured of it.
@@ -93,9 +94,12 @@ class ComputedPage : public QWidget {
   bool live_ = false;
   // Nothing has been computed from the present inputs yet.
   bool stale_ = true;
-  // Number of the newest computation.
-  int generation_ = 0;
-  BackgroundJob job_;
+  LatestAnswer<Work, Take> computing_{
+      [](const Work& work, const Progress& progress, const auto&) { return work(progress); },
+      [](const Take& take) {
+        if (take) take();
+      },
+      [this](const QString& message) { say(message, "Try again"); }};
   QVBoxLayout* top_;
   OpeningStrip* strip_;
   QStackedWidget* pages_;

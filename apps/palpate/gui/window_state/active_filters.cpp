@@ -174,7 +174,7 @@ void ActiveFilters::apply() {
       emit failed(error.what());
     }
   }
-  worker_.cancel();
+  worker_.abandon();
   emit progressed(std::nullopt);
   const OpenedRecordingPtr recording = displayed_.recorded();
   if (!recording) return;
@@ -183,7 +183,7 @@ void ActiveFilters::apply() {
   else if (made_ && madeOf_ == recording && madeBy_.sameSteps(now))
     displayed_.setFilteredRecording(made_);
   else
-    worker_.start(recording, now);
+    worker_.ask({recording, now});
 }
 
 // Takes the last recipe that is stored with the recording, unless it equals the present one.

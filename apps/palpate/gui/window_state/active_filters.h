@@ -54,7 +54,7 @@ class ActiveFilters : public QObject {
   // no live source is filtered.
   std::optional<FilterFigures> liveFigures();
   // Waits until the filtering of the recording has ended; for tests and pictures.
-  void wait() { worker_.wait(); }
+  void wait() { worker_.settle(); }
 
  signals:
   void onChanged(bool on);

@@ -89,7 +89,7 @@ class EventController : public QObject {
   Messages& messages_;
   Ask& ask_;
   // Finds the grasps of long recordings.
-  BackgroundJob finder_;
+  BackgroundJob finder_{BackgroundJob::Leaving::kAtOnce};
   std::map<const OpenedRecording*, std::unique_ptr<EventEditor>> editors_;
   // The grasps that were found.
   std::map<const OpenedRecording*, std::vector<GraspSegment>> grasps_;
