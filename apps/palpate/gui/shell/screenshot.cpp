@@ -193,8 +193,8 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
     qputenv("XDG_RUNTIME_DIR", settings.path().toLocal8Bit());
   const auto application = makeApplication(argc, argv);
   // No thread may see the application being destroyed.
-  struct LastThreads {
-    ~LastThreads() { Abandonable::awaitThreads(std::chrono::hours(1)); }
+  struct ThreadsEnd {
+    ~ThreadsEnd() { Abandonable::awaitThreads(std::chrono::hours(1)); }
   } const last;
   useSettings(settings.filePath("palpate.ini"), options);
   MainWindow window({.dataFolder = options.dataFolder,
