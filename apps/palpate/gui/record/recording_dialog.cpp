@@ -249,9 +249,9 @@ QWidget* RecordingDialog::makePreview() {
 QWidget* RecordingDialog::makeFoot(const QString& okText) {
   auto* foot = new QFrame(this);
   foot->setObjectName("recordingFoot");
-  ask_ = new QCheckBox("&Ask before each recording", foot);
-  ask_->setObjectName("recordingAsk");
-  ask_->setToolTip("Off: Record starts at once, with what is written here");
+  askEachTime_ = new QCheckBox("&Ask before each recording", foot);
+  askEachTime_->setObjectName("recordingAsk");
+  askEachTime_->setToolTip("Off: Record starts at once, with what is written here");
   auto* cancel = new QPushButton("Cancel", foot);
   cancel->setObjectName("recordingCancel");
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
@@ -264,7 +264,7 @@ QWidget* RecordingDialog::makeFoot(const QString& okText) {
   auto* row = new QHBoxLayout(foot);
   row->setContentsMargins(kRecordingDialogMargin, 12, kRecordingDialogMargin, 12);
   row->setSpacing(8);
-  row->addWidget(ask_, 1);
+  row->addWidget(askEachTime_, 1);
   row->addWidget(cancel);
   row->addWidget(ok_);
   return foot;
@@ -285,7 +285,7 @@ void RecordingDialog::fill(const RecordingSettings& settings) {
   folder_->setText(settings.folder);
   timing_->fill(settings);
   mcap_->setChecked(settings.withMcap);
-  ask_->setChecked(settings.askEachTime);
+  askEachTime_->setChecked(settings.askEachTime);
   marks_->setLabels(settings.markLabels);
 }
 
@@ -300,7 +300,7 @@ RecordingSettings RecordingDialog::settings() const {
   settings.folder = folderFromText(folder_->text());
   timing_->readInto(settings);
   settings.withMcap = mcap_->isChecked();
-  settings.askEachTime = ask_->isChecked();
+  settings.askEachTime = askEachTime_->isChecked();
   settings.markLabels = marks_->labels();
   return settings;
 }
@@ -352,7 +352,7 @@ void RecordingDialog::refresh() {
 
 void RecordingDialog::showTexts() {
   // The dialog is still being built.
-  if (!ask_) return;
+  if (!askEachTime_) return;
   showElided(
       name_, QString::fromStdString(next_.path.filename().string()), name_->contentsRect().width());
   const QString folder = QString::fromStdString(next_.path.parent_path().string());

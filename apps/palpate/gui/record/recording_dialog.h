@@ -89,7 +89,7 @@ class RecordingDialog : public QDialog {
   RecordingTiming* timing_ = nullptr;
   KeyLabels* marks_ = nullptr;
   QCheckBox* mcap_ = nullptr;
-  QCheckBox* ask_ = nullptr;
+  QCheckBox* askEachTime_ = nullptr;
   QPushButton* ok_ = nullptr;
   NextRecording next_;
 };
