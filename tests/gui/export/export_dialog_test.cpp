@@ -87,6 +87,7 @@ class ExportDialogTest : public ::testing::Test {
   ExportRequest request_;
   std::optional<FrameSpan> selected_ = FrameSpan{10, 29};
   PictureLook look_;
+  FakeAsk ask_;
   std::unique_ptr<ExportDialog> dialog_;
 };
 

@@ -64,6 +64,7 @@ class HandDockBench : public ::testing::Test {
 
   const testing::TemporaryFolder folder_;
   QSettings settings_;
+  FakeAsk ask_;
   std::unique_ptr<testing::EmulatedBench> bench_;
   std::unique_ptr<HandDock> dock_;
 };

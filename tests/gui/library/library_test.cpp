@@ -102,6 +102,7 @@ class LibraryTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   QSettings settings_{QString::fromStdString((folder_ / "s.ini").string()), QSettings::IniFormat};
+  FakeAsk ask_;
   std::unique_ptr<LibraryPanel> panel_;
 };
 

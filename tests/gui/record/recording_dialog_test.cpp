@@ -75,6 +75,7 @@ class RecordingDialogTest : public ::testing::Test {
   const testing::TemporaryFolder folder_;
   const StillClock clock_;
   RecordingSettings given_;
+  FakeAsk ask_;
   std::unique_ptr<RecordingDialog> dialog_;
 };
 

@@ -50,6 +50,7 @@ class SettingsDialogTest : public ::testing::Test {
   }
   testing::TemporaryFolder folder_;
   WindowChoices begin_;
+  FakeAsk ask_;
   std::unique_ptr<SettingsDialog> dialog_;
   std::vector<WindowChoices> told_;
 };

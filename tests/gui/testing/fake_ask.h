@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "gui/appearance/captions.h"  // pathText(), for answers
 #include "gui/desktop/ask.h"
 
 namespace palpate::gui {

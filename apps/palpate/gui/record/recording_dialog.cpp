@@ -244,7 +244,7 @@ QWidget* RecordingDialog::makePreview() {
 
 QWidget* RecordingDialog::makeFoot(const QString& okText) {
   auto* foot = named(new QFrame(this), "recordingFoot");
-  ask_ = named(new QCheckBox("&Ask before each recording", foot),
+  askEachTime_ = named(new QCheckBox("&Ask before each recording", foot),
                "recordingAsk",
                "Off: Record starts at once, with what is written here");
   auto* cancel = makeButton(foot, "recordingCancel", "Cancel");
@@ -254,7 +254,7 @@ QWidget* RecordingDialog::makeFoot(const QString& okText) {
   ok_->setDefault(true);
   keepWide(*ok_, 110);
   connect(ok_, &QPushButton::clicked, this, &RecordingDialog::accept);
-  foot->setLayout(inRow({{ask_, 1}, cancel, ok_}, kFootEdges));
+  foot->setLayout(inRow({{askEachTime_, 1}, cancel, ok_}, kFootEdges));
   return foot;
 }
 
@@ -273,7 +273,7 @@ void RecordingDialog::fill(const RecordingSettings& settings) {
   folder_->setText(settings.folder);
   timing_->fill(settings);
   mcap_->setChecked(settings.withMcap);
-  ask_->setChecked(settings.askEachTime);
+  askEachTime_->setChecked(settings.askEachTime);
   marks_->setLabels(settings.markLabels);
 }
 
@@ -288,7 +288,7 @@ RecordingSettings RecordingDialog::settings() const {
   settings.folder = folderFromText(folder_->text());
   timing_->readInto(settings);
   settings.withMcap = mcap_->isChecked();
-  settings.askEachTime = ask_->isChecked();
+  settings.askEachTime = askEachTime_->isChecked();
   settings.markLabels = marks_->labels();
   return settings;
 }
@@ -346,7 +346,7 @@ void RecordingDialog::take(const Next& next) {
 
 void RecordingDialog::showTexts() {
   // The dialog is still being built.
-  if (!ask_) return;
+  if (!askEachTime_) return;
   showElided(
       name_, QString::fromStdString(next_.path.filename().string()), name_->contentsRect().width());
   const QString folder = QString::fromStdString(next_.path.parent_path().string());

@@ -105,7 +105,7 @@ class RecordingDialog : public QDialog {
   RecordingTiming* timing_ = nullptr;
   KeyLabels* marks_ = nullptr;
   QCheckBox* mcap_ = nullptr;
-  QCheckBox* ask_ = nullptr;
+  QCheckBox* askEachTime_ = nullptr;
   QPushButton* ok_ = nullptr;
   Next next_;
   // It closes when the folder has been looked at and no problem was found.

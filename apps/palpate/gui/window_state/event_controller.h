@@ -15,6 +15,7 @@
 #include <palpate/recognition/grasp_segments.h>
 #include <palpate/recording/recording_event.h>
 
+#include "gui/desktop/ask.h"
 #include "gui/source/background_job.h"
 #include "gui/source/event_editor.h"
 #include "gui/source/open_recordings.h"
