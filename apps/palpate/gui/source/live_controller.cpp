@@ -153,7 +153,7 @@ void LiveController::opened(std::shared_ptr<LiveSource> source,
   lookTimer_.start();
   setState(State::kConnected);
   emit sourceOpened();
-  if (source()) emit sourceReady();
+  if (source_) emit sourceReady();
   emit staleChanged(true);
   refreshHealth();
 }
