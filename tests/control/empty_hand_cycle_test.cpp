@@ -22,7 +22,7 @@ class EmptyHandCycleTest : public ::testing::Test {
     bench_.hand->states.assign(7, 1);
     pass(0.06, 700.0F);  // above the limit of 600
     bench_.hand->states.assign(7, 6);
-    pass(0.9, 650.0F);
+    for (int i = 0; i < 40 && run_.state() != EmptyHandCycle::State::kHolding; ++i) pass(0.03);
   }
   // Advances the time with a frame every 30 ms.
   void pass(double seconds, float counts = 650.0F) {
@@ -40,7 +40,7 @@ TEST_F(EmptyHandCycleTest, ClosesHoldsAndOpens) {
   const std::size_t motions = numMotions();
   EXPECT_EQ(run_.takeProblem(), std::nullopt);
   EXPECT_EQ(run_.state(), EmptyHandCycle::State::kHolding);
-  pass(0.45);
+  pass(1.35);
   EXPECT_EQ(run_.takeProblem(), std::nullopt);
   EXPECT_EQ(numMotions(), motions) << "holds for 1.5 s";
   pass(0.3);
@@ -95,11 +95,11 @@ TEST_F(EmptyHandCycleTest, PadsThatLetGoTooEarlyGiveNoResult) {
 
 TEST_F(EmptyHandCycleTest, PadsThatNeverLetGoAreWaitedForTenSeconds) {
   closeUntilThePadsTouch();
-  pass(0.75);
+  pass(1.65);
   ASSERT_EQ(run_.state(), EmptyHandCycle::State::kOpening);
   pass(9.6);
   EXPECT_EQ(run_.takeProblem(), std::nullopt);
-  pass(0.3);
+  pass(0.6);
   EXPECT_EQ(run_.takeProblem(), "the pads didn't touch, or don't separate");
   EXPECT_FALSE(run_.active());
 }
