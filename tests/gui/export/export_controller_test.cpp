@@ -398,7 +398,7 @@ TEST_F(ExportControllerTest, CopyingDoesNotWaitForTheRows) {
                           }};
     return std::vector<ExportedTable>{{"rows", [table] { return table; }}};
   };
-  ExportController controller(window().state().settings, &window());
+  ExportController controller(window().state().settings, ask_, &window());
   controller.add(view);
   QSignalSpy said(&controller, &ExportController::said);
   QApplication::clipboard()->setText("before");

@@ -66,9 +66,9 @@ LibraryPanel::LibraryPanel(QSettings& settings,
       model_(new LibraryModel(this)),
       filter_(new LibraryFilter(*model_, this)) {
   setObjectName("LibraryPanel");
-  buildTop();
+  QLayout* top = makeTop();
   pages_ = new FittingPages(this);
-  setLayout(inColumn({{pages_, 1}}, Space::kNone));
+  setLayout(inColumn({top, {pages_, 1}}, Space::kNone));
   buildTable();
   buildEmpty();
   buildBottom();
@@ -82,7 +82,7 @@ LibraryPanel::LibraryPanel(QSettings& settings,
 
 LibraryPanel::~LibraryPanel() { rememberColumns(); }
 
-void LibraryPanel::buildTop() {
+QLayout* LibraryPanel::makeTop() {
   folderButton_ = named(new QToolButton(this), "libraryFolder");
   folderButton_->setProperty("flat", true);
   folderButton_->setIcon(makeIcon(IconShape::kOpen));
@@ -104,15 +104,14 @@ void LibraryPanel::buildTop() {
       "Every word must be found; \"several words\" in quotes are one.\n"
       "In one place only: name: path: operator: object: run: notes: label: date: form: state:");
   search_->installEventFilter(this);
-  auto* top = inColumn({inRow({{folderButton_, 1}, refreshButton_}, Space::kNarrow), search_},
-                       around(Space::kUsual));
-  static_cast<QBoxLayout*>(layout())->addLayout(top);
   connect(folderButton_, &QToolButton::clicked, this, &LibraryPanel::chooseFolder);
   connect(refreshButton_, &QToolButton::clicked, this, &LibraryPanel::refresh);
   connect(search_, &QLineEdit::textChanged, this, [this](const QString& text) {
     filter_->setSearch(text);
     showState();
   });
+  return inColumn({inRow({{folderButton_, 1}, refreshButton_}, Space::kNarrow), search_},
+                  around(Space::kUsual));
 }
 
 void LibraryPanel::buildTable() {

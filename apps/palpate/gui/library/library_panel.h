@@ -14,6 +14,7 @@
 #include "gui/library/library_table.h"
 
 class QLabel;
+class QLayout;
 class QLineEdit;
 class QProgressBar;
 class QStackedWidget;
@@ -69,7 +70,7 @@ class LibraryPanel : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void buildTop();
+  QLayout* makeTop();
   void buildTable();
   void buildEmpty();
   void buildBottom();
