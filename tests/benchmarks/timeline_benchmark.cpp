@@ -33,7 +33,7 @@ double secondsSince(Clock::time_point begin) {
 std::vector<PlottedCurve> allMatrices(const OpenedRecording& recording) {
   std::vector<PlottedCurve> curves;
   for (std::size_t m = 0; m < recording.numMatrices(); ++m)
-    curves.push_back(matrixCurve(recording.profile.hand(), m, SignalKind::kMean, Theme::kDark));
+    curves.push_back(matrixCurve(recording.profile.hand(), m, SignalKind::kMean));
   return curves;
 }
 
@@ -49,7 +49,6 @@ void timelineOfADay(benchmark::State& state) {
     const auto recording = makeOpenedRecording(file, openRecording(file));
     TimelineChart chart;
     chart.resize(1600, 260);
-    chart.setTheme(Theme::kDark);
     chart.setRecording(recording);
     chart.setCurves(allMatrices(*recording));
     chart.show();
@@ -103,7 +102,6 @@ void growthTimeline(benchmark::State& state) {
     const auto recording = makeOpenedRecording(file, openRecording(file));
     TimelineChart chart;
     chart.resize(1600, 260);
-    chart.setTheme(Theme::kDark);
     chart.setRecording(recording);
     chart.setCurves(allMatrices(*recording));
     chart.show();
