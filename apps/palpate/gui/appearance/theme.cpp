@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "gui/appearance/theme_change.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -243,6 +245,11 @@ ThemeChoice themeChoiceFrom(const QString& name) {
   return ThemeChoice::kSystem;
 }
 
+QEvent::Type themeChange() {
+  static const int type = QEvent::registerEventType();
+  return static_cast<QEvent::Type>(type);
+}
+
 void applyTheme(QApplication& application, Theme theme) {
   // Reads the theme of the desktop before the palette is replaced.
   systemTheme();
@@ -262,6 +269,12 @@ void applyTheme(QApplication& application, Theme theme) {
     QFont font = widget->font();
     font.setPointSizeF(pt);
     widget->setFont(font);
+  }
+  QEvent change(themeChange());
+  for (const auto& [widget, pt] : sizesPt) {
+    if (!widget) continue;
+    QCoreApplication::sendEvent(widget, &change);
+    if (widget) widget->update();
   }
 }
 

@@ -163,9 +163,12 @@ QWidget* BatchFields::makeFilters() {
 }
 
 QWidget* BatchFields::makeLimits() {
-  step_ = limitBox("batchStep", kLeastBatchTaxels, kMostBatchTaxels, "Threshold per frame [taxels]");
-  limit_ = limitBox("batchLimit", kLeastBatchTaxels, kMostBatchTaxels, "Threshold since the reference [taxels]");
-  rotation_ = limitBox("batchRotation", kLeastBatchDeg, kMostBatchDeg, "Threshold of turning [deg]");
+  step_ =
+      limitBox("batchStep", kLeastBatchTaxels, kMostBatchTaxels, "Threshold per frame [taxels]");
+  limit_ = limitBox(
+      "batchLimit", kLeastBatchTaxels, kMostBatchTaxels, "Threshold since the reference [taxels]");
+  rotation_ =
+      limitBox("batchRotation", kLeastBatchDeg, kMostBatchDeg, "Threshold of turning [deg]");
   rotation_->setSuffix("°");
   return makeBox(inRow({{step_, 1}, {limit_, 1}, {rotation_, 1}}));
 }

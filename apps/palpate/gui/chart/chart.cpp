@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gui/appearance/theme.h"
+#include "gui/appearance/theme_change.h"
 #include "gui/chart/chart_style.h"
 #include "gui/chart/span_overlay.h"
 
@@ -104,8 +105,7 @@ bool Chart::event(QEvent* event) {
     return true;
   }
   const bool handled = QCustomPlot::event(event);
-  if (event->type() == QEvent::FontChange || event->type() == QEvent::ApplicationPaletteChange)
-    restyle();
+  if (event->type() == QEvent::FontChange || event->type() == themeChange()) restyle();
   return handled;
 }
 

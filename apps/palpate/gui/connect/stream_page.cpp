@@ -152,9 +152,9 @@ QWidget* StreamPage::makePlace() {
         this);
     fields_->addWidget(awaiting);
   }
-  return makeBox(inColumn({fields_, markedLine(placeMark_, placeText_, "streamPlaceText")},
-                          Space::kNarrow),
-                 this);
+  return makeBox(
+      inColumn({fields_, markedLine(placeMark_, placeText_, "streamPlaceText")}, Space::kNarrow),
+      this);
 }
 
 QWidget* StreamPage::makeHand(Ask& ask) {
@@ -174,10 +174,10 @@ QWidget* StreamPage::makeHand(Ask& ask) {
     hand_->setCurrentIndex(handIndex(chosen));
     refresh();
   });
-  auto* whole = makeBox(inColumn({inRow({{hand_, 1}, choose}),
-                                  markedLine(handMark_, handText_, "streamHandText")},
-                                 Space::kNarrow),
-                        this);
+  auto* whole = makeBox(
+      inColumn({inRow({{hand_, 1}, choose}), markedLine(handMark_, handText_, "streamHandText")},
+               Space::kNarrow),
+      this);
   whole->setFocusProxy(hand_);
   return whole;
 }

@@ -53,8 +53,6 @@ bool isWarned(const GraspForecast& forecast) {
   return std::round(10.0 * forecast.timesLimit) > 10.0 * kWarnedLimit;
 }
 
-
-
 }  // namespace
 
 GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent)
@@ -85,8 +83,7 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
           {kMinGraspLimitCounts, kMaxGraspLimitCounts, kMaxGraspLimitCounts, 1.0, 0, "counts"},
           this),
       "limit");
-  limit_->showValue(
-      storedNumber(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts)
+  limit_->showValue(storedNumber(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts)
                         .value_or(usual.limitCounts));
 
   forceLimit_ =
@@ -94,8 +91,7 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
                             {kMinForceLimitN, kMaxForceLimitN, kSliderForceLimitN, 0.05, 2, "N"},
                             this),
             "forceLimit");
-  forceLimit_->showValue(
-      storedNumber(settings, kForceLimit, kMinForceLimitN, kMaxForceLimitN)
+  forceLimit_->showValue(storedNumber(settings, kForceLimit, kMinForceLimitN, kMaxForceLimitN)
                              .value_or(kUsualForceLimitN));
   auto* limits = makeBox(inRow({limit_, forceLimit_}), this);
 

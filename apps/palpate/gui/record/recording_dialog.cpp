@@ -245,8 +245,8 @@ QWidget* RecordingDialog::makePreview() {
 QWidget* RecordingDialog::makeFoot(const QString& okText) {
   auto* foot = named(new QFrame(this), "recordingFoot");
   askEachTime_ = named(new QCheckBox("&Ask before each recording", foot),
-               "recordingAsk",
-               "Off: Record starts at once, with what is written here");
+                       "recordingAsk",
+                       "Off: Record starts at once, with what is written here");
   auto* cancel = makeButton(foot, "recordingCancel", "Cancel");
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
   ok_ = makeButton(foot, "recordingOk", okText);

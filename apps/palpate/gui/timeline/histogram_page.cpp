@@ -15,8 +15,7 @@
 
 namespace palpate::gui {
 
-HistogramPage::HistogramPage(const SelectedCurves& selected, QWidget* parent)
-    : QWidget(parent) {
+HistogramPage::HistogramPage(const SelectedCurves& selected, QWidget* parent) : QWidget(parent) {
   curve_ = named(new QComboBox(this), "histogramCurve", {}, "Curve of the histogram");
   for (const SelectedCurves::Curve& curve : selected.curves) {
     curve_->addItem(curve.name);

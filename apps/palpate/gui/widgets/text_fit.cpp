@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gui/appearance/theme_change.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -20,7 +22,9 @@ class Fit : public QObject {
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() == after_) QTimer::singleShot(0, this, [this] { fit_(); });
+    if (event->type() == after_ && after_ == themeChange()) fit_();
+    if (event->type() == after_ && after_ == QEvent::FontChange)
+      QTimer::singleShot(0, this, [this] { fit_(); });
     return QObject::eventFilter(watched, event);
   }
 
@@ -38,7 +42,7 @@ void fitToText(QWidget& widget, std::function<void()> fit) {
 
 void fitToTheme(QWidget& widget, std::function<void()> fit) {
   // NOLINTNEXTLINE(cppcoreguidelines-owning-memory)
-  new Fit(widget, QEvent::ApplicationPaletteChange, std::move(fit));
+  new Fit(widget, themeChange(), std::move(fit));
 }
 
 void keepWide(QAbstractButton& button, int leastPx) {
