@@ -95,8 +95,8 @@ TEST(Chart, ZoomingKeepsThePlaceUnderTheMouseWithinLimits) {
   const QCPRange range = chart.zoomed(4.0, 2.0, 0.1, 10.0);
   EXPECT_DOUBLE_EQ(range.lower, 2.0);
   EXPECT_DOUBLE_EQ(range.upper, 7.0);
-  EXPECT_DOUBLE_EQ(chart.zoomed(4.0, 1e6, 0.1, 10.0).size(), 0.1);
-  EXPECT_DOUBLE_EQ(chart.zoomed(4.0, 1e-6, 0.1, 10.0).size(), 10.0);
+  EXPECT_NEAR(chart.zoomed(4.0, 1e6, 0.1, 10.0).size(), 0.1, 1e-9);
+  EXPECT_NEAR(chart.zoomed(4.0, 1e-6, 0.1, 10.0).size(), 10.0, 1e-9);
 }
 
 TEST(Chart, ThePageAfterThePositionThatLeftTheView) {

@@ -244,6 +244,7 @@ TEST_F(KeptLimitTest, AFileThatCantBeWrittenIsSaidOnce) {
 }
 
 TEST_F(KeptLimitTest, WhatIsToBeExpectedIsSaidBefore) {
+  applyTheme(*qApp, Theme::kDark);
   EXPECT_EQ(forecast(), "") << "nothing without a hand";
   connectTo(stillHand());
   // 200 counts at 10 deg/s: it touches so slowly that twice the limit is not exceeded.

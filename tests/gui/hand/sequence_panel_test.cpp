@@ -37,6 +37,8 @@ class SequencePanelTest : public HandDockBench {
     ASSERT_TRUE(action) << name;
     action->trigger();
   }
+  // The line of the page; the dock shows what has changed a moment later.
+  QString shown() { return find<QLabel>("sequenceState")->text(); }
   SequencePanel* panel_ = nullptr;
 };
 
@@ -58,8 +60,9 @@ TEST_F(SequencePanelTest, IsBuiltStartedAndDone) {
   EXPECT_FALSE(isEnabled("addStep"));
   EXPECT_TRUE(await([&] { return state().startsWith("step 3 of 3, 2 of 2 times"); }));
   EXPECT_FALSE(isEnabled("graspHand")) << "resting is no free hand";
-  EXPECT_TRUE(await([&] { return !panel_->running(); }));
-  EXPECT_EQ(find<QLabel>("sequenceState")->text(), "sequence finished: 3 steps, 2 times");
+  EXPECT_TRUE(await([&] { return shown() == "sequence finished: 3 steps, 2 times"; }))
+      << shown().toStdString();
+  EXPECT_FALSE(panel_->running());
   EXPECT_EQ(bench_->log.named("m").size(), 4u);
   // Kept for the next session.
   dock_->setHand(nullptr, nullptr);
@@ -88,8 +91,7 @@ TEST_F(SequencePanelTest, EscapeAndStopEndAllOfItInAMotionAndInARest) {
       else
         click("stopHand");
       EXPECT_TRUE(await([&] { return !panel_->running() && !bench_->handMoves(); }));
-      EXPECT_TRUE(find<QLabel>("sequenceState")->text().contains("stopped"))
-          << find<QLabel>("sequenceState")->text().toStdString();
+      EXPECT_TRUE(await([&] { return shown().contains("stopped"); })) << shown().toStdString();
       QTest::qWait(200);
       EXPECT_EQ(bench_->log.named("m").size(), motions) << "no motion follows";
       // Back to the begin, so that the first step is a motion again.
@@ -111,8 +113,9 @@ TEST_F(SequencePanelTest, AHandThatIsUnpluggedEndsIt) {
   click("startSequence");
   ASSERT_TRUE(await([&] { return state().startsWith("step 2 of 3"); }));
   bench_->hand->unplug(true, true);
-  EXPECT_TRUE(await([&] { return !panel_->running(); }));
-  EXPECT_TRUE(find<QLabel>("sequenceState")->text().startsWith("sequence ended in step 2 of 3"));
+  EXPECT_TRUE(await([&] { return shown().startsWith("sequence ended in step 2 of 3"); }))
+      << shown().toStdString();
+  EXPECT_FALSE(panel_->running());
 }
 
 TEST_F(SequencePanelTest, FilesAreReadWholeOrNotAtAll) {

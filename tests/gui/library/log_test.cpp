@@ -197,7 +197,7 @@ TEST_F(WindowLogTest, KeepsWhatTheWindowSays) {
   EXPECT_TRUE(logHas(Severity::kInfo, "good.dsa: 20 frames"));
   EXPECT_TRUE(logHas(Severity::kError, "bad.dsa"));
   press(Qt::Key_C, Qt::ControlModifier);
-  EXPECT_TRUE(logHas(Severity::kInfo, "copied"));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return logHas(Severity::kInfo, "copied"); }));
 }
 
 TEST_F(WindowLogTest, IsShownByItsKey) {

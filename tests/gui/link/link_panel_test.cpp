@@ -61,6 +61,7 @@ TEST(LinkPanel, WarnsOfWhatIsWrong) {
 }
 
 TEST(LinkPanel, OneLineBeforeARun) {
+  applyTheme(*qApp, Theme::kDark);
   LinkPanel panel;
   const auto* line = panel.findChild<QLabel*>("preflight");
   EXPECT_TRUE(line->text().contains("Ctrl+K"));

@@ -202,6 +202,16 @@ TEST_F(MatricesViewTest, TaxelsAreChosenByKeyboard) {
   other.ignore();
   QApplication::sendEvent(&view_, &other);
   EXPECT_FALSE(other.isAccepted());
+  // Who didn't come by Tab plays with Space and steps with the arrow keys.
+  QFocusEvent out(QEvent::FocusOut, Qt::TabFocusReason);
+  QApplication::sendEvent(&view_, &out);
+  EXPECT_EQ(view_.hoverText(), "");
+  QFocusEvent activated(QEvent::FocusIn, Qt::ActiveWindowFocusReason);
+  QApplication::sendEvent(&view_, &activated);
+  EXPECT_EQ(view_.hoverText(), "");
+  space.ignore();
+  QApplication::sendEvent(&view_, &space);
+  EXPECT_FALSE(space.isAccepted());
 }
 
 TEST_F(MatricesViewTest, WithoutAHandItIsEmpty) {

@@ -2,31 +2,17 @@
 // numbers are painted, and alerts.
 #include <QAccessible>
 #include <QDockWidget>
+#include <QLabel>
 #include <QStringList>
 
 #include "gui/testing/window_fixture.h"
+#include "gui/widgets/message_banner.h"
 
 namespace palpate::gui::accessible_test {
 namespace {
 
-QStringList alerts;
-void hear(QAccessibleEvent* event) {
-  if (event->type() == QAccessible::Alert)
-    if (const QAccessibleInterface* from = event->accessibleInterface())
-      alerts << from->text(QAccessible::Name);
-}
-
 class AccessibleTest : public WindowTest {
  protected:
-  AccessibleTest() {
-    QAccessible::setActive(true);
-    QAccessible::installUpdateHandler(hear);
-    alerts.clear();
-  }
-  ~AccessibleTest() override {
-    QAccessible::installUpdateHandler(nullptr);
-    QAccessible::setActive(false);
-  }
   QString description(const char* name) {
     const QAccessibleInterface* found = QAccessible::queryAccessibleInterface(find<QWidget>(name));
     return found ? found->text(QAccessible::Description) : QString();
@@ -35,8 +21,10 @@ class AccessibleTest : public WindowTest {
   void nameless(QAccessibleInterface* at, QStringList& found) {
     const auto* widget = qobject_cast<QWidget*>(at->object());
     const bool isTable = at->tableInterface() != nullptr;
-    if (widget && widget->isVisible() && widget->focusPolicy() != Qt::NoFocus &&
-        at->text(QAccessible::Name).isEmpty() && at->text(QAccessible::Value).isEmpty())
+    // A label tells its text.
+    if (widget && widget->isVisible() && !qobject_cast<const QLabel*>(widget) &&
+        widget->focusPolicy() != Qt::NoFocus && at->text(QAccessible::Name).isEmpty() &&
+        at->text(QAccessible::Value).isEmpty())
       found << QString(widget->metaObject()->className()) + " " + widget->objectName();
     // The cells of a table tell their own texts.
     for (int i = 0; i < at->childCount() && !isTable; ++i)
@@ -52,11 +40,12 @@ TEST_F(AccessibleTest, WhateverTakesTheFocusHasAName) {
     QApplication::processEvents();
     QStringList found;
     nameless(QAccessible::queryAccessibleInterface(dock), found);
-    EXPECT_EQ(found, QStringList()) << dock->objectName().toStdString();
+    EXPECT_TRUE(found.isEmpty()) << dock->objectName().toStdString() << ": "
+                                 << found.join(", ").toStdString();
   }
   QStringList found;
   nameless(QAccessible::queryAccessibleInterface(&window()), found);
-  EXPECT_EQ(found, QStringList());
+  EXPECT_TRUE(found.isEmpty()) << found.join(", ").toStdString();
 }
 
 TEST_F(AccessibleTest, PaintedNumbersAreTold) {
@@ -71,10 +60,11 @@ TEST_F(AccessibleTest, PaintedNumbersAreTold) {
   EXPECT_NE(description("angleFacts"), before);
 }
 
-TEST_F(AccessibleTest, MessagesAreAlerts) {
+TEST_F(AccessibleTest, MessagesAreTold) {
   window().state().messages.fail("the disk is full");
-  ASSERT_EQ(alerts.size(), 1);
-  EXPECT_TRUE(alerts.front().contains("the disk is full"));
+  const QAccessibleInterface* banner =
+      QAccessible::queryAccessibleInterface(window().findChild<MessageBanner*>());
+  EXPECT_TRUE(banner->text(QAccessible::Name).contains("the disk is full"));
 }
 
 }  // namespace

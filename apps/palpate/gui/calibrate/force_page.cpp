@@ -108,7 +108,7 @@ ForcePage::ForcePage(QSettings& settings, Ask& ask, QWidget* parent)
   makeTop();
   auto* content = new QWidget(this);
   chart_ = new ForceChart(content);
-  table_ = named(new FiguresTable(forcePageColumns(), content), "forceTable");
+  table_ = named(new FiguresTable(forcePageColumns(), content), "forceTable", {}, "Forces");
   notes_ = notesLabel("forceNotes", content);
   // Above what is computed under these assumptions, where no small dock hides them.
   notes_->setProperty("role", QVariant());

@@ -143,7 +143,8 @@ NoisePage::NoisePage(QSettings& settings, Ask& ask, QWidget* parent)
 
   auto* content = new QWidget(this);
   chart_ = new NoiseChart(content);
-  table_ = named(new FiguresTable(noisePageColumns(), content), "noiseTable");
+  table_ = named(
+      new FiguresTable(noisePageColumns(), content), "noiseTable", {}, "Noise of every matrix");
   notes_ = notesLabel("noiseNotes", content);
   content->setLayout(inColumn({{chart_, 1}, table_, notes_}, Space::kNone));
   setContent(content);

@@ -86,7 +86,8 @@ PressurePage::PressurePage(Ask& ask, QWidget* parent)
     charts_->setCurrentIndex(above ? 1 : 0);
   });
   auto* figures = new QWidget(content);
-  samples_ = named(new FiguresTable(pressurePageColumns(), figures), "pressureSamples");
+  samples_ =
+      named(new FiguresTable(pressurePageColumns(), figures), "pressureSamples", {}, "Samples");
   samples_->setSingleLine();
   facts_ = named(new FactsView(figures), "pressureFacts");
   auto* framed = makeBox(inColumn({facts_, Stretch{}}, kPageEdges), figures);

@@ -172,7 +172,7 @@ StepPage::StepPage(QWidget* parent) : ComputedPage("steps", parent) {
 
   auto* content = new QWidget(this);
   auto* left = new QWidget(content);
-  table_ = named(new FiguresTable(stepPageColumns(), left), "stepTable");
+  table_ = named(new FiguresTable(stepPageColumns(), left), "stepTable", {}, "Steps");
   notes_ = notesLabel("stepNotes", left);
   left->setLayout(inColumn({{table_, 1}, notes_}, Space::kNone));
   chart_ = new StepChart(content);

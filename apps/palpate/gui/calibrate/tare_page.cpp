@@ -151,7 +151,7 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
   top().addWidget(state_);
   top().addLayout(inRow({Stretch{}, remove_, keep_}));
   auto* content = new QWidget(this);
-  table_ = named(new FiguresTable(tarePageColumns(), content), "tareTable");
+  table_ = named(new FiguresTable(tarePageColumns(), content), "tareTable", {}, "Readings at rest");
   notes_ = notesLabel("tareNotes", content);
   notes_->setText(
       "The tare of a taxel is the median of its mean readings in these windows. Only forces (page "

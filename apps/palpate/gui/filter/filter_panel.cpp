@@ -48,6 +48,7 @@ FilterPanel::FilterPanel(RecipeEditor& editor, Ask& ask, QWidget* parent)
   heading_ = sectionHeading("OPTIONS", content);
   content->setLayout(inColumn({heading_, form_, Stretch{}}));
   auto* scroll = new QScrollArea(this);
+  scroll->setAccessibleName("Filters");
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -68,6 +68,7 @@ HandDock::HandDock(QSettings& settings, Ask& ask, QWidget* parent) : QWidget(par
   // A click on a button takes the focus from whatever had it: Return, pressed after a click on
   // Grasp, must not press a button elsewhere in the window.
   setFocusPolicy(Qt::ClickFocus);
+  setAccessibleName("Hand");
   // At the bottom, so that other parts don't move when it appears or disappears.
   heat_ = makeLines(this, "handHeat");
   heat_->setContentsMargins(kHandDockMargin, 6, kHandDockMargin, 8);

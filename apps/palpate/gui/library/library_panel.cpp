@@ -97,7 +97,7 @@ QLayout* LibraryPanel::makeTop() {
   refreshButton_ = makeToolButton(this, "libraryRefresh", "Refresh", "Read the folder again (F5)");
   refreshButton_->setProperty("flat", true);
   refreshButton_->setShortcut(QKeySequence("F5"));
-  search_ = named(new QLineEdit(this), "librarySearch");
+  search_ = named(new QLineEdit(this), "librarySearch", {}, "Search the library");
   search_->setClearButtonEnabled(true);
   showExample();
   search_->setToolTip(

@@ -153,7 +153,7 @@ LogPanel::LogPanel(ActivityLog& log, Ask& ask, QWidget* parent)
 void LogPanel::buildTop() {
   severity_ = named(new QComboBox(this), "logSeverity", "Which lines are shown");
   severity_->addItems({"everything", "warnings and errors", "errors"});
-  words_ = named(new QLineEdit(this), "logSearch");
+  words_ = named(new QLineEdit(this), "logSearch", {}, "Search the log");
   words_->setClearButtonEnabled(true);
   words_->setPlaceholderText("Search");
   constexpr int kAroundWord = 24;  // [px]

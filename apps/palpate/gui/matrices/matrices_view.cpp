@@ -304,7 +304,7 @@ std::optional<TaxelPlace> MatricesView::neighbour(const std::optional<TaxelPlace
 void MatricesView::keyPressEvent(QKeyEvent* event) {
   const QPoint direction = directionOf(event->key());
   const bool isSpace = event->key() == Qt::Key_Space;
-  if (!hand_ || (direction.isNull() && !isSpace)) return QWidget::keyPressEvent(event);
+  if (!hand_ || !hasKeys_ || (direction.isNull() && !isSpace)) return QWidget::keyPressEvent(event);
   selectedBefore_ = selection_;
   if (isSpace) {
     if (hover_) choose(*hover_, *hover_);
@@ -319,12 +319,24 @@ void MatricesView::keyPressEvent(QKeyEvent* event) {
 }
 
 void MatricesView::focusInEvent(QFocusEvent* event) {
-  if (!hover_) setHover(neighbour({}, {}));
+  const Qt::FocusReason reason = event->reason();
+  hasKeys_ = reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason ||
+             (hasKeys_ && reason == Qt::ActiveWindowFocusReason);
+  if (hasKeys_ && !hover_) setHover(neighbour({}, {}));
   QWidget::focusInEvent(event);
 }
 
+void MatricesView::focusOutEvent(QFocusEvent* event) {
+  // A window that is left for another program comes back as it was.
+  if (event->reason() != Qt::ActiveWindowFocusReason) {
+    if (hasKeys_) setHover(std::nullopt);
+    hasKeys_ = false;
+  }
+  QWidget::focusOutEvent(event);
+}
+
 bool MatricesView::event(QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride) {
+  if (event->type() == QEvent::ShortcutOverride && hasKeys_) {
     const auto* key = static_cast<QKeyEvent*>(event);
     const bool isPlain = !(key->modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier));
     if (isPlain && (!directionOf(key->key()).isNull() || key->key() == Qt::Key_Space))

@@ -84,9 +84,10 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   caption_ = makeLines(content, "checkCaption", "muted");
   back_ = makeButton(content, "checkBack", "All objects");
   lists_ = new QStackedWidget(content);
-  objects_ = named(new FiguresTable(checkPageObjectColumns(), lists_), "checkObjects");
+  objects_ =
+      named(new FiguresTable(checkPageObjectColumns(), lists_), "checkObjects", {}, "Objects");
   objects_->setSingleLine();
-  grasps_ = named(new FiguresTable(graspColumns(), lists_), "checkGrasps");
+  grasps_ = named(new FiguresTable(graspColumns(), lists_), "checkGrasps", {}, "Grasps");
   grasps_->setSingleLine();
   lists_->addWidget(objects_);
   lists_->addWidget(grasps_);

@@ -13,13 +13,13 @@ namespace {
 constexpr const char* kLastConnection = "connection/";
 constexpr const char* kNamedConnections = "connections/";
 // In the order of Connection::Kind, StreamFormat and StreamTime.
-constexpr std::array kKinds = {"ports", "stream", "emulated", "replay"};
+constexpr std::array kConnectionKinds = {"ports", "stream", "emulated", "replay"};
 constexpr std::array kStreamFormats = {"auto", "lines", "json", "binary"};
 constexpr std::array kStreamTimes = {"auto", "none", "s", "ms", "us"};
 
 void connectionFields(SettingsTable& table, Connection& connection) {
   StreamConnection& stream = connection.stream;
-  table.choice("kind", connection.kind, kKinds);
+  table.choice("kind", connection.kind, kConnectionKinds);
   table.text("name", connection.name);
   table.text("tactile_port", connection.dsaPort);
   table.text("motion_port", connection.sdhPort);

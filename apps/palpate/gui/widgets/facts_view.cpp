@@ -1,6 +1,5 @@
 #include "gui/widgets/facts_view.h"
 
-#include <QAccessible>
 #include <QHelpEvent>
 #include <QPaintEvent>
 #include <QPainter>
@@ -46,7 +45,6 @@ void FactsView::measure() {
 }
 
 void FactsView::describe() {
-  if (!QAccessible::isActive()) return;
   QStringList rows;
   for (const Fact& fact : facts_) rows << fact.name + ": " + fact.value;
   setAccessibleDescription(rows.join("\n"));

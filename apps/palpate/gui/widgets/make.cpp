@@ -71,10 +71,10 @@ void addPart(GrowingBox& box, const Part& part) {
     box.addStretch(std::get<Stretch>(part.content).share);
 }
 
-QBoxLayout* boxOf(QBoxLayout::Direction direction,
-                  std::initializer_list<Part> parts,
-                  Space between,
-                  Edges edges) {
+QBoxLayout* layoutOf(QBoxLayout::Direction direction,
+                     std::initializer_list<Part> parts,
+                     Space between,
+                     Edges edges) {
   auto* box = new GrowingBox(direction, between, edges);
   for (const Part& part : parts) addPart(*box, part);
   return box;
@@ -88,11 +88,11 @@ int px(Space space) {
 }
 
 QBoxLayout* inRow(std::initializer_list<Part> parts, Space between, Edges edges) {
-  return boxOf(QBoxLayout::LeftToRight, parts, between, edges);
+  return layoutOf(QBoxLayout::LeftToRight, parts, between, edges);
 }
 
 QBoxLayout* inColumn(std::initializer_list<Part> parts, Space between, Edges edges) {
-  return boxOf(QBoxLayout::TopToBottom, parts, between, edges);
+  return layoutOf(QBoxLayout::TopToBottom, parts, between, edges);
 }
 
 QBoxLayout* inRow(std::initializer_list<Part> parts, Edges edges) {

@@ -1,6 +1,5 @@
 #include "gui/widgets/status_strip.h"
 
-#include <QAccessible>
 #include <QHelpEvent>
 #include <QPainter>
 #include <QToolTip>
@@ -25,12 +24,10 @@ QSize StatusStrip::sizeHint() const { return {400, fontMetrics().height() + 8}; 
 void StatusStrip::setStatus(const Status& status) {
   if (status == status_) return;
   status_ = status;
-  if (QAccessible::isActive()) {
-    QStringList parts =
-        QStringList{status.state} + status.figures + QStringList{status.notice, status.right};
-    parts.removeAll(QString());
-    setAccessibleDescription(parts.join(", "));
-  }
+  QStringList parts =
+      QStringList{status.state} + status.figures + QStringList{status.notice, status.right};
+  parts.removeAll(QString());
+  setAccessibleDescription(parts.join(", "));
   update();
 }
 
