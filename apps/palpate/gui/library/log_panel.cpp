@@ -187,7 +187,7 @@ void LogPanel::buildTop() {
 
 void LogPanel::buildTable() {
   pages_ = new FittingPages(this);
-  table_ = named(new LogTable(pages_), "logTable");
+  table_ = named(new LogTable(pages_), "logTable", {}, "Log");
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
