@@ -221,7 +221,7 @@ end
 # Folders, and files with these endings in any case.
 function __palpate_files
     set -l endings (string join '|' -- $argv)
-    string match -ri -- "^.*(?:/|\\.(?:$endings))\$" (complete -C "__palpate_any_file "(commandline -ct))
+    string match -ri -- "^.*(?:/|\\.(?:$endings))\\$" (complete -C "__palpate_any_file "(commandline -ct))
 end
 complete -c palpate -f
 complete -c palpate -n __palpate_first -l version -d 'version of the program'
