@@ -26,9 +26,10 @@ class Gate {
     ++passed_;
     changed_.notify_all();
   }
-  void waitForSomebody() {
+  // Until so many have come here so far.
+  void waitFor(int count) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return waiting_ > passed_; });
+    changed_.wait(lock, [&] { return waiting_ >= count; });
   }
   void open() {
     std::unique_lock lock(mutex_);
@@ -137,7 +138,7 @@ TEST_F(LibraryScannerTest, CancelledOnceAndNothingMoreIsHeard) {
                            });
     hear(scanner);
     scanner.scan("/folder");
-    gate.waitForSomebody();
+    gate.waitFor(1);
     scanner.cancel();
     EXPECT_FALSE(scanner.busy());
     EXPECT_EQ(cancelled_, 1);
@@ -161,12 +162,12 @@ TEST_F(LibraryScannerTest, AFolderThatHangsHoldsUpNoOtherAndNoEnd) {
         });
     hear(scanner);
     scanner.scan("/hangs");
-    gate.waitForSomebody();
+    gate.waitFor(1);
     scanner.scan("/folder");
     ASSERT_TRUE(QTest::qWaitFor([&] { return finished_ > 0; }, 10000));
     EXPECT_EQ(paths_.size(), 3u);
     scanner.scan("/hangs");
-    gate.waitForSomebody();
+    gate.waitFor(2);
   }  // after a moment it is given up
   gate.open();
   EXPECT_EQ(finished_, 1);

@@ -11,6 +11,7 @@
 #include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
+#include <atomic>
 #include <latch>
 #include <memory>
 
@@ -135,7 +136,9 @@ TEST_F(RecordingDialogTest, AFolderWithLittleSpaceSaysSo) {
 // Window F13.
 TEST_F(RecordingDialogTest, NeitherTypingNorStartNorLeavingWaitsForTheFolder) {
   const auto end = std::make_shared<std::latch>(1);
-  dialog_->freeBytes = [end](const fs::path&) {
+  const auto hangs = std::make_shared<std::atomic<bool>>(false);
+  dialog_->freeBytes = [end, hangs](const fs::path&) {
+    *hangs = true;
     end->wait();
     return std::optional<std::uint64_t>();
   };
@@ -144,6 +147,7 @@ TEST_F(RecordingDialogTest, NeitherTypingNorStartNorLeavingWaitsForTheFolder) {
   QSignalSpy accepted(dialog_.get(), &QDialog::accepted);
   ok()->click();
   EXPECT_EQ(accepted.size(), 0) << "not before the folder has answered";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return hangs->load(); }, 20'000));
   dialog_.reset();
   EXPECT_FALSE(Abandonable::awaitThreads(std::chrono::milliseconds(1))) << "it still hangs";
   end->count_down();
