@@ -1,5 +1,7 @@
 #include "gui/export/export_preview.h"
 
+#include <QTest>
+#include <atomic>
 #include <latch>
 #include <memory>
 
@@ -14,14 +16,15 @@ class ExportPreviewTest : public ::testing::Test {
  protected:
   ExportPreviewTest() {
     view_.name = "Rows";
-    view_.tables = [end = end_] {
-      return std::vector<ExportedTable>{{"rows", [end] {
-                                           return TextTable{{"n"}, 1000, [end](std::size_t row) {
-                                                              end->wait();
-                                                              return std::vector<std::string>{
-                                                                  std::to_string(row)};
-                                                            }};
-                                         }}};
+    view_.tables = [end = end_, hangs = hangs_] {
+      return std::vector<ExportedTable>{
+          {"rows", [end, hangs] {
+             return TextTable{{"n"}, 1000, [end, hangs](std::size_t row) {
+                                *hangs = true;
+                                end->wait();
+                                return std::vector<std::string>{std::to_string(row)};
+                              }};
+           }}};
     };
     request_.view = "Rows";
     request_.form = ExportFormat::kCsv;
@@ -29,6 +32,7 @@ class ExportPreviewTest : public ::testing::Test {
   ~ExportPreviewTest() override { EXPECT_TRUE(Abandonable::awaitThreads(20s)); }
 
   const std::shared_ptr<std::latch> end_ = std::make_shared<std::latch>(1);
+  const std::shared_ptr<std::atomic<bool>> hangs_ = std::make_shared<std::atomic<bool>>(false);
   ExportedView view_;
   ExportRequest request_;
   std::unique_ptr<ExportPreview> preview_ = std::make_unique<ExportPreview>();
@@ -47,6 +51,7 @@ TEST_F(ExportPreviewTest, ShowingATableDoesNotWaitForItsRows) {
 // Window F4.
 TEST_F(ExportPreviewTest, ClosingItDoesNotWaitForTheMeasurement) {
   preview_->show(view_, request_);
+  ASSERT_TRUE(QTest::qWaitFor([this] { return hangs_->load(); }, 20'000));
   preview_.reset();
   EXPECT_FALSE(Abandonable::awaitThreads(std::chrono::milliseconds(1))) << "it still hangs";
   end_->count_down();
