@@ -1,12 +1,14 @@
 // Tests the code path with libserialport without a serial port: a pty under a name that passes its
-// check of sysfs (a link reached by "/dev/../"), and an ioctl() of this test that provides the
-// modem lines a pty lacks.
+// check of sysfs (a link reached by "/dev/../"), an ioctl() of this test that provides the modem
+// lines a pty lacks, and a realpath() that leaves this name alone.
 #include "device/serial_port_channel.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
+#include <cstdlib>
+#include <string_view>
 
 #include <sys/file.h>
 #include <sys/ioctl.h>
@@ -48,6 +50,16 @@ extern "C" int ioctl(int fd, unsigned long request, ...) noexcept {
   }
   if (request == TIOCMSET || request == TIOCMBIS || request == TIOCMBIC) return 0;
   return static_cast<int>(result);
+}
+
+// What realpath() is for libserialport 0.1.2, which would follow the link to the pty; 0.1.1 follows
+// none. NOLINTNEXTLINE(bugprone-reserved-identifier)
+extern "C" char* __realpath_chk(const char* path, char* resolved, std::size_t size) noexcept {
+  const std::string_view name = path;
+  if (!name.starts_with("/dev/../") || name.size() >= size) return ::realpath(path, resolved);
+  name.copy(resolved, name.size());
+  resolved[name.size()] = '\0';
+  return resolved;
 }
 
 namespace palpate::serial_port_channel_test {
