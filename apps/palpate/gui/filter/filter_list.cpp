@@ -1,5 +1,6 @@
 #include "gui/filter/filter_list.h"
 
+#include <QApplication>
 #include <QDropEvent>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -7,6 +8,7 @@
 #include <QSignalBlocker>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -39,6 +41,12 @@ FilterList::FilterList(QWidget* parent) : QTreeWidget(parent) {
   header()->setSectionResizeMode(kCost, QHeaderView::ResizeToContents);
   header()->setSectionResizeMode(kLatency, QHeaderView::ResizeToContents);
   header()->setSectionsMovable(false);
+  fitToTheme(*this, [this] {
+    for (int i = 0; i < topLevelItemCount(); ++i)
+      if (topLevelItem(i)->data(kName, Qt::ForegroundRole).isValid())
+        topLevelItem(i)->setForeground(kName,
+                                       QApplication::palette().brush(QPalette::PlaceholderText));
+  });
   connect(this, &QTreeWidget::currentItemChanged, this, [this] {
     if (!filling_) emit stepChosen();
   });
@@ -74,7 +82,9 @@ void FilterList::showRecipe(const Recipe& recipe, bool live) {
                      leftOut ? "Needs later frames: left out while a hand is live"
                              : QString::fromStdString(step.kind().purpose));
     const bool faint = leftOut || !step.enabled;
-    item->setForeground(kName, palette().brush(faint ? QPalette::PlaceholderText : QPalette::Text));
+    item->setData(kName,
+                  Qt::ForegroundRole,
+                  faint ? QApplication::palette().brush(QPalette::PlaceholderText) : QVariant());
   }
   if (before && *before < recipe.steps.size()) choose(before);
   filling_ = false;

@@ -304,6 +304,11 @@ std::optional<TaxelPlace> MatricesView::neighbour(const std::optional<TaxelPlace
 void MatricesView::keyPressEvent(QKeyEvent* event) {
   const QPoint direction = directionOf(event->key());
   const bool isSpace = event->key() == Qt::Key_Space;
+  if (hand_ && (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)) {
+    hasKeys_ = !hasKeys_;
+    setHover(hasKeys_ ? neighbour({}, {}) : std::nullopt);
+    return;
+  }
   if (!hand_ || !hasKeys_ || (direction.isNull() && !isSpace)) return QWidget::keyPressEvent(event);
   selectedBefore_ = selection_;
   if (isSpace) {
@@ -316,14 +321,6 @@ void MatricesView::keyPressEvent(QKeyEvent* event) {
   for (const auto& place : {from, hover_})
     if (place) selectedBefore_.add(place->matrix, place->y, place->x, place->y, place->x);
   select(selectedBefore_);
-}
-
-void MatricesView::focusInEvent(QFocusEvent* event) {
-  const Qt::FocusReason reason = event->reason();
-  hasKeys_ = reason == Qt::TabFocusReason || reason == Qt::BacktabFocusReason ||
-             (hasKeys_ && reason == Qt::ActiveWindowFocusReason);
-  if (hasKeys_ && !hover_) setHover(neighbour({}, {}));
-  QWidget::focusInEvent(event);
 }
 
 void MatricesView::focusOutEvent(QFocusEvent* event) {

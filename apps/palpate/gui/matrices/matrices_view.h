@@ -53,8 +53,9 @@ class MatricesView : public QWidget {
   QString hoverText() const;
 
   // Click and drag select taxels, Ctrl adds to the selection, a click beside the taxels (or Escape)
-  // clears it. With the focus got by Tab, the arrow keys move to the next taxel in their direction,
-  // Space selects or deselects it, and Shift with an arrow key selects on the way.
+  // clears it. With the focus, Return lets the arrow keys move to the next taxel in their
+  // direction, Space select or deselect it, and Shift with an arrow key select on the way; Return
+  // once more ends it.
   const TaxelSelection& selection() const noexcept { return selection_; }
   void select(const TaxelSelection& selection);
   void clearSelection();
@@ -89,7 +90,6 @@ class MatricesView : public QWidget {
   void leaveEvent(QEvent* event) override;
   void changeEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
-  void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   // Takes its keys before they are shortcuts of the window.
   bool event(QEvent* event) override;
@@ -114,7 +114,8 @@ class MatricesView : public QWidget {
   MatricesGeometry geometry_;
   QPixmap background_;
   std::optional<TaxelPlace> hover_;
-  // Whether the user came here by Tab: arrow keys and Space play and step otherwise.
+  // Whether the user asked for it by Return: arrow keys and Space play and step otherwise. The
+  // focus is not enough, which Qt passes on when another control is hidden.
   bool hasKeys_ = false;
   TaxelSelection selection_;
   // The selection to which a drag adds.

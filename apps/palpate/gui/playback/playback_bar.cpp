@@ -49,9 +49,12 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   ofTime_ = makeLabel(this, "ofTime");
 
   setLayout(inRow(
-      {{seekBar_, 1}, Space::kUsual, "frame", frame_, ofFrames_, Space::kUsual, time_, ofTime_},
+      {{seekBar_, 1}, Space::kNarrow, "frame", frame_, ofFrames_, Space::kNarrow, time_, ofTime_},
       Space::kNarrow,
-      kBarEdges));
+      {.left = Space::kUsual,
+       .top = Space::kNarrow,
+       .right = Space::kUsual,
+       .bottom = Space::kNarrow}));
 
   // The playback is the context: when the window closes, a field may emit a value after the
   // playback is destroyed.
