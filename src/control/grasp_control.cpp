@@ -112,11 +112,18 @@ void GraspControl::forget(ControlTask& task) noexcept {
 }
 
 void GraspControl::runTasks() noexcept {
+  const auto failed = [this](const char* what) {
+    stop();
+    const std::lock_guard lock(mutex_);
+    fault(what);
+  };
   const std::lock_guard lock(tasksMutex_);
   for (ControlTask* task : tasks_) try {
       task->step(session_.nowUs());
+    } catch (const std::exception& failure) {
+      failed(failure.what());
     } catch (...) {
-      stop();
+      failed("an exception of no known kind");
     }
 }
 

@@ -1,6 +1,8 @@
 #include "palpate/control/motion_sequence.h"
 
+#include <algorithm>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -156,6 +158,25 @@ TEST_F(SequenceRunTest, AnAlarmEndsItAndStopsTheHand) {
   EXPECT_EQ(run_.status().text, "sequence ended in step 1 of 5: motor 3 is too hot");
   pass(6.0);
   EXPECT_EQ(numMotions(), 1u);
+}
+
+// A defect of what moves the hand in steps: a stop first, and it is said.
+TEST_F(SequenceRunTest, ATaskThatThrowsStopsTheHandAndRaisesAnAlarm) {
+  struct Broken : ControlTask {
+    void step(std::int64_t) override { throw std::bad_alloc(); }
+  } broken;
+  run_.begin(everyKind(), sdh2(), now());
+  bench_.control->advance(broken);
+  bench_.feel(1);
+  bench_.control->forget(broken);
+  EXPECT_GE(bench_.hand->count<StopMotion>(), 1u);
+  pass(6.0);
+  EXPECT_FALSE(run_.running());
+  EXPECT_EQ(numMotions(), 1u);
+  const auto events = bench_.session->takeEvents();
+  EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const RecordingEvent& event) {
+    return event.kind == "alarm" && event.text.find("the program failed") != std::string::npos;
+  }));
 }
 
 // Nobody but the control cycle has to notice it.

@@ -93,7 +93,7 @@ class ControlTask {
  public:
   virtual ~ControlTask() = default;
   // Called after each control cycle, at least every 100 ms. `hostUs`: the present time by the
-  // session's clock [us since 1970]. After an exception the hand is stopped.
+  // session's clock [us since 1970]. An exception stops the hand and is an event "alarm".
   virtual void step(std::int64_t hostUs) = 0;
 };
 

@@ -86,7 +86,10 @@ class SequenceRun final : public ControlTask {
     const std::lock_guard lock(mutex_);
     return status_;
   }
-  bool running() const { return status().running; }
+  bool running() const {
+    const std::lock_guard lock(mutex_);
+    return status_.running;
+  }
 
  private:
   // The following functions require mutex_.
