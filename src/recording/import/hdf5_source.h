@@ -40,7 +40,6 @@ class Hdf5Source final : public ArraySource {
   std::vector<std::string> texts(std::size_t column, std::uint64_t first, std::size_t count);
   // Of a column of texts: whether they are dates.
   void describeTexts(std::size_t column);
-  // The attribute of the file, its groups and data sets, where all that have one agree.
 
   bool isMatlab_ = false;
   std::vector<std::string> timeTexts_;  // of the loaded rows
