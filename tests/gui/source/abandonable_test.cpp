@@ -137,6 +137,8 @@ TEST_F(AbandonableTest, WhatNobodyAsksForIsCountedToo) {
   EXPECT_TRUE(Abandonable::run([&] { end.wait(); }));
   EXPECT_FALSE(Abandonable::awaitThreads(1ms));
   end.count_down();
+  // The thread uses `end` until it has woken.
+  EXPECT_TRUE(Abandonable::awaitThreads(20s));
 }
 
 }  // namespace
