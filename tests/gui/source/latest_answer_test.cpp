@@ -125,6 +125,29 @@ TEST_F(LatestAnswerTest, OneIsWorkedOnAtATimeAndThoseBetweenNever) {
   EXPECT_EQ(most_, 1);
 }
 
+TEST_F(LatestAnswerTest, WhereNothingIsKeptANewQuestionWaitsForNoneThatHangs) {
+  const auto end = std::make_shared<std::latch>(1);
+  const auto hangs = std::make_shared<std::atomic<bool>>(false);
+  Words work(
+      [end, hangs](const QString& question, const Progress&, const Words::Tell&) {
+        if (question == "dead folder") *hangs = true, end->wait();
+        return question;
+      },
+      [this](const QString& answer) { said_ << answer; },
+      [](const QString&) { FAIL(); },
+      nullptr,
+      Words::Turns::kAtOnce);
+  work.ask("dead folder");
+  while (!*hangs) std::this_thread::yield();
+  work.ask("another");
+  work.settle();
+  EXPECT_EQ(said_, QStringList("another"));
+  end->count_down();
+  ASSERT_TRUE(Abandonable::awaitThreads(20s));
+  QCoreApplication::processEvents();
+  EXPECT_EQ(said_, QStringList("another")) << "the answer for the dead folder comes too late";
+}
+
 TEST_F(LatestAnswerTest, LeavingDoesNotWaitForWorkThatHangs) {
   answers_ = [this](const QString&, const Progress&, const Words::Tell&) {
     hang();

@@ -70,7 +70,9 @@ ImportDialog::ImportDialog(QSettings& settings,
             ImportLook look;
             look.problem = why;
             take(look);
-          }) {
+          },
+          nullptr,
+          LatestAnswer<ImportRequest, ImportLook>::Turns::kAtOnce) {
   setWindowTitle("Import");
   const ImportRequest last = loadImportRequest(settings);
   setLayout(inColumn({inRow({{makeFile(), 3}, {makeMapping(), 4}}), {makePreview(), 1}, makeFoot()},

@@ -106,7 +106,9 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
             Next next;
             next.problem = why;
             take(next);
-          }) {
+          },
+          nullptr,
+          LatestAnswer<Look, Next>::Turns::kAtOnce) {
   setWindowTitle("Recording");
   setStyleSheet(kRecordingDialogStyle);
   auto* content = new QWidget;
