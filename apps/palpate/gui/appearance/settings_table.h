@@ -22,14 +22,14 @@
 
 namespace palpate::gui {
 
-// Nothing: there is no number, or none from `least` to `most`.
+// Empty where the value is missing, not a number, or outside minimum..maximum.
 inline std::optional<double> storedNumber(const QSettings& settings,
                                           const QString& key,
-                                          double least,
-                                          double most) {
+                                          double minimum,
+                                          double maximum) {
   bool isNumber = false;
   const double number = settings.value(key).toDouble(&isNumber);
-  return isNumber && number >= least && number <= most ? std::optional(number) : std::nullopt;
+  return isNumber && number >= minimum && number <= maximum ? std::optional(number) : std::nullopt;
 }
 
 class SettingsTable {
@@ -50,19 +50,19 @@ class SettingsTable {
   }
   // A whole number, one with decimals, or an enumeration, which is stored as its number.
   template <class Number>
-  void number(const QString& key, Number& value, double least, double most) {
+  void number(const QString& key, Number& value, double minimum, double maximum) {
     if constexpr (std::is_floating_point_v<Number>) {
       if (into_) return into_->setValue(group_ + key, value);
     } else if (into_) {
       return into_->setValue(group_ + key, static_cast<qlonglong>(value));
     }
-    if (const auto kept = storedNumber(from_, group_ + key, least, most))
+    if (const auto kept = storedNumber(from_, group_ + key, minimum, maximum))
       value = static_cast<Number>(*kept);
   }
-  // Without a value there is no key.
-  void number(const QString& key, std::optional<double>& value, double least, double most) {
+  // An empty value removes the key.
+  void number(const QString& key, std::optional<double>& value, double minimum, double maximum) {
     if (!into_)
-      value = storedNumber(from_, group_ + key, least, most);
+      value = storedNumber(from_, group_ + key, minimum, maximum);
     else if (value)
       into_->setValue(group_ + key, *value);
     else

@@ -237,20 +237,20 @@ void batchFields(SettingsTable& table, BatchChoices& choices) {
   });
   table.flag("interpolated", choices.interpolated);
   table.flag("printedValues", choices.printedValues);
-  table.number("speed", choices.speed, kLeastBatchSpeed, kMostBatchSpeed);
+  table.number("speed", choices.speed, kMinBatchSpeed, kMaxBatchSpeed);
   table.flag("signals", choices.withSignals);
   table.flag("slip", choices.withSlip);
   table.flag("unitsRow", choices.unitsRow);
   table.text("smooth", choices.smooth);
-  table.number("matrix", choices.matrix, -1, kMostBatchMatrix);
+  table.number("matrix", choices.matrix, -1, kMaxBatchMatrix);
   table.text("method", choices.method, [](const QString& text) {
     return slipMethodNamed(text.toStdString()).has_value();
   });
   table.text("reference", choices.reference);
   table.flag("segments", choices.segments);
-  table.number("step", choices.stepTaxels, kLeastBatchTaxels, kMostBatchTaxels);
-  table.number("limit", choices.limitTaxels, kLeastBatchTaxels, kMostBatchTaxels);
-  table.number("rotation", choices.rotationDeg, kLeastBatchDeg, kMostBatchDeg);
+  table.number("step", choices.stepTaxels, kMinBatchTaxels, kMaxBatchTaxels);
+  table.number("limit", choices.limitTaxels, kMinBatchTaxels, kMaxBatchTaxels);
+  table.number("rotation", choices.rotationDeg, kMinBatchDeg, kMaxBatchDeg);
   table.text("set", choices.featureSet, [](const QString& text) {
     return text.isEmpty() || featureSetNamed(text.toStdString());
   });
@@ -258,7 +258,7 @@ void batchFields(SettingsTable& table, BatchChoices& choices) {
   table.text("names", choices.names);
   table.flag("resume", choices.resume);
   table.flag("replace", choices.replace);
-  table.number("threads", choices.threads, 0, kMostBatchThreads);
+  table.number("threads", choices.threads, 0, kMaxBatchThreads);
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ namespace palpate::gui {
 enum class BatchWork { kConvert, kSignals, kSlip, kFeatures, kRender };
 
 // Ranges of fields below.
-inline constexpr int kMostBatchMatrix = 999, kMostBatchThreads = 256;
-inline constexpr double kLeastBatchTaxels = 1e-3, kMostBatchTaxels = 100.0;  // [taxels]
-inline constexpr double kLeastBatchDeg = 0.1, kMostBatchDeg = 360.0;         // [deg]
+inline constexpr int kMaxBatchMatrix = 999, kMaxBatchThreads = 256;
+inline constexpr double kMinBatchTaxels = 1e-3, kMaxBatchTaxels = 100.0;  // [taxels]
+inline constexpr double kMinBatchDeg = 0.1, kMaxBatchDeg = 360.0;         // [deg]
 
 struct BatchChoices {
   // Recordings and folders.

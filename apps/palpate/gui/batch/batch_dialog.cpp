@@ -183,7 +183,7 @@ QWidget* BatchDialog::makePlace() {
   replace_ = named(new QCheckBox("Rep&lace other files"), "batchReplace");
   replace_->setToolTip("Replace files that exist already, also those that no batch has made");
   threads_ = named(new QSpinBox, "batchThreads", "Recordings at the same time");
-  threads_->setRange(0, kMostBatchThreads);
+  threads_->setRange(0, kMaxBatchThreads);
   threads_->setSpecialValueText("one per core");
   threads_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   auto* options = inRow({resume_,

@@ -86,14 +86,14 @@ BatchFields::BatchFields(QWidget* parent)
                             {".mp4: a movie of all frames", "mp4"}});
   map_ = batchComboBox("batchMap", mapItems());
   speed_ = limitBox(
-      "batchSpeed", kLeastBatchSpeed, kMostBatchSpeed, "Speed of the movie; 1: as it was recorded");
+      "batchSpeed", kMinBatchSpeed, kMaxBatchSpeed, "Speed of the movie; 1: as it was recorded");
   speed_->setDecimals(2);
   ending_ = batchComboBox("batchForm", formItems());
   filtersRow_ = makeFilters();
   smooth_ = named(new QLineEdit, "batchSmooth", "Filters over time of the signals themselves");
   smooth_->setPlaceholderText("none; as kalman:q=0.05");
   matrix_ = named(new QSpinBox, "batchMatrix");
-  matrix_->setRange(-1, kMostBatchMatrix);
+  matrix_->setRange(-1, kMaxBatchMatrix);
   matrix_->setSpecialValueText("all");
   matrix_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   method_ = batchComboBox("batchMethod", methodItems());
@@ -163,12 +163,10 @@ QWidget* BatchFields::makeFilters() {
 }
 
 QWidget* BatchFields::makeLimits() {
-  step_ =
-      limitBox("batchStep", kLeastBatchTaxels, kMostBatchTaxels, "Threshold per frame [taxels]");
+  step_ = limitBox("batchStep", kMinBatchTaxels, kMaxBatchTaxels, "Threshold per frame [taxels]");
   limit_ = limitBox(
-      "batchLimit", kLeastBatchTaxels, kMostBatchTaxels, "Threshold since the reference [taxels]");
-  rotation_ =
-      limitBox("batchRotation", kLeastBatchDeg, kMostBatchDeg, "Threshold of turning [deg]");
+      "batchLimit", kMinBatchTaxels, kMaxBatchTaxels, "Threshold since the reference [taxels]");
+  rotation_ = limitBox("batchRotation", kMinBatchDeg, kMaxBatchDeg, "Threshold of turning [deg]");
   rotation_->setSuffix("°");
   return makeBox(inRow({{step_, 1}, {limit_, 1}, {rotation_, 1}}));
 }

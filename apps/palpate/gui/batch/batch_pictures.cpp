@@ -98,7 +98,7 @@ QStringList batchPictureForms() { return {"png", "svg", "pdf", kBatchMovie}; }
 BatchTask picturesTask(const BatchPictureOptions& batch, const QString& form) {
   batch.filters.validate();
   if (form == kBatchMovie && !findFfmpeg()) throw std::invalid_argument(ffmpegMissing());
-  if (!(batch.speed >= kLeastBatchSpeed && batch.speed <= kMostBatchSpeed))
+  if (!(batch.speed >= kMinBatchSpeed && batch.speed <= kMaxBatchSpeed))
     throw std::invalid_argument("the speed of a movie is 0.1 to 16");
   MatricesPictureOptions options;
   options.map = batch.map;

@@ -13,8 +13,8 @@
 namespace palpate::gui {
 
 // Speeds of a movie, as `palpate render` takes them.
-inline constexpr double kLeastBatchSpeed = 0.1;
-inline constexpr double kMostBatchSpeed = 16.0;
+inline constexpr double kMinBatchSpeed = 0.1;
+inline constexpr double kMaxBatchSpeed = 16.0;
 
 struct BatchPictureOptions {
   Recipe filters = {};
@@ -22,7 +22,7 @@ struct BatchPictureOptions {
   // Smooth between the taxels; the value of every active taxel is printed.
   bool interpolated = false;
   bool values = false;
-  // Of a movie: kLeastBatchSpeed..kMostBatchSpeed.
+  // Of a movie: kMinBatchSpeed..kMaxBatchSpeed.
   double speed = 1.0;
 };
 

@@ -42,10 +42,10 @@ std::optional<QString> DialogAsk::text(const QString& title,
   dialog.setLabelText(question);
   dialog.setTextValue(text);
   // The present text is seen whole, as far as it is not very long.
-  constexpr int kLeastWidth = 360, kMostWidth = 640, kAround = 60;  // [px]
+  constexpr int kMinWidth = 360, kMaxWidth = 640, kAround = 60;  // [px]
   const int widest = std::max(dialog.fontMetrics().horizontalAdvance(question),
                               dialog.fontMetrics().horizontalAdvance(text));
-  dialog.resize(std::clamp(widest + kAround, kLeastWidth, kMostWidth), dialog.sizeHint().height());
+  dialog.resize(std::clamp(widest + kAround, kMinWidth, kMaxWidth), dialog.sizeHint().height());
   if (auto* label = dialog.findChild<QLabel*>()) label->setWordWrap(true);
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;
   return dialog.textValue().simplified();
