@@ -17,6 +17,7 @@
 #include "gui/connect/fake_ports.h"
 #include "gui/source/file_reading.h"
 #include "gui/testing/fake_ask.h"
+#include "gui/testing/make_active.h"
 #include "testing/testing.h"
 
 namespace palpate::gui {
@@ -50,7 +51,7 @@ class ConnectDialogTest : public ::testing::Test {
                                               ask_,
                                               nullptr);
     showRead();
-    QApplication::setActiveWindow(dialog_.get());  // without a window manager nobody else does
+    makeActive(*dialog_);
     return *dialog_;
   }
   void openWith(QSettings& settings, const Connection& last) {

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/testing/make_active.h"
+
 namespace palpate::gui::field_keys_test {
 namespace {
 
@@ -26,7 +28,7 @@ class FieldKeysTest : public ::testing::Test {
     action_.setShortcut(QKeySequence("Ctrl+U"));
     window_.addAction(&action_);
     window_.show();
-    QApplication::setActiveWindow(&window_);
+    makeActive(window_);
   }
   void press(QWidget& widget, Qt::Key key) {
     widget.setFocus();

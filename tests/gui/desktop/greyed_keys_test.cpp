@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/testing/make_active.h"
+
 namespace palpate::gui::greyed_keys_test {
 namespace {
 
@@ -84,7 +86,7 @@ TEST_F(GreyedKeysTest, AWindowThatFloatsMovesTheHandLikeTheMainWindow) {
   QWidget floating(&window_, Qt::Tool);
   QLineEdit field(&floating);
   floating.show();
-  QApplication::setActiveWindow(&floating);
+  makeActive(floating);
   const QSignalSpy opened(&open_, &QAction::triggered);
   QTest::keyClick(&field, Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
   EXPECT_EQ(opened.size(), 1);

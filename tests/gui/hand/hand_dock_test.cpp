@@ -24,6 +24,7 @@
 #include "gui/hand/hand_feature.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/hand/tactile_settings_panel.h"
+#include "gui/testing/make_active.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/value_slider.h"
 #include "testing/testing.h"
@@ -273,7 +274,7 @@ TEST_F(HandDockTest, APressThatRefusesANumberMovesNothing) {
   connectTo(stillHand());
   ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
   QDoubleSpinBox* velocity = find<ValueSlider>("velocity")->field();
-  QApplication::setActiveWindow(dock_.get());
+  makeActive(*dock_);
   const auto typeInVelocity = [&](const char* text) {
     velocity->setFocus();
     velocity->selectAll();
@@ -309,7 +310,7 @@ TEST_F(HandDockTest, RelaxIsNeverRefusedByANumber) {
   connectTo(stillHand());
   ASSERT_TRUE(await([&] { return isEnabled("relaxHand"); }));
   QDoubleSpinBox* velocity = find<ValueSlider>("velocity")->field();
-  QApplication::setActiveWindow(dock_.get());
+  makeActive(*dock_);
   velocity->setFocus();
   velocity->selectAll();
   QTest::keyClicks(velocity, "500");

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "gui/appearance/text_size.h"
+#include "gui/testing/make_active.h"
 #include "gui/testing/window_fixture.h"
 
 namespace palpate::gui::keys_dialog_test {
@@ -65,7 +66,7 @@ TEST_F(KeysDialogTest, ShowsTheListAndTheMouse) {
     EXPECT_TRUE(texts.contains(entry.what)) << entry.what.toStdString();
   }
   EXPECT_TRUE(texts.contains("Wheel"));
-  QApplication::setActiveWindow(dialog);
+  makeActive(*dialog);
   QTest::keyClick(dialog, Qt::Key_Escape);
   EXPECT_FALSE(dialog->isVisible());
 }

@@ -78,6 +78,7 @@ class GoldenPicturesTest : public WindowTest {
 TEST_F(GoldenPicturesTest, HeatMapsDark) {
   show({1440, 900}, ThemeChoice::kDark);
   press(Qt::Key_H);  // the hand in 3-D stands beside them
+  window().feature<MatricesFeature>().panel().view().setFixedSize(945, 525);
   QCoreApplication::processEvents();
   compare(window().feature<MatricesFeature>().panel().view().grab().toImage(), "matrices_dark.png");
 }

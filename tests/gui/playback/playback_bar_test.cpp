@@ -4,6 +4,7 @@
 #include <QSpinBox>
 
 #include "gui/playback/seek_bar.h"
+#include "gui/testing/make_active.h"
 #include "gui/testing/window_fixture.h"
 
 namespace palpate::gui::playback_bar_test {
@@ -17,7 +18,7 @@ class PlaybackBarTest : public WindowTest {
   QDoubleSpinBox& timeField() { return *find<QDoubleSpinBox>("timeField"); }
   // Types a text over what stands in the field, and Enter.
   void type(QAbstractSpinBox& field, const char* text) {
-    QApplication::setActiveWindow(&window());
+    makeActive(window());
     field.setFocus();
     field.selectAll();
     QTest::keyClick(&field, Qt::Key_Delete);
@@ -119,7 +120,7 @@ TEST_F(PlaybackBarTest, EscapeLeavesTheFieldAsItWas) {
 }
 
 TEST_F(PlaybackBarTest, WhatIsBeingTypedIsNotOverwrittenByThePlayback) {
-  QApplication::setActiveWindow(&window());
+  makeActive(window());
   playback().play();
   frameField().setFocus();
   frameField().selectAll();

@@ -23,6 +23,7 @@
 #include "gui/recognise/recognise_fixture.h"
 #include "gui/recognise/training_page.h"
 #include "gui/testing/layout_faults.h"
+#include "gui/testing/make_active.h"
 #include "gui/widgets/figures_table.h"
 
 namespace palpate::gui::grasps_page_test {
@@ -161,7 +162,7 @@ TEST_F(GraspsPageTest, KeysUndoAndRedoLeavingOut) {
   ofTheWindow.setShortcuts({QKeySequence("Ctrl+Z"), QKeySequence("Ctrl+Shift+Z")});
   panel_->addAction(&ofTheWindow);
   QSignalSpy triggered(&ofTheWindow, &QAction::triggered);
-  QApplication::setActiveWindow(panel_.get());
+  makeActive(*panel_);
   const auto numOut = [&] { return panel_->teaching().leftOut().size(); };
   for (const int number : {1, 2}) {
     choose("pen", number);

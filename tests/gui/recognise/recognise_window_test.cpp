@@ -20,6 +20,7 @@
 #include "gui/recognise/presentation_window.h"
 #include "gui/recognise/recognise_fixture.h"
 #include "gui/testing/layout_faults.h"
+#include "gui/testing/make_active.h"
 #include "gui/timeline/event_rows.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_feature.h"
@@ -294,7 +295,7 @@ TEST_F(RecogniseLiveTest, TheShowHasAStopThatStopsTheHandAndSaysWhatItDoes) {
   press(Qt::Key_Q, Qt::ShiftModifier);
   auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
-  QApplication::setActiveWindow(full);
+  makeActive(*full);
   auto* stop = full->findChild<QPushButton*>("showStop");
   const auto* said = full->findChild<QLabel*>("showHandState");
   ASSERT_TRUE(stop && said);

@@ -27,6 +27,7 @@
 #include "control/emulated_bench.h"
 #include "gui/recognise/presentation_window.h"
 #include "gui/shell/main_window.h"
+#include "gui/testing/make_active.h"
 #include "testing/heartbeat.h"
 #include "testing/testing.h"
 
@@ -246,7 +247,7 @@ class PressedWindow {
       return std::nullopt;
     auto* show = window_->findChild<PresentationWindow*>();
     QWidget* front = show ? static_cast<QWidget*>(show) : window_.get();
-    QApplication::setActiveWindow(front);
+    makeActive(*front);
     closer_.begin();
     const std::int64_t beginUs = systemClock().monotonicUs();
     const std::int64_t beginCpuUs = threadCpuUs();
@@ -293,7 +294,7 @@ class PressedWindow {
     window_ = std::make_unique<MainWindow>(environment);
     window_->resize(1440, 900);
     window_->show();
-    QApplication::setActiveWindow(window_.get());
+    makeActive(*window_);
     // Serial ports of this machine are nobody's here.
     window_->state().prompts.connection = [](const Connection&) {
       return std::optional<Connection>();

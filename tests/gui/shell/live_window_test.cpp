@@ -32,6 +32,7 @@
 #include "gui/matrices/matrices_view.h"
 #include "gui/slip/slip_panel.h"
 #include "gui/slip/slip_view.h"
+#include "gui/testing/make_active.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_chart.h"
@@ -767,7 +768,7 @@ TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
 TEST_F(LiveWindowTest, AClickOnGraspTakesTheKeyboardFromTheMenusOfTheViews) {
   connectEmulatedHand();
   window().docks().show("Calibrate");
-  QApplication::setActiveWindow(&window());
+  makeActive(window());
   auto* show = find<QToolButton>("handShowButton");
   show->setFocus();
   ASSERT_EQ(window().focusWidget(), show);

@@ -7,6 +7,7 @@
 
 #include "gui/slip/slip_fixture.h"
 #include "gui/source/file_reading.h"
+#include "gui/testing/make_active.h"
 #include "gui/widgets/message_banner.h"
 
 namespace palpate::gui {
@@ -48,7 +49,7 @@ MainWindow& WindowTest::start() {
   if (!QSettings(settingsFile(), QSettings::IniFormat).contains("window/geometry"))
     window_->resize(1440, 900);
   window_->show();
-  QApplication::setActiveWindow(window_.get());
+  makeActive(*window_);
   QCoreApplication::processEvents();
   return *window_;
 }
@@ -79,7 +80,7 @@ void WindowTest::waitUntilOpened() {
 }
 
 void WindowTest::press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
-  QApplication::setActiveWindow(&window());
+  makeActive(window());
   QTest::keyClick(&window(), key, modifiers);
 }
 

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/testing/make_active.h"
+
 namespace palpate::gui::event_rows_test {
 namespace {
 
@@ -35,7 +37,7 @@ class EventRowsTest : public ::testing::Test {
                     mark(EventLane::kGaps, 7.0, 8.0, "1.0 s", false),
                     mark(EventLane::kLabels, 3.0, 3.0, "touch")});
     rows_.show();
-    QApplication::setActiveWindow(&rows_);
+    makeActive(rows_);
   }
   QPoint middleOf(std::size_t index) { return rows_.barOf(index).center().toPoint(); }
   void drag(const QPoint& from, const QPoint& to) {

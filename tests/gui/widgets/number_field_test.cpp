@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/testing/make_active.h"
 #include "gui/widgets/value_slider.h"
 
 namespace palpate::gui::number_field_test {
@@ -26,7 +27,7 @@ class NumberFieldTest : public ::testing::Test {
     frame_.setRange(0, 19);
     frame_.setValue(7);
     parent_.show();
-    QApplication::setActiveWindow(&parent_);
+    makeActive(parent_);
   }
   void type(QAbstractSpinBox& field, const QString& text) {
     field.setFocus();

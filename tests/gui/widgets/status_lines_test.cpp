@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/testing/make_active.h"
+
 namespace palpate::gui::status_lines_test {
 namespace {
 
@@ -57,7 +59,7 @@ TEST(StatusLinesTest, TheKeyboardReachesItOnlyWhileThereIsSomethingToScroll) {
   window.addAction(&slower);
   const QSignalSpy slowed(&slower, &QAction::triggered);
   window.show();
-  QApplication::setActiveWindow(&window);
+  makeActive(window);
   lines.setText("short");
   QCoreApplication::processEvents();
   EXPECT_EQ(lines.focusPolicy(), Qt::NoFocus);

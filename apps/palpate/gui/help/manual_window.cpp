@@ -79,6 +79,7 @@ void ManualBrowser::showPage(const QString& name) {
 void ManualBrowser::scrollTo(int position) {
   const QTextBlock block = document()->findBlock(position);
   if (!block.isValid() || position == 0) return verticalScrollBar()->setValue(0);
+  document()->size();  // lays out the whole page: until then the scroll bar ends too early
   const QRectF place = document()->documentLayout()->blockBoundingRect(block);
   verticalScrollBar()->setValue(static_cast<int>(place.top()) - kCellPadding);
 }
