@@ -1,3 +1,4 @@
+// Gives a window the keyboard, as a window manager would.
 #pragma once
 
 #include <QCoreApplication>
@@ -5,8 +6,9 @@
 
 namespace palpate::gui {
 
-// Gives a shown window the focus: without a window manager nobody else does.
+// `window` is shown. Where it already has the keyboard no event is processed.
 inline void makeActive(QWidget& window) {
+  if (window.isActiveWindow()) return;
   window.activateWindow();
   QCoreApplication::processEvents();
 }
