@@ -44,6 +44,8 @@ WindowTest::~WindowTest() {
 
 MainWindow& WindowTest::start() {
   window_.reset();
+  qApp->setStyleSheet(
+      {});  // as the program starts; with one, building a window takes twice as long
   window_ = std::make_unique<MainWindow>(environment_);
   // The screen that draws to memory is smaller than a usual one.
   if (!QSettings(settingsFile(), QSettings::IniFormat).contains("window/geometry"))

@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QPalette>
 #include <QPointer>
-#include <QStyleFactory>
 #include <QWidget>
 #include <array>
 #include <utility>
@@ -251,8 +250,6 @@ QEvent::Type themeChange() {
 }
 
 void applyTheme(QApplication& application, Theme theme) {
-  // Reads the theme of the desktop before the palette is replaced.
-  systemTheme();
   // Setting the same style again would restyle every widget several times.
   if (application.styleSheet() == styleOf(theme)) return;
   // A widget that the style sheet gives a font (bold) gets the size back that it had before the
@@ -260,7 +257,6 @@ void applyTheme(QApplication& application, Theme theme) {
   std::vector<std::pair<QPointer<QWidget>, double>> sizesPt;
   for (QWidget* widget : QApplication::allWidgets())
     sizesPt.emplace_back(widget, widget->font().pointSizeF());
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
   QApplication::setPalette(paletteOf(theme));
   outlineFields(theme);
   application.setStyleSheet(styleOf(theme));

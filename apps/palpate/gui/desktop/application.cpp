@@ -5,6 +5,7 @@
 #include <clocale>
 #include <exception>
 
+#include "gui/appearance/theme.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/desktop/field_keys.h"
 #include "gui/desktop/file_dialog_look.h"
@@ -84,6 +85,8 @@ std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
     // All dialogues look like the window, and can have the button that stops the hand.
     QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
     application = std::make_unique<GuardedApplication>(argc, argv);
+    systemTheme();  // reads the theme of the desktop before its style and palette are replaced
+    QApplication::setStyle("Fusion");
     new WheelGuard(application.get());
     new ButtonKeys(application.get());
     new FieldKeys(application.get());

@@ -7,9 +7,9 @@
 namespace palpate::gui {
 
 QSize ElidingBox::minimumSizeHint() const {
-  constexpr int kLeast = 110;  // [px]
+  constexpr int kMinimumWidth = 80;  // [px]
   const QSize whole = QComboBox::minimumSizeHint();
-  return {std::min(kLeast, whole.width()), whole.height()};
+  return {std::min(kMinimumWidth, whole.width()), whole.height()};
 }
 
 void ElidingBox::paintEvent(QPaintEvent*) {
