@@ -1,26 +1,15 @@
-# Read by scripts/run, scripts/test, scripts/tidy and scripts/package: installs packages, configures, builds. Every message
-# goes to standard error, so that the output of a command stays clean. Whatever fails says in one line what is to be done;
-# the next call goes on where this one stopped.
-#
-# Expects $root, the checkout. PALPATE_PACKAGES=keep installs nothing: for machines without apt, or where somebody else looks
-# after the packages. PALPATE_WERROR=ON makes warnings errors. PALPATE_TIMES=FILE gets a line "STAGE SECONDS" per stage.
+# Read by the scripts beside it: installs packages, configures, builds. Messages go to standard error; whatever fails says in
+# one line what to do, and the next call goes on where this one stopped. Expects $root, the checkout. PALPATE_PACKAGES=keep
+# installs nothing, PALPATE_WERROR=ON makes warnings errors, PALPATE_TIMES=FILE gets a line "STAGE SECONDS" per stage,
 # PALPATE_OS_RELEASE takes the place of /etc/os-release.
 
 # Without a standard error messages go nowhere, and no file that is opened later takes its place.
 (: >&2) 2>/dev/null || exec 2>/dev/null
-
 say() { printf 'palpate: %s\n' "$*" >&2; }
-fail() {
-  say "$@"
-  exit 1
-}
-took() { # STAGE SECONDS_AT_BEGIN
-  [ -z "${PALPATE_TIMES-}" ] || echo "$1 $((SECONDS - $2))" >>"$PALPATE_TIMES"
-}
+fail() { say "$@"; exit 1; }
+took() { [ -z "${PALPATE_TIMES-}" ] || echo "$1 $((SECONDS - $2))" >>"$PALPATE_TIMES"; } # STAGE SECONDS_AT_BEGIN
 # How long it took and how much it was the last time, on an empty machine: one figure.
-firstTime() { # NAME
-  awk -v name="$1" '$1 == name { print $2 }' "$root/cmake/first_time.txt" 2>/dev/null
-}
+firstTime() { awk -v name="$1" '$1 == name { print $2 }' "$root/cmake/first_time.txt" 2>/dev/null; } # NAME
 # Ends where PATH has no space left, which commands tell in many words or can't tell at all.
 failIfFull() { # WHAT PATH
   local free
@@ -28,9 +17,7 @@ failIfFull() { # WHAT PATH
   [ "${free:-20}" -ge 20 ] || fail "no space left for $1: $free MB are free in $2. Make room and call again"
 }
 # "debian 12 bookworm", "ubuntu 24.04 noble"
-system() {
-  (. "${PALPATE_OS_RELEASE:-/etc/os-release}" 2>/dev/null && echo "${ID-} ${VERSION_ID-} ${VERSION_CODENAME-}")
-}
+system() { (. "${PALPATE_OS_RELEASE:-/etc/os-release}" 2>/dev/null && echo "${ID-} ${VERSION_ID-} ${VERSION_CODENAME-}"); }
 
 # What a list asks for, a line each: "NAME" or "NAME (>= VERSION)". Lines marked [TAG] only where TAG is the suite or the name
 # of this release.
@@ -111,20 +98,16 @@ requireRoot() {
 }
 # Says why apt failed, and ends.
 explainApt() {
+  local begin pattern remedy found
   failIfFull "the packages" /usr
-  case "$(cat "$aptLog" 2>/dev/null)" in
-    *'sudo: '*) fail "$(grep '^sudo: ' "$aptLog" | grep -vm 1 'resolve host'); as root: $byHand" ;;
-    *'No space left on device'* | *'enough free space'*)
-      fail "no space left for the packages: $(grep -m 1 -oE "[^: ][^:]*(No space left|enough free space).*" "$aptLog"). Make room and call again"
-      ;;
-    *'Could not get lock'* | *'Unable to acquire the dpkg'*)
-      fail "another program installs packages at the moment. Call again when it is done"
-      ;;
-    *'failure resolving'* | *'ould not resolve'* | *'ould not connect'* | *'nable to connect'* | *'onnection '* | *'No route'* | *unreachable*)
-      fail "no network: $(grep -m 1 -oE '(Temporary failure|Could not|Unable to|Connection|Network is|No route) [^ ]+ .*' "$aptLog"). Call again when there is one (or set" \
-        "apt's proxy); log: $aptLog"
-      ;;
-  esac
+  while IFS='~' read -r begin pattern remedy; do
+    found=$(grep -v 'resolve host' "$aptLog" 2>/dev/null | grep -m 1 -oE "$pattern") && fail "$begin$found$remedy"
+  done <<END
+~sudo: .*~; as root: $byHand
+no space left for the packages: ~[^: ][^:]*(No space left|enough free space).*~. Make room and call again
+another program installs packages at the moment: ~(Could not get lock|Unable to acquire the dpkg).*~. Call again when it is done
+no network: ~(Temporary failure|Could not|Unable to|Connection|Network is|No route)( resol| connect| unreach| to host|[ :]).*~. Call again when there is one (or set apt's proxy); log: $aptLog
+END
   tail -n 20 "$aptLog" >&2
   fail "apt-get failed (its last lines stand above; all of it: $aptLog). By hand: $byHand"
 }
