@@ -54,7 +54,7 @@ TEST_F(GraspOptionsTest, ASlipAwareGraspGetsWhatIsChosen) {
   ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
   // The next session: what opens the hand is off again.
   dock_->setHand(nullptr, nullptr);
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  dock_ = newDock();
   EXPECT_EQ(find<QDoubleSpinBox>("mostLimit")->value(), 1500.0);
   EXPECT_FALSE(find<QCheckBox>("loosenHand")->isChecked());
   EXPECT_EQ(find<QDoubleSpinBox>("objectMass")->value(), 0.0);
@@ -130,7 +130,7 @@ TEST_F(GraspOptionsTest, NewtonsAreRememberedForAHandWithACalibration) {
             "limit in counts: newtons need a calibration of this hand");
   // In the next session, with one.
   dock_->setHand(nullptr, nullptr);
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  dock_ = newDock();
   dock_->show();
   dock_->calibrationOf = calibrated;
   dock_->setHand(bench_->session.get(), bench_->control.get());

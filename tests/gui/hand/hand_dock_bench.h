@@ -15,6 +15,7 @@
 
 #include "control/emulated_bench.h"
 #include "gui/hand/hand_dock.h"
+#include "gui/hand/hand_feature.h"
 #include "gui/testing/fake_ask.h"
 #include "gui/widgets/value_slider.h"
 #include "testing/testing.h"
@@ -25,7 +26,7 @@ class HandDockBench : public ::testing::Test {
  protected:
   HandDockBench()
       : settings_(QString::fromStdString((folder_ / "palpate.ini").string()), QSettings::IniFormat),
-        dock_(std::make_unique<HandDock>(settings_, ask_)) {
+        dock_(newDock()) {
     dock_->resize(455, 800);
     dock_->show();
   }
@@ -35,6 +36,10 @@ class HandDockBench : public ::testing::Test {
     bench_ = std::make_unique<testing::EmulatedBench>(std::move(model), std::move(options));
     bench_->connect();
     dock_->setHand(bench_->session.get(), bench_->control.get());
+  }
+  // As the next session makes it.
+  std::unique_ptr<HandDock> newDock() {
+    return std::make_unique<HandDock>(settings_, ask_, actions_);
   }
   template <class Widget>
   Widget* find(const char* name) {
@@ -65,6 +70,9 @@ class HandDockBench : public ::testing::Test {
   const testing::TemporaryFolder folder_;
   QSettings settings_;
   FakeAsk ask_;
+  QWidget window_;
+  ActionRegistry registry_{&window_};
+  const HandActions actions_{registry_};
   std::unique_ptr<testing::EmulatedBench> bench_;
   std::unique_ptr<HandDock> dock_;
 };

@@ -356,7 +356,7 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold0")->value() == 150.0; }));
   // As after a restart.
   dock_->setHand(nullptr, nullptr);
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  dock_ = newDock();
   dock_->setHand(bench_->session.get(), bench_->control.get());
   names = find<QComboBox>("savedSettings");
   ASSERT_EQ(names->count(), 2);
@@ -769,28 +769,44 @@ TEST_F(HandDockTest, APressInVainIsAnsweredUntilTheButtonCanBePressed) {
 }
 
 TEST_F(HandDockTest, AKeyInVainIsAnsweredInTheDock) {
-  QWidget window;
-  ActionRegistry book(&window);
-  const HandActions actions(book);
-  dock_->bind(actions);
   connectTo(stillHand());
   type("velocity", "5");
   ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp") && isEnabled("openHand"); }));
-  dock_->answerKey(actions.openHand);
-  EXPECT_EQ(state(), "Ready.") << "the button can be pressed";
-  click("reactiveGrasp");
+  actions_.reactiveGrasp->trigger();
   ASSERT_TRUE(bench_->awaitMotion());
   dock_->refresh();
-  dock_->answerKey(actions.openHand);
+  EXPECT_FALSE(actions_.openHand->isEnabled());
+  EXPECT_EQ(whyGreyed(*actions_.openHand), "A reactive grasp runs; Stop (Esc) ends it");
+  dock_->answerKey("Can't open the hand: " + whyGreyed(*actions_.openHand), actions_.openHand);
   EXPECT_TRUE(
       state().startsWith("Can't open the hand: A reactive grasp runs; Stop (Esc) ends it.\n"))
       << state().toStdString();
-  click("stopHand");
-  EXPECT_FALSE(state().contains("Can't open")) << state().toStdString();
-  // The actions end before the dock of the bench.
-  dock_->setHand(nullptr, nullptr);
-  dock_.reset();
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  bench_->control->stop();  // from elsewhere
+  EXPECT_TRUE(await([&] { return actions_.openHand->isEnabled(); }));
+  EXPECT_EQ(state(), "stopped by the user");
+}
+
+// As from the menu and the tool bar.
+TEST_F(HandDockTest, TheActionsWorkWhileTheDockIsHidden) {
+  EXPECT_FALSE(actions_.graspHand->isEnabled());
+  EXPECT_FALSE(actions_.stopHand->isEnabled());
+  EXPECT_EQ(actions_.stopHand->toolTip(), "No hand is connected");
+  connectTo(stillHand());
+  type("velocity", "5");
+  dock_->hide();
+  EXPECT_TRUE(actions_.stopHand->isEnabled());
+  ASSERT_TRUE(await([&] { return actions_.graspHand->isEnabled(); }));
+  actions_.graspHand->trigger();
+  ASSERT_TRUE(bench_->awaitMotion());
+  dock_->setInSight(false);
+  actions_.stopHand->trigger();
+  EXPECT_TRUE(await([&] { return !bench_->handMoves(); }));
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  EXPECT_FALSE(actions_.graspHand->isEnabled()) << "a recording is shown";
+  EXPECT_TRUE(actions_.graspHand->toolTip().contains("F6"));
+  EXPECT_TRUE(actions_.stopHand->isEnabled());
+  dock_->setInSight(true);
+  EXPECT_TRUE(actions_.graspHand->isEnabled());
 }
 
 TEST_F(HandDockTest, AHandThatActsByItselfIsNotReady) {
@@ -826,7 +842,7 @@ TEST_F(HandDockTest, ARefusalOfAModeGoesWithTheNextChoice) {
 TEST_F(HandDockTest, ChoicesAreRemembered) {
   find<QComboBox>("preshape")->setCurrentIndex(find<QComboBox>("preshape")->findData("parallel"));
   type("limit", "450");
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  dock_ = newDock();
   EXPECT_EQ(find<QComboBox>("preshape")->currentData().toString(), "parallel");
   EXPECT_EQ(find<ValueSlider>("limit")->value(), 450.0);
 }
@@ -837,7 +853,7 @@ TEST_F(HandDockTest, ASessionBeginsWithTheSafeVelocity) {
   settings_.setValue("grasp/velocity_deg_per_s", 60.0);
   settings_.setValue("joints/velocity_deg_per_s", 60.0);
   for (int session = 0; session < 2; ++session) {
-    dock_ = std::make_unique<HandDock>(settings_, ask_);
+    dock_ = newDock();
     for (const char* velocity : {"velocity", "jointVelocity"}) {
       EXPECT_EQ(find<ValueSlider>(velocity)->value(), 10.0) << velocity;
       find<ValueSlider>(velocity)->field()->setValue(33.0);

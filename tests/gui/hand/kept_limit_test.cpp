@@ -90,7 +90,7 @@ TEST_F(KeptLimitTest, IsTheUsualWayAndIsRemembered) {
     EXPECT_FALSE(request(mode).keepsLimit);
     EXPECT_EQ(request(mode).object, "");
   }
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  dock_ = newDock();
   EXPECT_FALSE(find<QCheckBox>("keepLimit")->isChecked());
 }
 
@@ -133,7 +133,7 @@ TEST_F(KeptLimitTest, TheObjectGoesWithTheGraspAndNotIntoTheNextSession) {
   click("stopHand");
   ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
   dock_->setHand(nullptr, nullptr);
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  dock_ = newDock();
   EXPECT_EQ(find<QComboBox>("objectName")->currentText(), "");
   EXPECT_EQ(find<QDoubleSpinBox>("objectSize")->value(), 0.0);
 }
@@ -336,7 +336,7 @@ TEST_F(KeptLimitTest, AStepOfASequenceHasWhatThePageSays) {
   EXPECT_TRUE(find<QListWidget>("sequenceSteps")->item(0)->text().contains("kept, of ball"));
   // As it is read back for the next session.
   dock_->setHand(nullptr, nullptr);
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  dock_ = newDock();
   dock_->show();
   dock_->setHand(bench_->session.get(), bench_->control.get());
   find<QTabBar>("handPages")->setCurrentIndex(2);

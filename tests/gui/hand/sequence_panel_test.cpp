@@ -66,7 +66,7 @@ TEST_F(SequencePanelTest, IsBuiltStartedAndDone) {
   EXPECT_EQ(bench_->log.named("m").size(), 4u);
   // Kept for the next session.
   dock_->setHand(nullptr, nullptr);
-  dock_ = std::make_unique<HandDock>(settings_, ask_);
+  dock_ = newDock();
   EXPECT_EQ(find<QListWidget>("sequenceSteps")->count(), 3);
   EXPECT_EQ(find<QSpinBox>("sequenceTimes")->value(), 2);
 }

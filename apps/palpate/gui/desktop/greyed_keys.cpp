@@ -40,12 +40,12 @@ bool belongsToField(const QWidget& widget, const QKeyEvent& key) {
   return false;
 }
 
-}  // namespace
-
 QString refusalOf(const QAction& action, const QString& why) {
   const QString own = action.property(kRefusalProperty).toString();
   return (own.isEmpty() ? action.text().remove('&').remove("…") : own) + ": " + why;
 }
+
+}  // namespace
 
 GreyedKeys::GreyedKeys(QList<QAction*> actions,
                        std::function<QString(const QAction&)> why,
@@ -77,10 +77,7 @@ bool GreyedKeys::refuse(const QKeyEvent& key) {
     if (why.isEmpty()) continue;
     const bool same = key.timestamp() != 0 && key.timestamp() == lastPress_;
     lastPress_ = key.timestamp();
-    if (!same) {
-      emit refusedAction(action);
-      emit refused(refusalOf(*action, why));
-    }
+    if (!same) emit refused(refusalOf(*action, why), action);
     // What has the focus must not take it for text.
     return true;
   }

@@ -18,8 +18,6 @@ namespace palpate::gui {
 // The property of an action with the words for its refusal: "Can't open the hand"; without it the
 // action's own text is used.
 inline constexpr const char* kRefusalProperty = "refusal";
-// One line that tells why the action can't be taken now: "Can't open the hand: ..".
-QString refusalOf(const QAction& action, const QString& why);
 
 class GreyedKeys : public QObject {
   Q_OBJECT
@@ -32,10 +30,8 @@ class GreyedKeys : public QObject {
              QObject* parent = nullptr);
 
  signals:
-  // refusalOf() the action.
-  void refused(const QString& why);
-  // Before refused().
-  void refusedAction(const QAction* action);
+  // One line that tells why the action can't be taken now: "Can't open the hand: ..".
+  void refused(const QString& why, const QAction* action);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -1,5 +1,6 @@
 #include "gui/hand/grasp_panel.h"
 
+#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -17,6 +18,7 @@
 #include "gui/appearance/settings_table.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/grasp_options.h"
+#include "gui/hand/hand_feature.h"
 #include "gui/hand/motion_button.h"
 #include "gui/hand/object_fields.h"
 #include "gui/hand/touch_store.h"
@@ -44,6 +46,8 @@ constexpr const char* kLimitTip =
 constexpr const char* kForceLimitTip =
     "A grasp stops when a finger presses harder, by the calibration. A slip-aware grasp begins "
     "with its limit in counts, and closes no further while a finger is above this one";
+constexpr const char* kNotInSightTip =
+    "A recording is shown, not the hand. Live (F6) shows the hand; then it can be moved";
 constexpr int kForecastLines = 2;
 constexpr int kForecastMs = 250;
 constexpr double kForecastDeg = 0.5;  // a joint that moves less changes no forecast
@@ -55,7 +59,10 @@ bool isWarned(const GraspForecast& forecast) {
 
 }  // namespace
 
-GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent)
+GraspPanel::GraspPanel(QSettings& settings,
+                       TouchStore& touches,
+                       const HandActions& actions,
+                       QWidget* parent)
     : QWidget(parent), settings_(settings), touches_(touches) {
   highestLimit = [](const GraspRequest&) { return kMaxGraspLimitCounts; };
   const GraspRequest usual;
@@ -115,30 +122,35 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
   });
 
   // The order of creation is the tab order.
-  grasp_ = motionButton("Grasp", "graspHand", {}, true, this);
-  reactive_ = motionButton("Reactive", "reactiveGrasp", {}, true, this);
-  slipAware_ = motionButton("Slip-aware", "slipAwareGrasp", {}, true, this);
-  open_ = motionButton("Open", "openHand", {}, true, this);
-  relax_ = motionButton("Relax", "relaxHand", {}, true, this);
-  options_ = new GraspOptions(settings, this);
-  auto* buttons = inColumn(
-      {inRow({{grasp_, 1}, {reactive_, 1}, {slipAware_, 1}}), inRow({{open_, 1}, {relax_, 1}})});
-  // Below the buttons, which don't move when it unfolds.
-  setLayout(inColumn({form, buttons, options_, Stretch{}}, Space::kWide));
-
-  connect(open_, &QPushButton::clicked, this, [this] {
+  const auto motion = [this](QAction* action, const char* text, const char* name, auto does) {
+    auto* button = motionButton(text, name, {}, true, this);
+    connect(action, &QAction::triggered, button, &QPushButton::click);
+    connect(button, &QPushButton::clicked, this, does);
+    return Motion{action, button};
+  };
+  const auto grasps = [this](GraspMode mode) { return [this, mode] { begin(request(mode)); }; };
+  grasp_ = motion(actions.graspHand, "Grasp", "graspHand", grasps(GraspMode::kPlain));
+  reactive_ =
+      motion(actions.reactiveGrasp, "Reactive", "reactiveGrasp", grasps(GraspMode::kReactive));
+  slipAware_ =
+      motion(actions.slipAwareGrasp, "Slip-aware", "slipAwareGrasp", grasps(GraspMode::kSlip));
+  open_ = motion(actions.openHand, "Open", "openHand", [this] {
     GraspRequest request = this->request(GraspMode::kPlain);
     request.closeRatio = 0.0;
     begin(request);
   });
-  connect(grasp_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kPlain)); });
-  connect(reactive_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kReactive)); });
-  connect(slipAware_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kSlip)); });
-  connect(relax_, &QPushButton::clicked, this, [this] {
+  relax_ = motion(actions.relaxHand, "Relax", "relaxHand", [this] {
     emit begins();
     if (control_) control_->relax();
     emit asked();
   });
+  options_ = new GraspOptions(settings, this);
+  auto* buttons =
+      inColumn({inRow({{grasp_.button, 1}, {reactive_.button, 1}, {slipAware_.button, 1}}),
+                inRow({{open_.button, 1}, {relax_.button, 1}})});
+  // Below the buttons, which don't move when it unfolds.
+  setLayout(inColumn({form, buttons, options_, Stretch{}}, Space::kWide));
+
   connect(preshape_, &QComboBox::currentIndexChanged, this, [this] {
     options_->object().setPreshape(preshape_->currentData().toString().toStdString());
     remember();
@@ -279,6 +291,20 @@ void GraspPanel::setCalibrationBeingRead(bool beingRead) {
   showStatus(now);
 }
 
+void GraspPanel::setInSight(bool on) {
+  inSight_ = on;
+  showStatus(shown_);
+}
+
+void GraspPanel::offer(const Motion& motion, bool can, const QString& tip) {
+  enableMotionButton(*motion.button, can);
+  if (motion.button->toolTip() != tip) motion.button->setToolTip(tip);
+  // Nobody moves a hand by a key who looks at something else.
+  motion.action->setEnabled(can && inSight_);
+  motion.action->setToolTip(inSight_ ? tip : kNotInSightTip);
+  setWhyGreyed(*motion.action, motion.action->isEnabled() ? QString() : motion.action->toolTip());
+}
+
 void GraspPanel::showStatus(const GraspStatus& status) {
   shown_ = status;
   if (!std::equal(status.anglesDeg.begin(),
@@ -298,40 +324,37 @@ void GraspPanel::showStatus(const GraspStatus& status) {
   const bool waits = calibrationBeingRead_ && !status.calibrated && options_->inNewtons();
   const std::string cannotReact = waits ? kCalibrationBeingRead : status.cannotReact;
   const bool canReact = control_ && cannotReact.empty();
-  const auto set = [](QPushButton* which, bool enabled, const QString& tip) {
-    enableMotionButton(*which, enabled);
-    if (which->toolTip() != tip) which->setToolTip(tip);
-  };
   const QString busy = busyText(status);
   const auto why = [&](const std::string& problem) {
     return !control_ ? whyNot_ : QString::fromStdString(problem);
   };
-  set(open_,
-      canMove && idle,
-      !canMove ? why(status.cannotMove)
-      : idle   ? "Opens to this preshape"
-               : busy);
-  set(relax_,
+  offer(open_,
+        canMove && idle,
+        !canMove ? why(status.cannotMove)
+        : idle   ? "Opens to this preshape"
+                 : busy);
+  offer(
+      relax_,
       canMove,
       canMove
           ? "Switches the motors off: the fingers can be moved by hand, and a held object may fall"
           : why(status.cannotMove));
-  set(grasp_,
-      canMove && idle,
-      !idle     ? busy
-      : canMove ? "Closes to the close ratio, without regard to contact"
-                : why(status.cannotMove));
-  set(reactive_,
-      canReact && idle,
-      !idle      ? busy
-      : canReact ? "Closes until the first taxel is over the limit"
-                 : why(cannotReact));
-  set(slipAware_,
-      canReact && idle,
-      !idle      ? busy
-      : canReact ? "Closes to the limit and holds; when the object slips, closes to a higher "
-                   "limit. Stop ends it; the hand keeps holding"
-                 : why(cannotReact));
+  offer(grasp_,
+        canMove && idle,
+        !idle     ? busy
+        : canMove ? "Closes to the close ratio, without regard to contact"
+                  : why(status.cannotMove));
+  offer(reactive_,
+        canReact && idle,
+        !idle      ? busy
+        : canReact ? "Closes until the first taxel is over the limit"
+                   : why(cannotReact));
+  offer(slipAware_,
+        canReact && idle,
+        !idle      ? busy
+        : canReact ? "Closes to the limit and holds; when the object slips, closes to a higher "
+                     "limit. Stop ends it; the hand keeps holding"
+                   : why(cannotReact));
 }
 
 }  // namespace palpate::gui

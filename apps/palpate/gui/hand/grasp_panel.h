@@ -11,6 +11,7 @@
 
 #include "gui/appearance/theme.h"
 
+class QAction;
 class QCheckBox;
 class QComboBox;
 class QFormLayout;
@@ -20,6 +21,7 @@ class QPushButton;
 namespace palpate::gui {
 
 class GraspOptions;
+struct HandActions;
 class StatusLines;
 class TouchStore;
 class ValueSlider;
@@ -28,7 +30,7 @@ class GraspPanel : public QWidget {
   Q_OBJECT
  public:
   // Stores the chosen values in `settings`, which must outlive this, as must `touches`.
-  GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent);
+  GraspPanel(QSettings& settings, TouchStore& touches, const HandActions& actions, QWidget* parent);
   // Null: no hand, or one that is read only; the tool tips then tell `whyNot`. `control` must
   // outlive this, or be replaced by null before it is destroyed.
   void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
@@ -42,8 +44,9 @@ class GraspPanel : public QWidget {
   // The highest limit that the matrices can measure in such a grasp [counts]; a limit in newtons is
   // watched together with it.
   std::function<int(const GraspRequest& request)> highestLimit;
-  // In the order of the dock: Grasp, Reactive, Slip-aware, Open, Relax.
-  QList<QPushButton*> buttons() const { return {grasp_, reactive_, slipAware_, open_, relax_}; }
+  // Whether the window shows the hand, and not a recording: only then the actions are enabled.
+  void setInSight(bool on);
+  const QPushButton* relaxButton() const { return relax_.button; }
 
  signals:
   // A motion is about to be requested.
@@ -56,6 +59,13 @@ class GraspPanel : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
+  // What moves the hand: a button, and an action with the same texts that clicks it, so that what
+  // is typed in a field counts for both.
+  struct Motion {
+    QAction* action;
+    QPushButton* button;
+  };
+  void offer(const Motion& motion, bool can, const QString& tip);
   void begin(const GraspRequest& request);
   void remember();
   void makeForecast(QFormLayout& form);
@@ -83,11 +93,12 @@ class GraspPanel : public QWidget {
   // The angles of which the forecast is [deg].
   std::vector<double> forecastDeg_;
   GraspOptions* options_;
-  QPushButton* open_;
-  QPushButton* grasp_;
-  QPushButton* reactive_;
-  QPushButton* slipAware_;
-  QPushButton* relax_;
+  bool inSight_ = true;
+  Motion grasp_;
+  Motion reactive_;
+  Motion slipAware_;
+  Motion open_;
+  Motion relax_;
 };
 
 }  // namespace palpate::gui

@@ -19,7 +19,6 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/button_keys.h"
-#include "gui/desktop/greyed_keys.h"
 #include "gui/hand/grasp_panel.h"
 #include "gui/hand/hand_feature.h"
 #include "gui/hand/joint_panel.h"
@@ -45,8 +44,6 @@ constexpr int kStateLines = 4;   // lines reserved for the status text
 constexpr int kAnswerMs = 6000;  // for which the answer to a press stays
 constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc works everywhere)";
-constexpr const char* kNotInSightTip =
-    "A recording is shown, not the hand. Live (F6) shows the hand; then it can be moved";
 constexpr const char* kReadOnlyTip = "This hand is read, not moved";
 constexpr const char* kHandDockNothing = "–";
 
@@ -60,7 +57,8 @@ CaptureQueueOptions smallFeed() {
 
 }  // namespace
 
-HandDock::HandDock(QSettings& settings, Ask& ask, QWidget* parent) : QWidget(parent) {
+HandDock::HandDock(QSettings& settings, Ask& ask, const HandActions& actions, QWidget* parent)
+    : QWidget(parent), actions_(actions) {
   calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
   calibrationBeingRead = [](const std::string&) { return false; };
   ownMotion = [] { return QString(); };
@@ -88,7 +86,8 @@ HandDock::HandDock(QSettings& settings, Ask& ask, QWidget* parent) : QWidget(par
     answer_.clear();
     refresh();
   });
-  connect(stop_, &QPushButton::clicked, this, [this] {
+  connect(stop_, &QPushButton::clicked, actions.stopHand, &QAction::trigger);
+  connect(actions.stopHand, &QAction::triggered, this, [this] {
     clearAnswers();
     refusedNumber_.clear();
     if (control_) control_->stop();
@@ -108,7 +107,7 @@ HandDock::HandDock(QSettings& settings, Ask& ask, QWidget* parent) : QWidget(par
       connect(button, &QPushButton::pressed, this, [this, button] {
         if (!refusalIsNew_) refusedNumber_.clear();
         if (auto* field = qobject_cast<QAbstractSpinBox*>(focusWidget())) field->clearFocus();
-        if (!refusalIsNew_ || button == grasp_->buttons().back()) return;
+        if (!refusalIsNew_ || button == grasp_->relaxButton()) return;
         // Who typed another number than that which stays doesn't want this motion. This takes back
         // a press by the mouse; that by a key is not heard.
         refusedNumber_ += ", and nothing was started";
@@ -165,7 +164,7 @@ QWidget* HandDock::makeHead() {
 
 void HandDock::makePages(QSettings& settings, Ask& ask, QWidget* content) {
   touches_ = new TouchStore(this);
-  grasp_ = new GraspPanel(settings, *touches_, content);
+  grasp_ = new GraspPanel(settings, *touches_, actions_, content);
   joint_ = new JointPanel(settings, ask, content);
   sequence_ = new SequencePanel(settings, ask, content);
   chooser_ = named(new QTabBar(content), "handPages");
@@ -211,7 +210,8 @@ void HandDock::connectMotions() {
       if (control_)
         if (const auto last = control_->status().last) explainedEndUs_ = last->endUs;
       // What the hand does hides said_.
-      if (control_ && control_->status().phase != GraspPhase::kIdle) answer(why, nullptr);
+      if (control_ && control_->status().phase != GraspPhase::kIdle)
+        answer(why, [] { return false; });
     });
     connect(panel, &Panel::asked, this, &HandDock::refresh);
     connect(panel, &Panel::asked, this, &HandDock::asked);
@@ -291,20 +291,18 @@ bool HandDock::eventFilter(QObject* watched, QEvent* event) {
       static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) {
     const QString name =
         button->accessibleName().isEmpty() ? button->text() : button->accessibleName();
-    answer(name + ": " + button->toolTip(), button);
+    answer(name + ": " + button->toolTip(), [button] { return button->isEnabled(); });
   }
   return QWidget::eventFilter(watched, event);
 }
 
-void HandDock::answerKey(const QAction* action) {
-  for (const auto& [each, button] : bound_)
-    if (each == action && !button->isEnabled())
-      answer(refusalOf(*action, action->toolTip()), button);
+void HandDock::answerKey(const QString& why, const QAction* action) {
+  answer(why, [action] { return action->isEnabled(); });
 }
 
-void HandDock::answer(const QString& why, const QAbstractButton* button) {
+void HandDock::answer(const QString& why, std::function<bool()> canBePressed) {
   answer_ = why.endsWith('.') || why.endsWith('!') || why.endsWith('?') ? why : why + ".";
-  answeredButton_ = button;
+  canBePressed_ = std::move(canBePressed);
   answerTimer_.start();
   showState(control_ ? control_->status() : GraspStatus{});
 }
@@ -312,7 +310,6 @@ void HandDock::answer(const QString& why, const QAbstractButton* button) {
 void HandDock::clearAnswers() {
   said_.clear();
   answer_.clear();
-  answeredButton_ = nullptr;
 }
 
 void HandDock::fitWidth() {
@@ -342,6 +339,8 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   stopKey_->setControl(control);
   stop_->setEnabled(control != nullptr);
   stop_->setToolTip(control ? kStopTip : session ? kReadOnlyTip : "No hand is connected");
+  actions_.stopHand->setEnabled(stop_->isEnabled());
+  actions_.stopHand->setToolTip(stop_->toolTip());
   for (QWidget* each : controls_) each->setVisible(!isReadOnly());
   updateHand();
   heat_->hide();
@@ -407,14 +406,9 @@ void HandDock::refresh() {
   if (gone) goneUs_ = session_->nowUs();
   emit reachedChanged(!gone);
   for (FactsView* view : {angles_, temperatures_}) view->setStale(gone);
-  // What was pressed in vain can be pressed now.
-  if (answeredButton_ && answeredButton_->isEnabled()) {
-    answer_.clear();
-    answeredButton_ = nullptr;
-  }
+  if (!answer_.isEmpty() && canBePressed_()) answer_.clear();
   showState(status);
   showCondition(status, changes);
-  showBound();
 }
 
 void HandDock::acknowledge() {
@@ -436,22 +430,6 @@ void HandDock::showCondition(const GraspStatus& status, const std::vector<GraspC
   for (const GraspChange& change : changes) tell(change.condition);
   tell(now);
   emit conditionShown(now);
-}
-
-void HandDock::bind(const HandActions& actions) {
-  QList<QPushButton*> buttons = grasp_->buttons();
-  buttons.append(stop_);
-  const QList<QAction*> all{actions.graspHand,
-                            actions.reactiveGrasp,
-                            actions.slipAwareGrasp,
-                            actions.openHand,
-                            actions.relaxHand,
-                            actions.stopHand};
-  for (qsizetype i = 0; i < all.size(); ++i) {
-    bound_.emplace_back(all[i], buttons[i]);
-    connect(all[i], &QAction::triggered, buttons[i], &QPushButton::click);
-  }
-  showBound();
 }
 
 // Judges the matrices as the offered grasps would: by the reactive grasp; where that detects
@@ -506,19 +484,7 @@ void HandDock::followRefusal(const GraspStatus& status,
   if (limitMeasurable_ && said_ == QString::fromStdString(refused.text)) said_.clear();
 }
 
-void HandDock::setInSight(bool on) {
-  inSight_ = on;
-  showBound();
-}
-
-void HandDock::showBound() {
-  for (const auto& [action, button] : bound_) {
-    // Nobody moves a hand by a key who looks at something else; Stop works always.
-    const bool offered = inSight_ || button == stop_;
-    action->setEnabled(button->isEnabled() && offered);
-    action->setToolTip(offered ? button->toolTip() : kNotInSightTip);
-  }
-}
+void HandDock::setInSight(bool on) { grasp_->setInSight(on); }
 
 void HandDock::showRefusedNumber(const QString& what) {
   // A field whose mark goes later doesn't take away the text about another one.

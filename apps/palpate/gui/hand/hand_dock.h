@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <palpate/capture/capture_session.h>
@@ -19,7 +18,6 @@
 #include "gui/appearance/display_units.h"
 #include "gui/appearance/theme.h"
 
-class QAbstractButton;
 class QAction;
 class QLabel;
 class QPushButton;
@@ -44,8 +42,9 @@ class TouchStore;
 class HandDock : public QWidget {
   Q_OBJECT
  public:
-  // Stores choices and named settings in `settings`, which must outlive this.
-  HandDock(QSettings& settings, Ask& ask, QWidget* parent = nullptr);
+  // Stores choices and named settings in `settings`, which must outlive this. The actions do what
+  // the buttons do.
+  HandDock(QSettings& settings, Ask& ask, const HandActions& actions, QWidget* parent = nullptr);
   ~HandDock() override;
   // Sets the connected hand; null when there is none. Both must outlive this, or be replaced by
   // null before they are destroyed.
@@ -57,9 +56,6 @@ class HandDock : public QWidget {
   QStringList pageNames() const;
   // A name that no page has changes nothing.
   void showPage(const QString& name);
-  // Connects menu entries and keys with the buttons: they do the same and are enabled together.
-  // Call it once.
-  void bind(const HandActions& actions);
   // The units of the present angles and temperatures; targets and velocities stay in degrees.
   void setUnits(const DisplayUnits& units);
   TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
@@ -78,8 +74,8 @@ class HandDock : public QWidget {
   std::function<QString()> ownMotion;
   // The user has seen that a protection ended.
   void acknowledge();
-  // The key of a bound action was pressed that can't begin now: says why.
-  void answerKey(const QAction* action);
+  // The key of an action was pressed that can't begin now: says why.
+  void answerKey(const QString& why, const QAction* action);
   // Call this when another calibration was applied, or was read.
   void renewCalibration();
   // `text` below the friction that the running or the last grasp has measured: a line that is seen
@@ -127,15 +123,14 @@ class HandDock : public QWidget {
   // `more` is told by the tool tip only.
   void say(const QString& what, bool bad, const QString& more = {});
   void showRefusedNumber(const QString& what);
-  // Says for some seconds why `button` was pressed in vain, or until it can be pressed.
-  void answer(const QString& why, const QAbstractButton* button);
+  // Says for some seconds why something was pressed in vain, or until it can be pressed.
+  void answer(const QString& why, std::function<bool()> canBePressed);
   // The texts that belong to what was pressed before.
   void clearAnswers();
   void showState(const GraspStatus& status);
   void showCondition(const GraspStatus& status, const std::vector<GraspChange>& changes);
   // See PortStatus.
   std::int64_t foundMovingUs() const;
-  void showBound();
   void followRefusal(const GraspStatus& status, const std::vector<MatrixSettings>& settings);
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
   QString phaseText(const GraspStatus& status) const;
@@ -145,6 +140,7 @@ class HandDock : public QWidget {
   void showAngles(const JointAngles& angles);
   void showTemperatures(const Temperatures& temperatures);
 
+  const HandActions& actions_;
   QScrollArea* body_ = nullptr;
   CaptureSession* session_ = nullptr;
   GraspControl* control_ = nullptr;
@@ -176,7 +172,6 @@ class HandDock : public QWidget {
   QWidget* heats_;
   FactsView* temperatures_;
   StopKey* stopKey_;
-  bool inSight_ = true;
   // Of the connected hand, once it could be moved: the condition that was told last.
   std::optional<HandCondition> toldCondition_;
   QTimer timer_;
@@ -196,11 +191,11 @@ class HandDock : public QWidget {
   const QObject* refusedBy_ = nullptr;  // the RefusedNumber of that field
   // It was found in the event that is being handled.
   bool refusalIsNew_ = false;
-  // Why a button was pressed in vain, and that button; shown like refusedNumber_.
+  // Why a button or key was pressed in vain, and whether it can be pressed by now; shown like
+  // refusedNumber_.
   QString answer_;
-  const QAbstractButton* answeredButton_ = nullptr;
+  std::function<bool()> canBePressed_;
   QTimer answerTimer_;
-  std::vector<std::pair<QAction*, QPushButton*>> bound_;
   std::vector<QString> unmeasurable_;
   // The inputs that unmeasurable_ was computed from.
   struct Judged {

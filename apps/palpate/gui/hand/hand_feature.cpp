@@ -36,23 +36,17 @@ HandActions::HandActions(ActionRegistry& book) {
 HandFeature::HandFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
-      panel_(new HandDock(windowState.settings, windowState.ask, window)) {
+      panel_(new HandDock(windowState.settings, windowState.ask, actions_, window)) {
   dock_ = new Dock("Hand", panel_, nullptr, window);
-  panel_->bind(actions_);
   auto* dialogs = new DialogStop(*actions_.stopHand, this);
   connect(panel_, &HandDock::reachedChanged, dialogs, &DialogStop::setReached);
-  const QList<QAction*> motions{actions_.graspHand,
-                                actions_.reactiveGrasp,
-                                actions_.slipAwareGrasp,
-                                actions_.openHand,
-                                actions_.relaxHand};
-  auto* keys = new GreyedKeys(
-      motions, [](const QAction& action) { return action.toolTip(); }, window, this);
-  connect(keys, &GreyedKeys::refusedAction, panel_, &HandDock::answerKey);
-  connect(keys, &GreyedKeys::refused, &windowState.messages, &Messages::flash);
-  connect(keys, &GreyedKeys::refused, &windowState.handCommands, &HandCommands::keyRefused);
   windowState.handCommands.stop = actions_.stopHand;
-  windowState.handCommands.motions = motions;
+  windowState.handCommands.motions = {actions_.graspHand,
+                                      actions_.reactiveGrasp,
+                                      actions_.slipAwareGrasp,
+                                      actions_.openHand,
+                                      actions_.relaxHand};
+  connect(&windowState.handCommands, &HandCommands::keyRefused, panel_, &HandDock::answerKey);
   connect(panel_, &HandDock::stateShown, &windowState.handCommands, &HandCommands::setHandState);
   connect(panel_, &HandDock::unacknowledged, actions_.acknowledgeHand, &QAction::setEnabled);
   connect(

@@ -85,6 +85,7 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   addFeatures();
   const auto* greyed = new GreyedKeys(windowState_->actions.all(), &whyGreyed, this, this);
   connect(greyed, &GreyedKeys::refused, &windowState_->messages, &Messages::flash);
+  connect(greyed, &GreyedKeys::refused, &windowState_->handCommands, &HandCommands::refuseKey);
   resize(firstSize());
   restorePlace(*this, windowState_->settings, "window/geometry");
   centre_->begin();

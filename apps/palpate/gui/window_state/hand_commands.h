@@ -53,6 +53,11 @@ class HandCommands : public QObject {
     emit handStateChanged();
   }
 
+  // The key of a greyed action was pressed.
+  void refuseKey(const QString& why, const QAction* action) {
+    if (motions.contains(action)) emit keyRefused(why, action);
+  }
+
  signals:
   // Another calibration was applied, or the applied one was removed, is being read, or was read.
   void calibrationApplied();
@@ -67,7 +72,7 @@ class HandCommands : public QObject {
   void handStateChanged();
   void conditionChanged();
   // The key of a motion was pressed that can't begin now: one line that tells why.
-  void keyRefused(const QString& why);
+  void keyRefused(const QString& why, const QAction* action);
 
  private:
   std::optional<ExplainedCondition> condition_;
