@@ -507,23 +507,6 @@ TEST_F(HandDockTest, ARefusedModeLeavesRedo) {
 }
 
 // The friction was to be seen for less than a second.
-TEST(HandDock, ShowsTheFrictionUntilTheNextGrasp) {
-  GraspStatus status;
-  status.request = GraspRequest{};
-  EXPECT_EQ(HandDock::withFriction("holding", status), "holding");
-  status.last = GraspReport{};
-  status.last->friction = 0.4;
-  EXPECT_EQ(HandDock::withFriction("closing", status), "closing") << "that was another grasp";
-  status.friction = 0.687;
-  EXPECT_EQ(HandDock::withFriction("holding", status), "friction roughly 0.69\nholding");
-  // It has ended.
-  status.request.reset();
-  status.friction.reset();
-  EXPECT_EQ(HandDock::withFriction("stopped", status), "friction roughly 0.40\nstopped");
-  EXPECT_EQ(HandDock::withFriction("finished, friction roughly 0.40; it holds", status),
-            "finished, friction roughly 0.40; it holds");
-}
-
 TEST_F(HandDockTest, ARefusedNumberIsMarkedUntilTheNextOne) {
   applyTheme(*qApp, Theme::kDark);
   connectTo(stillHand());
@@ -700,25 +683,6 @@ TEST_F(HandDockTest, AHotMotorMovesNoButton) {
   connectTo(std::make_unique<HotHand>());
   ASSERT_TRUE(await([&] { return find<QLabel>("handHeat")->isVisible(); }));
   EXPECT_EQ(place(), before);
-}
-
-// L-M13
-TEST_F(HandDockTest, OpeningIsCalledOpening) {
-  connectTo(stillHand());
-  type("velocity", "10");
-  type("closeRatio", "1");
-  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
-  click("graspHand");
-  ASSERT_TRUE(bench_->awaitMotion());
-  EXPECT_TRUE(await([&] { return state().startsWith("closing"); })) << state().toStdString();
-  click("stopHand");
-  ASSERT_TRUE(await([&] { return isEnabled("openHand"); }));
-  click("openHand");
-  ASSERT_TRUE(await([&] { return bench_->control->status().phase == GraspPhase::kClosing; }));
-  dock_->refresh();
-  EXPECT_TRUE(state().startsWith("opening")) << state().toStdString();
-  EXPECT_FALSE(state().contains("closing")) << state().toStdString();
-  EXPECT_FALSE(state().contains("grasp")) << state().toStdString();
 }
 
 // L-minor 9

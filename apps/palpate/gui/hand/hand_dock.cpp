@@ -10,17 +10,16 @@
 #include <QTabBar>
 #include <QTimer>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <palpate/capture/link_health.h>
-#include <palpate/core/time.h>
 #include <palpate/device/stream_device.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/grasp_panel.h"
 #include "gui/hand/hand_feature.h"
+#include "gui/hand/hand_sentence.h"
 #include "gui/hand/joint_panel.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/hand/sequence_panel.h"
@@ -326,7 +325,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   refusedNumber_.clear();
   judged_.reset();
   layout_.reset();
-  goneUs_.reset();
+  goneUs_ = 0;
   toldCondition_.reset();
   queue_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   const QString whyNot = isReadOnly() ? kReadOnlyTip : "No hand is connected";
@@ -512,133 +511,29 @@ void HandDock::say(const QString& what, bool bad, const QString& more) {
 }
 
 void HandDock::showState(const GraspStatus& status) {
-  if (!session_) return say("No hand is connected.", false);
-  if (!control_) {
+  using Hand = HandFacts::Hand;
+  HandFacts facts{.status = status, .goneUs = goneUs_};
+  if (control_) {
+    const auto motion = session_->device().status().motion;
+    const bool unanswered = status.phase == GraspPhase::kStopping && !status.cannotMove.empty();
+    if (sequence_->running())
+      facts.sequence = sequence_->stateText();
+    else if (status.phase != GraspPhase::kIdle && status.request && !unanswered)
+      said_.clear();
+    facts.hand = Hand::kMovable;
+    facts.nowUs = session_->nowUs();
+    facts.foundMovingUs = motion ? motion->foundMovingUs : 0;
+    facts.refusal = said_;
+    facts.ownMotion = ownMotion();
+    facts.limitMeasurable = limitMeasurable_ && status.last && status.last->endUs == refusedUs_;
+  } else if (session_) {
     const bool streamed = dynamic_cast<const StreamDevice*>(&session_->device()) != nullptr;
-    return say(streamed ? "This hand is read, not moved: its stream takes no commands."
-                        : "A recording is replayed: there is nothing to move.",
-               false);
+    facts.hand = streamed ? Hand::kStreamed : Hand::kReplayed;
   }
-  if (sequence_->running()) {
-    const QString phase = status.phase == GraspPhase::kIdle ? QString() : phaseText(status);
-    return say(sequence_->stateText() + (phase.isEmpty() ? "" : "\n" + phase.section(" · ", 0, 0)),
-               false);
-  }
-  if (status.phase == GraspPhase::kStopping && !status.cannotMove.empty())
-    return say(motionBlockedReason(status), true, QString::fromStdString(status.cannotMove));
-  if (status.phase != GraspPhase::kIdle) {
-    // Without a request, the phase is only the end of a motion.
-    if (status.request) said_.clear();
-    if (const ExplainedCondition now = conditionOf(status);
-        now.condition == HandCondition::kNotProtected)
-      return say("Not protected: " + QString::fromStdString(now.sentence), true);
-    return say(withFriction(phaseText(status), status), false);
-  }
-  if (!status.cannotMove.empty())
-    return say(motionBlockedReason(status), true, QString::fromStdString(status.cannotMove));
-  if (!status.unprotected.empty()) {
-    const QString text = QString::fromStdString(status.unprotected);
-    if (std::exchange(explainedEndUs_, status.lastMotion->endUs) != status.lastMotion->endUs)
-      emit explained(text);
-    return say("Not protected: " + text + ". Hand > Acknowledge: you have seen it." +
-                   (said_.isEmpty() ? "" : "\n" + said_),
-               true);
-  }
-  if (!said_.isEmpty()) return say(said_, true);
-  if (const QString own = ownMotion(); !own.isEmpty())
-    return say("The emulated hand acts by itself, as its scene says: " + own +
-                   ". Stop (Esc) or a motion of yours ends that.",
-               false);
-  if (status.motorsOff)
-    return say(
-        "The motors are off: the fingers can be moved by hand, and an object may fall. The "
-        "next motion switches them on.",
-        false);
-  if (const std::int64_t foundUs = foundMovingUs();
-      foundUs > 0 && (!status.last || status.last->endUs < foundUs))
-    return say(
-        "The hand was moving when it was connected, watched by nobody: it was stopped. Ready.",
-        true);
-  if (!status.last) return say("Ready.", false);
-  if (const auto over = lastGraspText(*status.last, status))
-    return say(withFriction(*over, status), false);
-  const QString text = withFriction(QString::fromStdString(status.last->text), status);
-  switch (status.last->outcome) {
-    case GraspOutcome::kFinished:
-    case GraspOutcome::kLimitReached:
-    case GraspOutcome::kStopped:
-    case GraspOutcome::kRelaxed:
-      return say(text, false);
-    default:
-      if (std::exchange(explainedEndUs_, status.last->endUs) != status.last->endUs)
-        emit explained(text);
-      return say(text, true);
-  }
-}
-
-std::int64_t HandDock::foundMovingUs() const {
-  const auto motion = session_->device().status().motion;
-  return motion ? motion->foundMovingUs : 0;
-}
-
-QString HandDock::withFriction(const QString& text, const GraspStatus& status) {
-  std::optional<double> friction = status.friction;
-  if (!status.request && status.last) friction = status.last->friction;
-  if (!friction) return text;
-  const QString said = "friction roughly " + figure(*friction, 2);
-  // The text of a grasp that ended after its time has it already.
-  return text.contains(said) ? text : said + "\n" + text;
-}
-
-QString HandDock::phaseText(const GraspStatus& status) const {
-  const std::string_view name = nameOf(status.phase);
-  const QString phase = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
-  if (!status.request) return phase;
-  QString what = QString::fromStdString(describe(*status.request));
-  // "opening: centrical, 10 deg/s" already names the phase.
-  if (isOpening(*status.request) && status.phase == GraspPhase::kClosing)
-    return what.replace(": ", " · ");
-  // How it holds, and what may be wrong with it, comes before what was asked for.
-  if (status.phase == GraspPhase::kHolding && !status.holding.empty())
-    return QString::fromStdString(status.holding) + " · " + what;
-  return phase + " · " + what;
-}
-
-QString HandDock::motionBlockedReason(const GraspStatus& status) const {
-  const QString why = QString::fromStdString(status.cannotMove);
-  const QString powerOff =
-      "Use the emergency stop, or switch the power of the hand off, if it moves. ";
-  if (status.phase == GraspPhase::kStopping)
-    return "Stops are sent to the hand, and none is answered. " + powerOff + why;
-  if (!status.portGone && status.last && status.last->stateUnknown)
-    return "No stop was answered: what the hand does is not known. " + powerOff + why;
-  if (!status.portGone) return "The hand can't be moved: " + why;
-  // What the hand does comes first. The status is in red, and the hand is looked for all the time.
-  const QString gone = " The motion port is disconnected: plug it in again.";
-  const double remainingMotionS = status.portGone->remainingMotionS.value_or(0.0);
-  if (remainingMotionS == 0.0) return "The hand does not move; the motors are on and hold." + gone;
-  const double leftS =
-      remainingMotionS - static_cast<double>(session_->nowUs() - status.portGone->endUs) / kUsPerS;
-  if (leftS > 0.0)
-    return "The hand still moves to its target, for " + figure(std::ceil(leftS), 0) +
-           " s at most. The window can't stop it: use the emergency stop, or switch its power "
-           "off." +
-           gone;
-  return "Its motion has ended, and the motors hold." + gone;
-}
-
-// The text when the reason that ended the last grasp no longer exists.
-std::optional<QString> HandDock::lastGraspText(const GraspReport& report,
-                                               const GraspStatus& status) const {
-  if (report.outcome == GraspOutcome::kPortGone)
-    return "Ready. The motion port was disconnected during a motion, and is connected again.";
-  if (goneUs_ && *goneUs_ > report.endUs)
-    return "Ready. The motion port was disconnected, and is back.";
-  if (report.outcome == GraspOutcome::kRefused && report.endUs == refusedUs_ && limitMeasurable_)
-    return "Ready. The last grasp was refused: its limit couldn't be measured; now it can.";
-  if (report.outcome == GraspOutcome::kStreamLost && !report.held && status.cannotReact.empty())
-    return "Ready. The last grasp was stopped: no tactile frames arrived; they arrive again.";
-  return std::nullopt;
+  const HandSentence now = handSentence(facts);
+  if (now.endUs > 0 && std::exchange(explainedEndUs_, now.endUs) != now.endUs)
+    emit explained(now.why);
+  say(now.text, now.bad, now.more);
 }
 
 void HandDock::showSamples() {

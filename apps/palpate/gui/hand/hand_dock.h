@@ -78,9 +78,6 @@ class HandDock : public QWidget {
   void answerKey(const QString& why, const QAction* action);
   // Call this when another calibration was applied, or was read.
   void renewCalibration();
-  // `text` below the friction that the running or the last grasp has measured: a line that is seen
-  // without scrolling.
-  static QString withFriction(const QString& text, const GraspStatus& status);
   // Updates the dock; a timer calls it while a hand is connected.
   void refresh();
   QSize sizeHint() const override { return {455, 640}; }
@@ -129,13 +126,8 @@ class HandDock : public QWidget {
   void clearAnswers();
   void showState(const GraspStatus& status);
   void showCondition(const GraspStatus& status, const std::vector<GraspChange>& changes);
-  // See PortStatus.
-  std::int64_t foundMovingUs() const;
   void followRefusal(const GraspStatus& status, const std::vector<MatrixSettings>& settings);
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
-  QString phaseText(const GraspStatus& status) const;
-  QString motionBlockedReason(const GraspStatus& status) const;
-  std::optional<QString> lastGraspText(const GraspReport& report, const GraspStatus& status) const;
   void showSamples();
   void showAngles(const JointAngles& angles);
   void showTemperatures(const Temperatures& temperatures);
@@ -175,8 +167,8 @@ class HandDock : public QWidget {
   // Of the connected hand, once it could be moved: the condition that was told last.
   std::optional<HandCondition> toldCondition_;
   QTimer timer_;
-  // When the motion port was last missing [us since 1970].
-  std::optional<std::int64_t> goneUs_;
+  // When the motion port was last missing [us since 1970]; 0: never.
+  std::int64_t goneUs_ = 0;
   // Why a motion was refused; shown until another motion is requested.
   QString said_;
   // When the last grasp was refused [us since 1970]; whether because matrices can't measure its

@@ -1,0 +1,144 @@
+#include "gui/hand/hand_sentence.h"
+
+#include <cmath>
+#include <optional>
+
+#include <palpate/core/time.h>
+
+#include "gui/appearance/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+QString handText(std::string_view from) {
+  return QString::fromUtf8(from.data(), static_cast<qsizetype>(from.size()));
+}
+
+QString phaseText(const GraspStatus& status) {
+  const QString phase = handText(nameOf(status.phase));
+  if (!status.request) return phase;
+  QString what = handText(describe(*status.request));
+  // "opening: centrical, 10 deg/s" already names the phase.
+  if (isOpening(*status.request) && status.phase == GraspPhase::kClosing)
+    return what.replace(": ", " · ");
+  // How it holds, and what may be wrong with it, comes before what was asked for.
+  if (status.phase == GraspPhase::kHolding && !status.holding.empty())
+    return handText(status.holding) + " · " + what;
+  return phase + " · " + what;
+}
+
+QString blockedText(const HandFacts& facts) {
+  const GraspStatus& status = facts.status;
+  const QString why = handText(status.cannotMove);
+  const QString powerOff =
+      "Use the emergency stop, or switch the power of the hand off, if it moves. ";
+  if (status.phase == GraspPhase::kStopping)
+    return "Stops are sent to the hand, and none is answered. " + powerOff + why;
+  if (!status.portGone && status.last && status.last->stateUnknown)
+    return "No stop was answered: what the hand does is not known. " + powerOff + why;
+  if (!status.portGone) return "The hand can't be moved: " + why;
+  // What the hand does comes first. The status is in red, and the hand is looked for all the time.
+  const QString gone = " The motion port is disconnected: plug it in again.";
+  const double remainingMotionS = status.portGone->remainingMotionS.value_or(0.0);
+  if (remainingMotionS == 0.0) return "The hand does not move; the motors are on and hold." + gone;
+  const double leftS =
+      remainingMotionS - static_cast<double>(facts.nowUs - status.portGone->endUs) / kUsPerS;
+  if (leftS > 0.0)
+    return "The hand still moves to its target, for " + figure(std::ceil(leftS), 0) +
+           " s at most. The window can't stop it: use the emergency stop, or switch its power "
+           "off." +
+           gone;
+  return "Its motion has ended, and the motors hold." + gone;
+}
+
+// When the reason that ended the last grasp no longer exists.
+QString overText(const GraspReport& last, const HandFacts& facts) {
+  if (last.outcome == GraspOutcome::kPortGone)
+    return "Ready. The motion port was disconnected during a motion, and is connected again.";
+  if (facts.goneUs > last.endUs) return "Ready. The motion port was disconnected, and is back.";
+  if (last.outcome == GraspOutcome::kRefused && facts.limitMeasurable)
+    return "Ready. The last grasp was refused: its limit couldn't be measured; now it can.";
+  if (last.outcome == GraspOutcome::kStreamLost && !last.held && facts.status.cannotReact.empty())
+    return "Ready. The last grasp was stopped: no tactile frames arrived; they arrive again.";
+  return {};
+}
+
+HandSentence afterGrasp(const GraspReport& last, const HandFacts& facts) {
+  if (const QString over = overText(last, facts); !over.isEmpty())
+    return {withFriction(over, facts.status)};
+  HandSentence said{withFriction(handText(last.text), facts.status)};
+  switch (last.outcome) {
+    case GraspOutcome::kFinished:
+    case GraspOutcome::kLimitReached:
+    case GraspOutcome::kStopped:
+    case GraspOutcome::kRelaxed:
+      break;
+    default:
+      said.bad = true;
+      said.endUs = last.endUs;
+      said.why = said.text;
+  }
+  return said;
+}
+
+HandSentence atRest(const HandFacts& facts) {
+  const GraspStatus& status = facts.status;
+  if (!status.unprotected.empty()) {
+    const QString why = handText(status.unprotected);
+    return {"Not protected: " + why + ". Hand > Acknowledge: you have seen it." +
+                (facts.refusal.isEmpty() ? "" : "\n" + facts.refusal),
+            true,
+            {},
+            status.lastMotion->endUs,
+            why};
+  }
+  if (!facts.refusal.isEmpty()) return {facts.refusal, true};
+  if (!facts.ownMotion.isEmpty())
+    return {"The emulated hand acts by itself, as its scene says: " + facts.ownMotion +
+            ". Stop (Esc) or a motion of yours ends that."};
+  if (status.motorsOff)
+    return {
+        "The motors are off: the fingers can be moved by hand, and an object may fall. The next "
+        "motion switches them on."};
+  if (facts.foundMovingUs > 0 && (!status.last || status.last->endUs < facts.foundMovingUs))
+    return {"The hand was moving when it was connected, watched by nobody: it was stopped. Ready.",
+            true};
+  return status.last ? afterGrasp(*status.last, facts) : HandSentence{"Ready."};
+}
+
+}  // namespace
+
+QString withFriction(const QString& text, const GraspStatus& status) {
+  std::optional<double> friction = status.friction;
+  if (!status.request && status.last) friction = status.last->friction;
+  if (!friction) return text;
+  const QString said = "friction roughly " + figure(*friction, 2);
+  // The text of a grasp that ended after its time has it already.
+  return text.contains(said) ? text : said + "\n" + text;
+}
+
+HandSentence handSentence(const HandFacts& facts) {
+  switch (facts.hand) {
+    case HandFacts::Hand::kNone:
+      return {"No hand is connected."};
+    case HandFacts::Hand::kStreamed:
+      return {"This hand is read, not moved: its stream takes no commands."};
+    case HandFacts::Hand::kReplayed:
+      return {"A recording is replayed: there is nothing to move."};
+    case HandFacts::Hand::kMovable:
+      break;
+  }
+  const GraspStatus& status = facts.status;
+  const bool idle = status.phase == GraspPhase::kIdle;
+  if (!facts.sequence.isEmpty())
+    return {facts.sequence + (idle ? "" : "\n" + phaseText(status).section(" · ", 0, 0))};
+  if (!status.cannotMove.empty() && (idle || status.phase == GraspPhase::kStopping))
+    return {blockedText(facts), true, handText(status.cannotMove)};
+  if (idle) return atRest(facts);
+  if (const ExplainedCondition now = conditionOf(status);
+      now.condition == HandCondition::kNotProtected)
+    return {"Not protected: " + handText(now.sentence), true};
+  return {withFriction(phaseText(status), status)};
+}
+
+}  // namespace palpate::gui
