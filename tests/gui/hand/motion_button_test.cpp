@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gui/desktop/button_keys.h"
+#include "gui/desktop/key_policy.h"
 
 namespace palpate::gui::motion_button_test {
 namespace {

@@ -6,10 +6,8 @@
 #include <exception>
 
 #include "gui/appearance/theme.h"
-#include "gui/desktop/button_keys.h"
-#include "gui/desktop/field_keys.h"
 #include "gui/desktop/file_dialog_look.h"
-#include "gui/desktop/wheel_guard.h"
+#include "gui/desktop/key_policy.h"
 
 // Resources of a static library must be initialised explicitly, by a function outside of any
 // namespace.
@@ -87,9 +85,7 @@ std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
     application = std::make_unique<GuardedApplication>(argc, argv);
     systemTheme();  // reads the theme of the desktop before its style and palette are replaced
     QApplication::setStyle("Fusion");
-    new WheelGuard(application.get());
-    new ButtonKeys(application.get());
-    new FieldKeys(application.get());
+    KeyPolicy::ofApplication();
     new FileDialogLook(application.get());
   }
   QApplication::setApplicationName("palpate");

@@ -1,7 +1,6 @@
 #include "gui/desktop/greyed_keys.h"
 
 #include <QAbstractSpinBox>
-#include <QApplication>
 #include <QComboBox>
 #include <QDialog>
 #include <QHelpEvent>
@@ -12,6 +11,8 @@
 #include <QToolTip>
 #include <QWidget>
 #include <utility>
+
+#include "gui/desktop/key_policy.h"
 
 namespace palpate::gui {
 namespace {
@@ -52,7 +53,7 @@ GreyedKeys::GreyedKeys(QList<QAction*> actions,
                        QWidget* window,
                        QObject* parent)
     : QObject(parent), actions_(std::move(actions)), why_(std::move(why)), window_(window) {
-  qApp->installEventFilter(this);
+  KeyPolicy::ofApplication().install(KeyPolicy::Order::kGreyed, *this);
 }
 
 bool GreyedKeys::eventFilter(QObject* watched, QEvent* event) {

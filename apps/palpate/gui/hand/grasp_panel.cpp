@@ -16,7 +16,6 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/settings_table.h"
-#include "gui/desktop/button_keys.h"
 #include "gui/hand/grasp_options.h"
 #include "gui/hand/hand_feature.h"
 #include "gui/hand/motion_button.h"

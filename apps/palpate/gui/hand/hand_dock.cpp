@@ -16,7 +16,7 @@
 #include <palpate/device/stream_device.h>
 
 #include "gui/appearance/captions.h"
-#include "gui/desktop/button_keys.h"
+#include "gui/desktop/key_policy.h"
 #include "gui/hand/grasp_panel.h"
 #include "gui/hand/hand_feature.h"
 #include "gui/hand/hand_sentence.h"

@@ -21,7 +21,6 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/ask.h"
-#include "gui/desktop/button_keys.h"
 #include "gui/hand/motion_button.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"

@@ -3,7 +3,7 @@
 #include <QPushButton>
 #include <QVariant>
 
-#include "gui/desktop/button_keys.h"
+#include "gui/desktop/key_policy.h"
 #include "gui/widgets/make.h"
 
 namespace palpate::gui {

@@ -14,7 +14,6 @@
 #include <palpate/core/text_file.h>
 
 #include "gui/desktop/ask.h"
-#include "gui/desktop/button_keys.h"
 #include "gui/hand/motion_button.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"

@@ -1,11 +1,14 @@
 #include "gui/hand/stop_key.h"
 
-#include <QApplication>
 #include <QKeyEvent>
+
+#include "gui/desktop/key_policy.h"
 
 namespace palpate::gui {
 
-StopKey::StopKey(QObject* parent) : QObject(parent) { qApp->installEventFilter(this); }
+StopKey::StopKey(QObject* parent) : QObject(parent) {
+  KeyPolicy::ofApplication().install(KeyPolicy::Order::kStop, *this);
+}
 
 bool StopKey::eventFilter(QObject* /*watched*/, QEvent* event) {
   const QEvent::Type type = event->type();

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gui/desktop/wheel_guard.h"
+#include "gui/desktop/key_policy.h"
 
 namespace palpate::gui {
 namespace {

@@ -12,7 +12,7 @@
 #include "gui/appearance/text_size.h"
 #include "gui/desktop/application.h"
 #include "gui/desktop/greyed_keys.h"
-#include "gui/desktop/popup_escape.h"
+#include "gui/desktop/key_policy.h"
 #include "gui/export/export_feature.h"
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/central_widget.h"
@@ -176,11 +176,10 @@ void MainWindow::connectActions() {
     checkChoice(actions.themes, kAllThemeChoices, look.view().theme);
   });
   EscapeHandler& escapeHandler = windowState_->escapeHandler;
-  auto* escape = new PopupEscape(this);
-  connect(actions.dismiss, &QAction::triggered, this, [&escapeHandler, escape] {
+  connect(actions.dismiss, &QAction::triggered, this, [&escapeHandler] {
     // The list of a box that is open is closed, and nothing else.
     QWidget* popup = QApplication::activePopupWidget();
-    if (!popup && escape->inPopup()) return;
+    if (!popup && KeyPolicy::ofApplication().escapeInPopup()) return;
     if (!popup) return escapeHandler.press();
     if (auto* box = qobject_cast<QComboBox*>(popup->parentWidget()))
       box->hidePopup();
