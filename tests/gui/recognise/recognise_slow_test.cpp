@@ -50,8 +50,12 @@ TEST_F(RecogniseSlowTest, NothingMovesAfterAStopWhileTheZeroIsTaken) {
   };
   ask();
   ASSERT_TRUE(await([&] { return status().phase == GraspPhase::kClosing; }));
+  const auto* chip = find<QPushButton>("handChip");
+  EXPECT_TRUE(await([&] { return chip->text() == "measuring zero"; }))
+      << chip->text().toStdString();
   ASSERT_TRUE(await(closed)) << status().last->text;
   QTest::mouseClick(find<QPushButton>("stopHand"), Qt::LeftButton);
+  EXPECT_NE(chip->text(), "measuring zero");
   const std::int64_t endedUs = status().last->endUs;
   QTest::qWait(4000);  // longer than it would have held
   EXPECT_EQ(status().phase, GraspPhase::kIdle);

@@ -1,9 +1,13 @@
 // The chip of the hand in the window, on an emulated hand.
 #include "gui/shell/hand_chip.h"
 
+#include <QDockWidget>
+#include <QDoubleSpinBox>
 #include <QLabel>
+#include <QMenu>
 #include <QToolBar>
 #include <QToolTip>
+#include <utility>
 
 #include <palpate/control/grasp_control.h>
 
@@ -154,6 +158,47 @@ TEST_F(HandChipTest, TheNextMotionAcknowledgesARefusedOneDoesNot) {
   EXPECT_EQ(chip().text(), "not protected");
   control().grasp(testing::reactiveGrasp(3000, 5.0));
   EXPECT_TRUE(says("moving"));
+}
+
+// The hand looked ready between the steps, and with the dock hidden nothing told of the sequence.
+TEST_F(HandChipTest, ASequenceThatRestsIsToldAlsoWithoutTheDock) {
+  connectHand();
+  ASSERT_TRUE(says("ready"));
+  const int width = chip().width();
+  find<QDoubleSpinBox>("stepSeconds")->setValue(60.0);
+  QMenu* menu = find<QPushButton>("addStep")->menu();
+  emit menu->aboutToShow();
+  menu->findChild<QAction*>("addWait")->trigger();
+  auto* start = find<QPushButton>("startSequence");
+  ASSERT_TRUE(await([&] { return start->isEnabled(); }));
+  find<QDockWidget>("Hand")->hide();
+  start->click();
+  ASSERT_TRUE(says("sequence runs")) << chip().text().toStdString();
+  EXPECT_TRUE(chip().toolTip().startsWith("A sequence runs: step 1 of 1"))
+      << chip().toolTip().toStdString();
+  EXPECT_TRUE(chip().toolTip().contains("\nThe hand is ready: ")) << chip().toolTip().toStdString();
+  EXPECT_TRUE(
+      chip().styleSheet().contains(conditionColor(HandCondition::kMoving, Theme::kDark).name()));
+  EXPECT_EQ(chip().width(), width);
+  for (const char* word : {"sequence runs", "measuring zero"})
+    EXPECT_LT(chip().fontMetrics().horizontalAdvance(word), width) << word;
+  actions().at("stopHand")->trigger();
+  EXPECT_TRUE(says("ready")) << "it has moved nothing";
+}
+
+// Of the empty hand, say.
+TEST_F(HandChipTest, TheTaskOfAnotherFeatureIsToldUnlessTheHandIsInDanger) {
+  HandTask task{"measuring zero", "The zero is measured"};
+  connectHand();
+  auto& other = window().state().handCommands.otherTask;
+  const auto before = std::exchange(other, [&] { return task; });
+  EXPECT_TRUE(says("measuring zero"));
+  bench_->hand->unplug();
+  EXPECT_TRUE(says("gone"));
+  bench_->hand->replug();
+  EXPECT_TRUE(says("measuring zero"));
+  other = before;
+  EXPECT_TRUE(says("ready"));
 }
 
 TEST_F(HandChipTest, AHandWhosePortIsGoneIsGone) {

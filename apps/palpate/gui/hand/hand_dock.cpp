@@ -61,6 +61,7 @@ HandDock::HandDock(QSettings& settings, Ask& ask, const HandActions& actions, QW
   calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
   calibrationBeingRead = [](const std::string&) { return false; };
   ownMotion = [] { return QString(); };
+  otherTask = [] { return HandTask(); };
   stopKey_ = new StopKey(this);
   // A click on a button takes the focus from whatever had it: Return, pressed after a click on
   // Grasp, must not press a button elsewhere in the window.
@@ -418,7 +419,7 @@ void HandDock::acknowledge() {
 void HandDock::showCondition(const GraspStatus& status, const std::vector<GraspChange>& changes) {
   emit unacknowledged(!status.unprotected.empty());
   if (!control_ || (!toldCondition_ && !status.cannotMove.empty()))
-    return emit conditionShown(std::nullopt);
+    return emit conditionShown(std::nullopt, {});
   const ExplainedCondition now = conditionOf(status);
   const auto tell = [this](const ExplainedCondition& condition) {
     if (toldCondition_ == condition.condition) return;
@@ -428,7 +429,10 @@ void HandDock::showCondition(const GraspStatus& status, const std::vector<GraspC
   // A change that lasts shorter than a refresh is told, too.
   for (const GraspChange& change : changes) tell(change.condition);
   tell(now);
-  emit conditionShown(now);
+  emit conditionShown(now,
+                      sequence_->running()
+                          ? HandTask{"sequence runs", "A sequence runs: " + sequence_->stateText()}
+                          : otherTask());
 }
 
 // Judges the matrices as the offered grasps would: by the reactive grasp; where that detects

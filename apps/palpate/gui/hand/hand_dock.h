@@ -17,6 +17,7 @@
 
 #include "gui/appearance/display_units.h"
 #include "gui/appearance/theme.h"
+#include "gui/window_state/hand_commands.h"
 
 class QAction;
 class QLabel;
@@ -72,6 +73,8 @@ class HandDock : public QWidget {
   // What the connected hand does by itself, as HandModel::ownMotion(); empty: it moves on orders
   // only.
   std::function<QString()> ownMotion;
+  // What moves the hand by itself, if it isn't the sequence of this dock.
+  std::function<HandTask()> otherTask;
   // The user has seen that a protection ended.
   void acknowledge();
   // The key of an action was pressed that can't begin now: says why.
@@ -91,8 +94,8 @@ class HandDock : public QWidget {
   // What the hand does, or why it can't; `bad`: it needs attention.
   void stateShown(const QString& text, bool bad);
   // The condition of the connected hand now; nothing: none is connected that can be moved, or it
-  // has not answered yet.
-  void conditionShown(const std::optional<ExplainedCondition>& condition);
+  // has not answered yet. The task goes on whatever the hand does at the moment.
+  void conditionShown(const std::optional<ExplainedCondition>& condition, const HandTask& task);
   // Another word became true, in the order in which that happened.
   void conditionChanged(const ExplainedCondition& condition);
   // Whether there is something that acknowledge() acknowledges.

@@ -98,6 +98,10 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
         source && source->emulated ? source->emulated->counts().ownMotion : std::string_view();
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
   };
+  panel_->otherTask = [&windowState] {
+    const auto& other = windowState.handCommands.otherTask;
+    return other ? other() : HandTask();
+  };
   TouchStore& touches = panel_->touches();
   touches.file = [&live] {
     const LiveSource* source = live.source();

@@ -47,6 +47,7 @@ RecogniseFeature::RecogniseFeature(WindowState& windowState, QWidget* window)
 }
 
 RecogniseFeature::~RecogniseFeature() {
+  state().handCommands.otherTask = {};
   liveTimer_.stop();
   queue_.reset();
   zeroRun_.reset();
@@ -58,6 +59,12 @@ void RecogniseFeature::connectAll() {
   connect(panel_, &RecognisePanel::said, &windowState.messages, &Messages::flash);
   connect(panel_, &RecognisePanel::failed, &windowState.messages, &Messages::fail);
   connect(&panel_->today(), &TodayPage::zeroRequested, this, &RecogniseFeature::beginZero);
+  windowState.handCommands.otherTask = [this] {
+    if (!zeroRun_ || !zeroRun_->active()) return HandTask();
+    return HandTask{"measuring zero",
+                    "The zero of the empty hand is measured: it closes until its pads touch, and "
+                    "opens again"};
+  };
   // After a stop or any other command to the hand, the zero measurement no longer moves it.
   connect(&windowState.handCommands, &HandCommands::asked, this, &RecogniseFeature::cancelZero);
   connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseFeature::showGrasp);

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QToolTip>
 #include <algorithm>
+#include <utility>
 
 #include "gui/appearance/condition_color.h"
 #include "gui/widgets/text_fit.h"
@@ -46,20 +47,24 @@ void HandChip::fit() {
 void HandChip::setNarrow(bool on) {
   if (narrow_ == on) return;
   narrow_ = on;
-  setText(on ? QString() : conditionWord(condition_));
+  setText(on ? QString() : word_);
   fit();
   style();
 }
 
-void HandChip::setCondition(const ExplainedCondition& condition) {
-  const QString word = conditionWord(condition.condition);
-  if (!narrow_ && text() != word) setText(word);
-  if (accessibleName() != word) setAccessibleName(word);
+void HandChip::setCondition(const ExplainedCondition& condition, const HandTask& task) {
+  HandCondition shown = condition.condition;
+  const bool danger = shown == HandCondition::kNotProtected || shown == HandCondition::kGone;
+  const QString word = conditionWord(shown);
+  word_ = task.word.isEmpty() || danger ? word : task.word;
+  if (!narrow_ && text() != word_) setText(word_);
+  if (accessibleName() != word_) setAccessibleName(word_);
   sentence_ = "The hand is " + word + ": " + QString::fromStdString(condition.sentence) + ".";
+  if (!task.word.isEmpty()) sentence_ = task.sentence + ". Stop (Esc) ends it.\n" + sentence_;
   explain();
-  if (condition_ == condition.condition) return;
-  condition_ = condition.condition;
-  style();
+  // The next motion begins by itself.
+  if (!task.word.isEmpty() && shown == HandCondition::kReady) shown = HandCondition::kMoving;
+  if (std::exchange(condition_, shown) != shown) style();
 }
 
 void HandChip::explain() {

@@ -1,12 +1,12 @@
-// The chip in the tool bar that tells the condition of the connected hand by a word and a colour.
-// Its sentence is the tool tip; a click shows it, too, and acknowledges that a protection ended.
+// The chip in the tool bar that tells the condition of the connected hand by a word and a colour;
+// while a task moves the hand, the word is that of the task, also when the hand rests. Its sentence
+// is the tool tip; a click shows it, too, and acknowledges that a protection ended.
 #pragma once
 
 #include <QPushButton>
 
-#include <palpate/control/hand_condition.h>
-
 #include "gui/appearance/theme.h"
+#include "gui/window_state/hand_commands.h"
 
 class QAction;
 
@@ -18,7 +18,7 @@ class HandChip : public QPushButton {
   // `acknowledge`: enabled while there is something to acknowledge; must outlive this.
   HandChip(QAction& acknowledge, QWidget* parent);
   // The width stays the same: no button beside it moves.
-  void setCondition(const ExplainedCondition& condition);
+  void setCondition(const ExplainedCondition& condition, const HandTask& task);
   // Where there is no room for the word: its colour alone.
   void setNarrow(bool on);
 
@@ -28,7 +28,9 @@ class HandChip : public QPushButton {
   void explain();
 
   QAction& acknowledge_;
+  // Where a hand that rests during a task counts as moving.
   HandCondition condition_ = HandCondition::kReady;
+  QString word_;
   QString sentence_;
   bool narrow_ = false;
 };

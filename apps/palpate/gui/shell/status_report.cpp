@@ -57,7 +57,7 @@ void StatusReport::reportLink() {
   menus_.showLink(describe(source->connection) + how, !live.stale());
 }
 
-void StatusReport::reportHand() { menus_.showHand(windowState_.handCommands.condition()); }
+void StatusReport::reportHand() { menus_.showHand(windowState_.handCommands); }
 
 void StatusReport::report() {
   if (windowState_.displayed.isLive()) return reportLive();

@@ -345,8 +345,9 @@ void WindowMenus::showLink(const QString& text, bool good) {
   link_->style()->polish(link_);
 }
 
-void WindowMenus::showHand(const std::optional<ExplainedCondition>& condition) {
-  if (condition) chip_->setCondition(*condition);
+void WindowMenus::showHand(const HandCommands& hand) {
+  const auto& condition = hand.condition();
+  if (condition) chip_->setCondition(*condition, hand.task());
   if (chipShown_->isVisible() != condition.has_value())
     chipShown_->setVisible(condition.has_value());
 }

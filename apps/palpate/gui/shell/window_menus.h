@@ -4,9 +4,6 @@
 #include <QList>
 #include <QMap>
 #include <QString>
-#include <optional>
-
-#include <palpate/control/hand_condition.h>
 
 #include "gui/appearance/theme.h"
 #include "gui/window_state/menus.h"
@@ -23,6 +20,7 @@ namespace palpate::gui {
 
 class ActionRegistry;
 class HandChip;
+class HandCommands;
 
 class WindowMenus {
  public:
@@ -44,7 +42,7 @@ class WindowMenus {
   void showLink(const QString& text, bool good);
   int chipWidth() const;  // [px]; 0: there is no chip of a hand
   // Shows the condition of the connected hand; nothing: no hand is connected that can be moved.
-  void showHand(const std::optional<ExplainedCondition>& condition);
+  void showHand(const HandCommands& hand);
 
  private:
   QMainWindow& window_;

@@ -15,6 +15,13 @@
 
 namespace palpate::gui {
 
+// What moves the hand by motions that follow each other by themselves.
+struct HandTask {
+  QString word;      // "sequence runs"; empty: there is no task
+  QString sentence;  // what it does now
+  bool operator==(const HandTask&) const = default;
+};
+
 class HandCommands : public QObject {
   Q_OBJECT
  public:
@@ -29,6 +36,8 @@ class HandCommands : public QObject {
   // Whether the calibration that is applied to the hand of this name is being read;
   // calibrationApplied() follows. An empty function: never.
   std::function<bool(const std::string& hand)> calibrationBeingRead;
+  // The task of a feature other than the dock Hand. An empty function: there is none.
+  std::function<HandTask()> otherTask;
   // The action that stops the hand, enabled while there is a hand to stop, and the actions that
   // move it; for windows in which the keys of the main window don't work. Null and empty: no dock
   // Hand.
@@ -37,9 +46,11 @@ class HandCommands : public QObject {
 
   // The condition of the connected hand; nothing: no hand is connected that can be moved.
   const std::optional<ExplainedCondition>& condition() const noexcept { return condition_; }
-  void setCondition(const std::optional<ExplainedCondition>& condition) {
-    if (condition == condition_) return;
+  const HandTask& task() const noexcept { return task_; }
+  void setCondition(const std::optional<ExplainedCondition>& condition, const HandTask& task) {
+    if (condition == condition_ && task == task_) return;
     condition_ = condition;
+    task_ = task;
     emit conditionChanged();
   }
 
@@ -76,6 +87,7 @@ class HandCommands : public QObject {
 
  private:
   std::optional<ExplainedCondition> condition_;
+  HandTask task_;
   QString handState_;
   bool handStateBad_ = false;
 };
