@@ -58,7 +58,7 @@ void FilterFeature::takeSource() {
 }
 
 std::vector<DockSpec> FilterFeature::docks() {
-  return {{.dock = dock_, .key = QKeySequence("Ctrl+Shift+F"), .tab = 2, .shownLive = true}};
+  return {{.dock = dock_, .key = QKeySequence("Ctrl+Shift+F"), .tab = 2}};
 }
 
 }  // namespace palpate::gui

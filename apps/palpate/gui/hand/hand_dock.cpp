@@ -26,7 +26,6 @@
 #include "gui/hand/stop_key.h"
 #include "gui/hand/tactile_settings_panel.h"
 #include "gui/hand/touch_store.h"
-#include "gui/widgets/facts_view.h"
 #include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
@@ -44,7 +43,6 @@ constexpr int kAnswerMs = 6000;  // for which the answer to a press stays
 constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc works everywhere)";
 constexpr const char* kReadOnlyTip = "This hand is read, not moved";
-constexpr const char* kHandDockNothing = "–";
 
 CaptureQueueOptions smallFeed() {
   CaptureQueueOptions options;
@@ -180,11 +178,16 @@ void HandDock::makePages(QSettings& settings, Ask& ask, QWidget* content) {
   page(grasp_, "Grasp", "Close by a preshape: plain, reactive, slip-aware");
   page(joint_, "Joints", "Single joints and own poses");
   page(sequence_, "Sequence", "A table of motions, repeated");
+  auto* sensors = new QWidget(content);
+  sensitivity_ = new SensitivityModes(sensors);
+  tactile_ = new TactileSettingsPanel(settings, ask, sensors);
+  sensors->setLayout(inColumn({sensitivity_, tactile_, Stretch{}}));
+  page(sensors, "Sensors", "Sensitivity and threshold of each matrix");
   connect(chooser_, &QTabBar::currentChanged, this, [this, &settings](int index) {
     pages_->setCurrentIndex(index);
     settings.setValue(kPageKey, index);
   });
-  chooser_->setCurrentIndex(std::clamp(settings.value(kPageKey, 0).toInt(), 0, 2));
+  chooser_->setCurrentIndex(std::clamp(settings.value(kPageKey, 0).toInt(), 0, pages_->count() - 1));
 }
 
 QStringList HandDock::pageNames() const {
@@ -245,28 +248,11 @@ QWidget* HandDock::makeBody(QSettings& settings, Ask& ask) {
   area->setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(area);
   makePages(settings, ask, content);
-  sensitivity_ = new SensitivityModes(content);
-  tactile_ = new TactileSettingsPanel(settings, ask, content);
-  angles_ = named(new FactsView(content), "liveAngles", {}, "Joint angles");
-  temperatures_ = named(new FactsView(content), "liveTemperatures", {}, "Temperatures");
-  const auto section = [content](const char* name, const QString& title, QWidget* view) {
-    auto* made = named(new QWidget(content), name);
-    made->setLayout(inColumn({sectionHeading(title, made), view, Stretch{}}, Space::kNarrow));
-    return made;
-  };
-  joints_ = section("handJoints", "Joint angles", angles_);
-  heats_ = section("handTemperatures", "Temperatures", temperatures_);
   auto* settable = named(new QWidget(content), "handControls");
-  settable->setLayout(inColumn({chooser_,
-                                pages_,
-                                Space::kUsual,
-                                sectionHeading("Matrices", settable),
-                                sensitivity_,
-                                tactile_,
-                                Space::kUsual}));
+  settable->setLayout(inColumn({chooser_, pages_}));
   controls_ = {settable, stop_};
   content->setLayout(
-      inColumn({settable, inRow({{joints_, 1}, {heats_, 1}}, Space::kDialog), Stretch{}},
+      inColumn({settable, Stretch{}},
                {.left = Space::kWide,
                 .top = Space::kNarrow,
                 .right = Space::kWide,
@@ -367,19 +353,8 @@ void HandDock::updateHand() {
   for (RefusedNumber* each : findChildren<RefusedNumber*>())
     connect(
         each, &RefusedNumber::changed, this, &HandDock::showRefusedNumber, Qt::UniqueConnection);
-  std::vector<Fact> facts;
-  axes_ = hand.axes;
-  shownAngles_.reset();
+  sensors_ = hand.temperatureSensors;
   shownTemperatures_.reset();
-  for (const AxisDescription& axis : hand.axes)
-    facts.push_back({QString::fromStdString(axis.name), kHandDockNothing});
-  joints_->setVisible(!facts.empty());
-  angles_->setFacts(std::move(facts));
-  facts.clear();
-  for (const TemperatureSensorDescription& sensor : hand.temperatureSensors)
-    facts.push_back({QString::fromStdString(sensor.name), kHandDockNothing});
-  heats_->setVisible(!facts.empty());
-  temperatures_->setFacts(std::move(facts));
 }
 
 void HandDock::refresh() {
@@ -405,7 +380,6 @@ void HandDock::refresh() {
   const bool gone = control_ && !status.cannotMove.empty();
   if (gone) goneUs_ = session_->nowUs();
   emit reachedChanged(!gone);
-  for (FactsView* view : {angles_, temperatures_}) view->setStale(gone);
   if (!answer_.isEmpty() && canBePressed_()) answer_.clear();
   showState(status);
   showCondition(status, changes);
@@ -544,48 +518,32 @@ void HandDock::showSamples() {
   if (!queue_) return;
   items_.clear();
   queue_->take(items_);
-  const JointAngles* angles = nullptr;
   const Temperatures* temperatures = nullptr;
   for (const CaptureItem& item : items_) {
-    if (const auto* sample = std::get_if<JointAngles>(&item)) angles = sample;
     if (const auto* sample = std::get_if<Temperatures>(&item)) temperatures = sample;
     if (const auto* frame = std::get_if<SharedFrame>(&item)) layout_ = (*frame)->layout;
   }
   tactile_->showScanned(layout_);
-  if (angles) showAngles(*angles);
-  if (temperatures) showTemperatures(*temperatures);
+  if (temperatures) showHeat(*temperatures);
   items_.clear();
 }
 
-void HandDock::showAngles(const JointAngles& angles) {
-  shownAngles_ = angles;
-  const std::size_t rows = std::min({angles.deg.size(), angles_->facts().size(), axes_.size()});
-  for (std::size_t i = 0; i < rows; ++i)
-    angles_->setValue(i, shownUnit(axes_[i], units_).text(angles.deg[i], 1));
-}
-
-void HandDock::showTemperatures(const Temperatures& temperatures) {
+void HandDock::showHeat(const Temperatures& temperatures) {
   shownTemperatures_ = temperatures;
   const ShownUnit unit = shownUnit(units_.temperature);
   const double hottest = HealthOptions{}.maxTemperatureDegC;
-  std::vector<Fact> facts = temperatures_->facts();
-  QString hot;
-  for (std::size_t i = 0; i < std::min(temperatures.degC.size(), facts.size()); ++i) {
-    const double value = temperatures.degC[i];
-    facts[i].value = value == 0.0 ? QString(kHandDockNothing) : unit.text(value, 1);
-    facts[i].warning = value > hottest;
-    if (facts[i].warning) hot += (hot.isEmpty() ? "" : ", ") + facts[i].name + " " + facts[i].value;
-  }
-  temperatures_->setFacts(std::move(facts));
+  QStringList hot;
+  for (std::size_t i = 0; i < std::min(temperatures.degC.size(), sensors_.size()); ++i)
+    if (temperatures.degC[i] > hottest)
+      hot.append(QString::fromStdString(sensors_[i].name) + " " + unit.text(temperatures.degC[i], 1));
   heat_->setVisible(!hot.isEmpty());
-  heat_->setText("Too hot: " + hot + ". Relax the hand and let it cool below " +
+  heat_->setText("Too hot: " + hot.join(", ") + ". Relax the hand and let it cool below " +
                  unit.text(hottest, 0) + ".");
 }
 
 void HandDock::setUnits(const DisplayUnits& units) {
   units_ = units;
-  if (shownAngles_) showAngles(JointAngles(*shownAngles_));
-  if (shownTemperatures_) showTemperatures(Temperatures(*shownTemperatures_));
+  if (shownTemperatures_) showHeat(Temperatures(*shownTemperatures_));
 }
 
 }  // namespace palpate::gui

@@ -29,7 +29,6 @@ namespace palpate::gui {
 
 class Ask;
 struct HandActions;
-class FactsView;
 class FittingPages;
 class GraspPanel;
 class JointPanel;
@@ -132,8 +131,8 @@ class HandDock : public QWidget {
   void followRefusal(const GraspStatus& status, const std::vector<MatrixSettings>& settings);
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
   void showSamples();
-  void showAngles(const JointAngles& angles);
-  void showTemperatures(const Temperatures& temperatures);
+  // Warns of sensors that are too hot.
+  void showHeat(const Temperatures& temperatures);
 
   const HandActions& actions_;
   QScrollArea* body_ = nullptr;
@@ -146,7 +145,7 @@ class HandDock : public QWidget {
   QPushButton* stop_;
   // What is absent for a hand that is read only.
   std::vector<QWidget*> controls_;
-  // The pages Grasp, Joints and Sequence.
+  // The pages Grasp, Joints, Sequence and Sensors.
   QTabBar* chooser_;
   FittingPages* pages_;
   TouchStore* touches_;
@@ -155,17 +154,10 @@ class HandDock : public QWidget {
   SequencePanel* sequence_;
   SensitivityModes* sensitivity_;
   TactileSettingsPanel* tactile_;
-  // Joint angles with their heading; absent for a hand without axes.
-  QWidget* joints_;
-  FactsView* angles_;
   DisplayUnits units_;
-  std::vector<AxisDescription> axes_;
-  // What is shown of them.
-  std::optional<JointAngles> shownAngles_;
+  std::vector<TemperatureSensorDescription> sensors_;
+  // The last ones.
   std::optional<Temperatures> shownTemperatures_;
-  // Temperatures with their heading; absent for a hand without temperature sensors.
-  QWidget* heats_;
-  FactsView* temperatures_;
   StopKey* stopKey_;
   // Of the connected hand, once it could be moved: the condition that was told last.
   std::optional<HandCondition> toldCondition_;

@@ -168,7 +168,7 @@ void InspectFeature::showPlotted() {
 
 std::vector<DockSpec> InspectFeature::docks() {
   return {
-      {.dock = dock_, .key = QKeySequence("Ctrl+I"), .tab = 0, .shown = true, .shownLive = true}};
+      {.dock = dock_, .key = QKeySequence("Ctrl+I"), .tab = 0}};
 }
 
 std::vector<ExportedView> InspectFeature::views() {

@@ -155,7 +155,7 @@ void LinkFeature::look() {
 }
 
 std::vector<DockSpec> LinkFeature::docks() {
-  return {{.dock = dock_, .key = QKeySequence("Ctrl+J"), .tab = 1, .shownLive = true}};
+  return {{.dock = dock_, .key = QKeySequence("Ctrl+J"), .tab = 1}};
 }
 
 std::vector<BannerSpec> LinkFeature::strips() { return {{BannerSpec::Order::kAlarm, alarms_}}; }

@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QChildEvent>
+#include <QFontInfo>
 #include <QLayout>
 #include <QTabBar>
 #include <algorithm>
@@ -23,7 +24,9 @@ constexpr int kNarrowestRight = 455;
 constexpr double kRightShare = 0.345;  // of the window's width
 constexpr int kNarrowestRightLive = 330;
 constexpr double kRightShareLive = 0.24;
-constexpr int kLeftLiveWidth = 380;     // [px]
+// Most that the left side takes: widths of the letter m, and of the window's width.
+constexpr int kLeftLiveEm = 24;
+constexpr double kLeftLiveShare = 0.25;
 constexpr double kBottomShare = 0.235;  // of the window's height
 // Lines of text that the bottom dock has room for, whatever its share; below a recording there are
 // rows of events, too, unless the window is low.
@@ -236,7 +239,10 @@ void DockArrangement::reset() {
             {narrowest, front()->dock->contentWidth(), static_cast<int>(window_.width() * share)})},
         Qt::Horizontal);
   if (live && leftWhileLive())
-    window_.resizeDocks({leftWhileLive()->dock}, {kLeftLiveWidth}, Qt::Horizontal);
+    window_.resizeDocks({leftWhileLive()->dock},
+                        {std::min(kLeftLiveEm * QFontInfo(window_.font()).pixelSize(),
+                                  static_cast<int>(window_.width() * kLeftLiveShare))},
+                        Qt::Horizontal);
   if (bottom())
     window_.resizeDocks(
         {bottom()->dock},
