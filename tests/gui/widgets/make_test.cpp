@@ -2,9 +2,11 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QTest>
 #include <QToolButton>
 #include <memory>
 
@@ -112,6 +114,29 @@ TEST(Make, ControlsHaveTheirNamesAndTips) {
   EXPECT_EQ(tool->toolTip(), "Swap A and B");
   // Pressed by a key, but a click leaves the focus where it is.
   EXPECT_EQ(tool->focusPolicy(), Qt::TabFocus);
+}
+
+TEST(Make, ReturnInADialogPressesTheFocusedOfItsButtonsElseOk) {
+  QDialog dialog;
+  auto* field = new QLineEdit(&dialog);
+  auto* ok = makeOk(&dialog, "ok", "Export");
+  auto* cancel = makeCancel(&dialog, "cancel");
+  auto* browse = makeButton(&dialog, "browse", "Browse…");
+  dialog.setLayout(
+      inColumn({inRow({field, browse}), makeDialogFoot(inRow({cancel, ok}, kFootEdges))}));
+  EXPECT_EQ(ok->property("primary"), true);
+  EXPECT_GE(ok->minimumWidth(), 110);
+  int pressed = 0;
+  QObject::connect(ok, &QPushButton::clicked, &dialog, [&] { ++pressed; });
+  dialog.show();
+  QTest::keyClick(field, Qt::Key_Return);
+  EXPECT_EQ(pressed, 1);
+  EXPECT_TRUE(dialog.isVisible());
+  cancel->setFocus();
+  QTest::keyClick(cancel, Qt::Key_Return);
+  EXPECT_EQ(pressed, 1);
+  EXPECT_FALSE(dialog.isVisible());
+  EXPECT_EQ(dialog.result(), QDialog::Rejected);
 }
 
 TEST(Make, ALabelShowsItsTextAsItIs) {

@@ -96,6 +96,8 @@ QProgressBar::chunk { background: @accent; border-radius: 3px; }
 QLabel[role="heading"] { color: @muted; font-weight: bold; }
 QLabel[role="muted"] { color: @muted; }
 QLabel[role="warning"] { color: @warning; }
+QLabel[role="problem"] { color: @danger; }
+QFrame[role="foot"] { border-top: 1px solid @border; }
 #MessageBanner { background: @dangerSoft; border-bottom: 1px solid @danger; }
 #AlarmStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }
 #CountdownStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }

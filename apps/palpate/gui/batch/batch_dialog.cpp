@@ -5,7 +5,6 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QFormLayout>
-#include <QFrame>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -28,7 +27,6 @@
 #include "gui/desktop/ask.h"
 #include "gui/widgets/dialog_properties.h"
 #include "gui/widgets/make.h"
-#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -43,7 +41,6 @@ constexpr const char* kBatchStyle = R"(
 #batchFolder, #batchNames, #batchFilters, #batchSmooth { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; padding: 3px 6px; }
 #batchFolder:focus, #batchNames:focus, #batchFilters:focus, #batchSmooth:focus { border-color: palette(highlight); }
 QListWidget { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
-#batchFoot { border-top: 1px solid palette(mid); }
 #batchSaid[problem="true"] { color: palette(bright-text); }
 )";
 
@@ -54,12 +51,6 @@ constexpr const char* kFieldsTip =
     "{date}, {time}: when the recording begins, 2014-11-27 and 10-31-05\n"
     "{n}: the number of the grasp, where there is a file for each grasp\n"
     "Names without {folder} keep the folders of the recordings.";
-
-QPushButton* batchButton(const char* name, const QString& text) {
-  auto* button = named(new QPushButton(text), name);
-  button->setAutoDefault(false);
-  return button;
-}
 
 QStringList pathsOf(const QMimeData& data) {
   QStringList paths;
@@ -130,9 +121,9 @@ QWidget* BatchDialog::makeRecordings() {
   connect(paths_->model(), &QAbstractItemModel::modelReset, hint, showHint);
   count_ = makeLabel(nullptr, "batchCount");
   count_->setProperty("role", "muted");
-  auto* files = batchButton("batchAddFiles", "Add &files…");
-  auto* folder = batchButton("batchAddFolder", "Add fol&der…");
-  remove_ = batchButton("batchRemove", "&Remove");
+  auto* files = makeButton(this, "batchAddFiles", "Add &files…");
+  auto* folder = makeButton(this, "batchAddFolder", "Add fol&der…");
+  remove_ = makeButton(this, "batchRemove", "&Remove");
   auto* side = makeBox(inColumn({{paths_, 1}, count_, inRow({files, folder, remove_, Stretch{}})}));
   auto* removeKey = new QAction(paths_);
   removeKey->setShortcut(QKeySequence::Delete);
@@ -161,7 +152,7 @@ QWidget* BatchDialog::makePlace() {
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   folder_ = named(new QLineEdit, "batchFolder");
   folder_->setPlaceholderText("the folder of the results; it is made where it is missing");
-  auto* browse = batchButton("batchBrowse", "&Browse…");
+  auto* browse = makeButton(this, "batchBrowse", "&Browse…");
   connect(browse, &QPushButton::clicked, this, [this] {
     const QString chosen = ask_.folder("Choose a folder", folder_->text());
     if (!chosen.isEmpty()) folder_->setText(chosen);
@@ -200,7 +191,6 @@ QWidget* BatchDialog::makePlace() {
 }
 
 QWidget* BatchDialog::makeFoot() {
-  auto* foot = named(new QFrame, "batchFoot");
   bar_ = named(new QProgressBar, "batchDialogProgress");
   bar_->setRange(0, kBarSteps);
   bar_->setTextVisible(false);
@@ -211,20 +201,14 @@ QWidget* BatchDialog::makeFoot() {
   said_ = makeLines(nullptr, "batchSaid");
   said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   said_->setMinimumHeight(2 * said_->fontMetrics().lineSpacing());
-  cancel_ = batchButton("batchCancel", "Cancel");
-  close_ = batchButton("batchClose", "Close");
-  close_->setToolTip("A running batch goes on");
-  start_ = batchButton("batchStart", "&Start");
-  start_->setProperty("primary", true);
-  keepWide(*start_, 110);
-  start_->setDefault(true);
+  cancel_ = makeButton(this, "batchCancel", "Cancel");
+  close_ = makeButton(this, "batchClose", "Close", "A running batch goes on");
+  start_ = makeOk(this, "batchStart", "&Start");
   connect(cancel_, &QPushButton::clicked, &controller_, &BatchController::cancel);
   connect(close_, &QPushButton::clicked, this, &QDialog::close);
   connect(start_, &QPushButton::clicked, this, &BatchDialog::start);
-  foot->setLayout(inColumn(
-      {bar_, inRow({{said_, 1}, Space::kUsual, cancel_, close_, start_})},
-      {.left = Space::kWide, .top = Space::kUsual, .right = Space::kWide, .bottom = Space::kWide}));
-  return foot;
+  return makeDialogFoot(
+      inColumn({bar_, inRow({{said_, 1}, Space::kUsual, cancel_, close_, start_})}, kPageEdges));
 }
 
 void BatchDialog::connectFields() {

@@ -153,9 +153,8 @@ BatchFields::BatchFields(QWidget* parent)
 QWidget* BatchFields::makeFilters() {
   filters_ = named(new QLineEdit, "batchFilters");
   filters_->setPlaceholderText("none; as median:size=3 | kalman");
-  auto* take = named(
-      new QPushButton("As sho&wn"), "batchTakeFilters", "The filters that the window applies now");
-  take->setAutoDefault(false);
+  auto* take = makeButton(
+      nullptr, "batchTakeFilters", "As sho&wn", "The filters that the window applies now");
   connect(take, &QPushButton::clicked, this, [this] { filters_->setText(windowFilters()); });
   auto* row = makeBox(inRow({{filters_, 1}, take}));
   row->setFocusProxy(filters_);

@@ -132,8 +132,7 @@ NoisePage::NoisePage(QSettings& settings, Ask& ask, QWidget* parent)
   bins_->setValue(static_cast<int>(NoiseFloorOptions{}.bins));
   save_ = makeButton(this, "noiseSave", "Save…", "As JSON, or as XML that the prior program reads");
   save_->setEnabled(false);
-  apply_ = makeButton(this, "noiseApply", "Apply to this hand", kApplyTip);
-  apply_->setProperty("primary", true);
+  apply_ = makePrimary(this, "noiseApply", "Apply to this hand", kApplyTip);
   apply_->setEnabled(false);
   auto* openLines = makeButton(this,
                                "noiseOpen",

@@ -120,11 +120,10 @@ void PressurePage::makeTop() {
   name_ = makeLabel(this, "pressureName");
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   save_ = makeButton(this, "pressureSave", "Save…", "As JSON, with the data it was made from");
-  apply_ = makeButton(this,
-                      "pressureApply",
-                      "Apply to this hand",
-                      "Use this calibration for pressures and forces of this hand type");
-  apply_->setProperty("primary", true);
+  apply_ = makePrimary(this,
+                       "pressureApply",
+                       "Apply to this hand",
+                       "Use this calibration for pressures and forces of this hand type");
   files->add(openIt);
   files->add(save_);
   files->add(apply_);

@@ -145,9 +145,10 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
   state_->hide();
   remove_ = makeButton(
       this, "tareRemove", "Remove", "Forces use the recorded values without a tare again");
-  keep_ = makeButton(this, "tareKeep", "Add to the recording");
-  keep_->setToolTip("As an event: forces use it, values never change (undo: Ctrl+Z)");
-  keep_->setProperty("primary", true);
+  keep_ = makePrimary(this,
+                      "tareKeep",
+                      "Add to the recording",
+                      "As an event: forces use it, values never change (undo: Ctrl+Z)");
   top().addWidget(state_);
   top().addLayout(inRow({Stretch{}, remove_, keep_}));
   auto* content = new QWidget(this);

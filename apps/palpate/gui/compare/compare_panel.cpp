@@ -132,8 +132,7 @@ QWidget* ComparePanel::makeEmpty() {
   auto* page = new QWidget(this);
   emptyText_ = makeLines(page, "compareEmpty");
   emptyText_->setAlignment(Qt::AlignCenter);
-  emptyOpen_ = makeButton(page, "compareOpen", "Open another…");
-  emptyOpen_->setProperty("primary", true);
+  emptyOpen_ = makePrimary(page, "compareOpen", "Open another…");
   emptyItself_ = makeButton(page,
                             "compareItself",
                             "Compare it with itself",

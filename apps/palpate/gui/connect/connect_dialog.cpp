@@ -21,7 +21,6 @@
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
-#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -96,10 +95,7 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices,
 }
 
 ConnectDialog::~ConnectDialog() {
-  ports_->disconnect(this);
-  stream_->disconnect(this);
-  scenes_->disconnect(this);
-  replay_->disconnect(this);
+  for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
 }
 
 QWidget* ConnectDialog::makeKinds() {
@@ -143,9 +139,7 @@ QWidget* ConnectDialog::makeSaved() {
   saved_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   auto* save =
       makeButton(part, "saveConnection", "Save &under…", "Save these settings under a name");
-  save->setAutoDefault(false);
   forget_ = makeButton(part, "forgetConnection", "Forget");
-  forget_->setAutoDefault(false);
   part->setLayout(
       inColumn({makeTitle("Sa&ved connections", saved_), saved_, inRow({save, forget_, Stretch{}})},
                {.bottom = Space::kWide}));
@@ -194,26 +188,12 @@ void ConnectDialog::fill(const Connection& connection) {
 }
 
 QWidget* ConnectDialog::makeFoot() {
-  auto* foot = named(new QFrame(this), "connectFoot");
-  foot->setStyleSheet(
-      QString("#connectFoot { border-top: 1px solid %1; }").arg(colorsOf().border.name()));
-  mark_ = new StateMark(foot);
-  problem_ = makeLines(foot, "connectProblem");
-  auto* cancel = makeButton(foot, "connectCancel", "Cancel");
-  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-  connect_ = makeButton(foot, "connectNow", "&Connect");
-  connect_->setProperty("primary", true);
-  connect_->setDefault(true);
-  keepWide(*connect_, 110);
+  mark_ = new StateMark(this);
+  problem_ = makeLines(this, "connectProblem");
+  auto* cancel = makeCancel(this, "connectCancel");
+  connect_ = makeOk(this, "connectNow", "&Connect");
   connect(connect_, &QPushButton::clicked, this, &QDialog::accept);
-  auto* row = new QHBoxLayout(foot);
-  row->setContentsMargins(16, 12, kConnectDialogMargin, 12);
-  row->setSpacing(8);
-  row->addWidget(mark_);
-  row->addWidget(problem_, 1);
-  row->addWidget(cancel);
-  row->addWidget(connect_);
-  return foot;
+  return makeDialogFoot(inRow({mark_, {problem_, 1}, cancel, connect_}, kFootEdges));
 }
 
 void ConnectDialog::choose(Connection::Kind kind) {

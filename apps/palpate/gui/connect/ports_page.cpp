@@ -61,7 +61,6 @@ QWidget* PortsPage::makeSwapRow() {
                               .arg(colors.dangerSoft.name(), colors.danger.name()));
   swapText_ = makeLines(swapRow_, "swapText");
   auto* swap = makeButton(swapRow_, "swapPorts", "&Swap");
-  swap->setAutoDefault(false);
   connect(swap, &QPushButton::clicked, this, [this] {
     setPorts(motion_->port(), tactile_->port());
     fill();
@@ -79,7 +78,6 @@ QWidget* PortsPage::makeLookRow() {
   auto* line = new QWidget(this);
   look_ = makeButton(
       line, "lookAgain", "Search &again", "List the ports again and check the device at each");
-  look_->setAutoDefault(false);
   connect(look_, &QPushButton::clicked, this, &PortsPage::look);
   progress_ = named(new QProgressBar(line), "portsProgress");
   progress_->setTextVisible(false);

@@ -34,7 +34,6 @@ ReplayPage::ReplayPage(const QStringList& recent, Ask& ask, QWidget* parent) : Q
   }
   path_->setCurrentIndex(-1);
   auto* browse = makeButton(this, "browseRecording", "Bro&wse…");
-  browse->setAutoDefault(false);
   mark_ = new StateMark(this);
   state_ = makeLines(this, "recordingState", "muted");
   auto* what = makeLines(

@@ -49,7 +49,6 @@ ScenePage::ScenePage(const std::filesystem::path& folder, Ask& ask, QWidget* par
                     "muted",
                     "Without this, nothing pulls or turns the object: the script does it.");
   auto* other = makeButton(this, "otherScene", "&Other scene…");
-  other->setAutoDefault(false);
   setLayout(inColumn({makeTitle("What is around the &hand", list_),
                       none_,
                       {list_, 1},

@@ -164,8 +164,7 @@ QWidget* StreamPage::makeHand(Ask& ask) {
   for (const KnownHand& each : knownHands(folders_)) handIndex(streamPageText(each.key));
   hand_->setCurrentIndex(-1);
   hand_->setPlaceholderText("choose a hand");
-  auto* choose = named(new QPushButton("Choose f&older…"), "streamHandFolder");
-  choose->setAutoDefault(false);
+  auto* choose = makeButton(nullptr, "streamHandFolder", "Choose f&older…");
   connect(choose, &QPushButton::clicked, this, [this, &ask] {
     const QString chosen = ask.folder("Folder of a hand (with its hand.json)", {});
     if (chosen.isEmpty()) return;

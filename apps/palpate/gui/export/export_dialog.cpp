@@ -18,7 +18,6 @@
 #include "gui/export/export_preview.h"
 #include "gui/widgets/elided_text.h"
 #include "gui/widgets/make.h"
-#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -31,8 +30,6 @@ constexpr int kExportDialogFieldHeight = 28;  // [px]
 constexpr const char* kExportDialogStyle = R"(
 QLineEdit { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; padding: 4px 6px; }
 QLineEdit:focus { border-color: palette(highlight); }
-#exportFoot { border-top: 1px solid palette(mid); }
-#exportProblem { color: palette(bright-text); }
 #exportSide { background: palette(window); border-left: 1px solid palette(mid); }
 )";
 
@@ -148,19 +145,13 @@ QWidget* ExportDialog::makeSize() {
 }
 
 QWidget* ExportDialog::makeFoot() {
-  auto* foot = named(new QFrame(this), "exportFoot");
-  problem_ = makeLabel(foot, "exportProblem");
+  problem_ = makeLabel(this, "exportProblem", "problem");
   problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  replace_ = named(new QCheckBox("R&eplace", foot), "exportReplace");
-  auto* cancel = makeButton(foot, "exportCancel", "Cancel");
-  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-  ok_ = makeButton(foot, "exportOk", "Export");
-  ok_->setProperty("primary", true);
-  ok_->setDefault(true);
-  keepWide(*ok_, 110);
+  replace_ = named(new QCheckBox("R&eplace", this), "exportReplace");
+  auto* cancel = makeCancel(this, "exportCancel");
+  ok_ = makeOk(this, "exportOk", "Export");
   connect(ok_, &QPushButton::clicked, this, &ExportDialog::accept);
-  foot->setLayout(inRow({{problem_, 1}, replace_, Space::kUsual, cancel, ok_}, kFootEdges));
-  return foot;
+  return makeDialogFoot(inRow({{problem_, 1}, replace_, Space::kUsual, cancel, ok_}, kFootEdges));
 }
 
 void ExportDialog::fill(const ExportRequest& suggestion) {

@@ -20,7 +20,6 @@ ExportPlace::ExportPlace(int labelWidth, Ask& ask, QWidget* parent) : QWidget(pa
   ending_ = makeLabel(this, "exportEnding");
   folder_ = named(new QLineEdit(this), "exportFolder");
   auto* browseButton = makeButton(this, "exportBrowse", "&Browse…");
-  browseButton->setAutoDefault(false);
   connect(browseButton, &QPushButton::clicked, this, &ExportPlace::browse);
   const auto line = [labelWidth](const QString& title, QLineEdit* field, QWidget* beside) {
     auto* label = makeTitle(title, field);

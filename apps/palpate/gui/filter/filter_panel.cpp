@@ -101,14 +101,9 @@ QWidget* FilterPanel::makeButtons() {
   auto* menu = new QMenu(add);
   fillAddMenu(*menu);
   add->setMenu(menu);
-  const auto button = [&](const QString& text, const QString& tip) {
-    auto* made = new QPushButton(text, line);
-    made->setToolTip(tip);
-    return made;
-  };
-  up_ = button("Up", "Earlier in the chain (Alt+Up)");
-  down_ = button("Down", "Later in the chain (Alt+Down)");
-  remove_ = button("Remove", "Remove it (Del)");
+  up_ = makeButton(line, {}, "Up", "Earlier in the chain (Alt+Up)");
+  down_ = makeButton(line, {}, "Down", "Later in the chain (Alt+Down)");
+  remove_ = makeButton(line, {}, "Remove", "Remove it (Del)");
   const auto step = [this](int way) {
     const auto at = list_->chosen();
     if (!at) return;

@@ -89,7 +89,6 @@ void DialogStop::showIn(QDialog& dialog) {
   bar = named(new QWidget(&dialog), kDialogStopName);
   auto* button = makeButton(bar, "dialogStopButton", "Stop  (Esc)", stop_.toolTip());
   button->setProperty("danger", true);
-  button->setAutoDefault(false);
   button->setFocusPolicy(Qt::NoFocus);
   connect(button, &QPushButton::clicked, &stop_, &QAction::trigger);
   auto* row = new QHBoxLayout(bar);

@@ -25,7 +25,6 @@ QPushButton* motionButton(
     const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
   auto* made = makeButton(parent, name, text, tip);
   made->setFocusPolicy(Qt::TabFocus);
-  made->setAutoDefault(false);
   made->setProperty(kMovesHand, moves);
   return made;
 }

@@ -62,7 +62,6 @@ ObjectFields::ObjectFields(QWidget* parent) : QWidget(parent), hand_(movableHand
   forget_ = makeButton(this, "forgetTouch", "Forget");
   forget_->setAccessibleName("Forget where the object was touched");
   forget_->setFocusPolicy(Qt::TabFocus);
-  forget_->setAutoDefault(false);
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(8);

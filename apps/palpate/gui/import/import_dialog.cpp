@@ -99,8 +99,7 @@ QWidget* ImportDialog::makeFile() {
   form->setContentsMargins(0, 0, 8, 0);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   const auto withButton = [&](QWidget* field, const QString& text, const char* name, auto pressed) {
-    auto* button = named(new QPushButton(text), name);
-    button->setAutoDefault(false);
+    auto* button = makeButton(nullptr, name, text);
     auto* row = inRow({{field, 1}, button});
     connect(button, &QPushButton::clicked, this, pressed);
     return row;
@@ -128,8 +127,7 @@ QWidget* ImportDialog::makeFile() {
     importPresets(settings_).save(name, request().mapping);
     listPresets(name);
   });
-  removePreset_ = named(new QPushButton("Forget"), "importRemovePreset");
-  removePreset_->setAutoDefault(false);
+  removePreset_ = makeButton(this, "importRemovePreset", "Forget");
   connect(removePreset_, &QPushButton::clicked, this, [this] {
     importPresets(settings_).remove(preset_->currentData().toString());
     listPresets("");
@@ -193,11 +191,8 @@ QWidget* ImportDialog::makeFoot() {
   replace_ = named(new QCheckBox("R&eplace"), "importReplace");
   strict_ = named(new QCheckBox("Stop at the first row that &can't be used"), "importStrict");
   problem_ = makeLines(nullptr, "importProblem");
-  auto* cancel = new QPushButton("Cancel");
-  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-  ok_ = named(new QPushButton("Import"), "importOk");
-  ok_->setProperty("primary", true);
-  ok_->setDefault(true);
+  auto* cancel = makeCancel(this, "importCancel");
+  ok_ = makeOk(this, "importOk", "Import");
   connect(ok_, &QPushButton::clicked, this, &ImportDialog::accept);
   return makeBox(inColumn({inRow({makeTitle("Sa&ve as", out_), out_, replace_, strict_}),
                            inRow({{problem_, 1}, cancel, ok_})}),

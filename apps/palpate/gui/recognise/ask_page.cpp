@@ -40,8 +40,7 @@ AskPage::AskPage(RecognitionController& controller, Ask& ask, QWidget* parent)
           &QAction::triggered,
           &controller_,
           &RecognitionController::useEmulatedModel);
-  ask_ = makeButton(this, "whatIsIt", "What is it?  (Q)");
-  ask_->setProperty("primary", true);
+  ask_ = makePrimary(this, "whatIsIt", "What is it?  (Q)");
   QFont large = ask_->font();
   large.setPointSizeF(kButtonScale * large.pointSizeF());
   ask_->setFont(large);

@@ -76,8 +76,7 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   protocol_->setToolTip(
       "How test grasps are chosen. Neither choice shows the accuracy in another session.");
   protocol_->addItems({"five blocks in time (B)", "ten shuffles (S)"});
-  check_ = makeButton(this, "checkNow", "Check");
-  check_->setProperty("primary", true);
+  check_ = makePrimary(this, "checkNow", "Check");
   result_ = makeLines(this, "checkResult");
   auto* content = new QWidget(this);
   confusion_ = named(new ConfusionView(content), "confusion");

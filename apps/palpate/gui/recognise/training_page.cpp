@@ -142,8 +142,7 @@ TrainingPage::TrainingPage(TrainingController& controller, Ask& ask, QWidget* pa
                     "teachAct",
                     "Undo",
                     "Moves the chosen or newest grasp out of the folder; Put back restores it");
-  train_ = makeButton(this, "teachTrain", "Train", "A model of what the folder holds");
-  train_->setProperty("primary", true);
+  train_ = makePrimary(this, "teachTrain", "Train", "A model of what the folder holds");
 
   setLayout(inColumn({inRow({choose, {folder_, 1}, train_}),
                       inRow({"Features", {set_, 1}, "Classifier", {classifier_, 1}}),

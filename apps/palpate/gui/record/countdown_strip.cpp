@@ -25,7 +25,6 @@ CountdownStrip::CountdownStrip(QWidget* parent) : QWidget(parent) {
   text_ = makeLines(this, "countdownText");
   auto* cancel = makeButton(this, "countdownCancel", "Cancel  (Esc)", "Nothing is recorded");
   cancel->setFocusPolicy(Qt::TabFocus);
-  cancel->setAutoDefault(false);
   connect(cancel, &QPushButton::clicked, this, &CountdownStrip::cancelRequested);
   setLayout(inRow({digits_, {text_, 1}, cancel}, Space::kWide, kBarEdges));
   hide();

@@ -3,8 +3,6 @@
 #include <QAction>
 #include <QCheckBox>
 #include <QFileInfo>
-#include <QFrame>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
@@ -16,7 +14,6 @@
 #include <QScrollBar>
 #include <QStyledItemDelegate>
 #include <QTableView>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,13 +34,10 @@ namespace palpate::gui {
 namespace {
 
 constexpr QSize kPlanDialogSize(820, 460);  // [px]
-constexpr int kPlanDialogMargin = 16;       // [px]
 constexpr int kPlanTableBorder = 1;         // [px]
 constexpr const char* kPlanTables = "Tables (*.csv);;All files (*)";
 constexpr const char* kPlanDialogStyle = R"(
 QTableView { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
-#planFoot { border-top: 1px solid palette(mid); }
-#planSaid { color: palette(bright-text); }
 )";
 
 // What is being typed stays, whatever changes elsewhere in the plan meanwhile.
@@ -78,14 +72,11 @@ PlanDialog::PlanDialog(WindowState& windowState,
   bar_->setTextVisible(false);
   bar_->setMaximumWidth(180);
   bar_->setMaximumHeight(10);
-  said_ = makeLines(this, "planSaid");
+  said_ = makeLines(this, "planSaid", "problem");
   question_ = new OfferStrip(this);
-  auto* top = new QHBoxLayout;
-  top->setContentsMargins(kPlanDialogMargin, 12, kPlanDialogMargin, 0);
-  top->setSpacing(12);
-  top->addWidget(progress_);
-  top->addWidget(next_, 1);
-  top->addWidget(bar_);
+  auto* top = inRow({progress_, {next_, 1}, bar_},
+                    Space::kWide,
+                    {.left = Space::kDialog, .top = Space::kWide, .right = Space::kDialog});
   setLayout(inColumn({top, question_, {makeRows(), 1}, makeFoot()}, Space::kWide));
   connect(model_, &PlanModel::refused, this, &PlanDialog::say);
   connect(&controller, &PlanController::changed, this, &PlanDialog::showState);
@@ -113,12 +104,6 @@ PlanDialog::~PlanDialog() {
   for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
 }
 
-QPushButton* PlanDialog::planButton(const char* name, const QString& text, const QString& tip) {
-  auto* button = makeButton(this, name, text, tip);
-  button->setAutoDefault(false);
-  return button;
-}
-
 QWidget* PlanDialog::makeRows() {
   auto* part = new QWidget(this);
   model_ = new PlanModel(controller_, this);
@@ -136,51 +121,41 @@ QWidget* PlanDialog::makeRows() {
   header->setHighlightSections(false);
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setStretchLastSection(true);
-  add_ = planButton("planAdd", "&Add row", "One more row below");
-  remove_ = planButton("planRemove", "Re&move row", "Removes the chosen row; its files stay");
-  import_ = planButton(
-      "planImport", "&Import…", "A table (CSV) with the columns object, run, repetitions, notes");
-  export_ = planButton("planExport", "&Export…", "The plan as a table (CSV)");
-  anew_ = planButton("planAnew", "&Begin anew…", "All takes are to be made again; files stay");
+  add_ = makeButton(this, "planAdd", "&Add row", "One more row below");
+  remove_ = makeButton(this, "planRemove", "Re&move row", "Removes the chosen row; its files stay");
+  import_ = makeButton(this,
+                       "planImport",
+                       "&Import…",
+                       "A table (CSV) with the columns object, run, repetitions, notes");
+  export_ = makeButton(this, "planExport", "&Export…", "The plan as a table (CSV)");
+  anew_ =
+      makeButton(this, "planAnew", "&Begin anew…", "All takes are to be made again; files stay");
   connect(add_, &QPushButton::clicked, this, &PlanDialog::addRow);
   connect(remove_, &QPushButton::clicked, this, &PlanDialog::removeRow);
   connect(import_, &QPushButton::clicked, this, &PlanDialog::importTable);
   connect(export_, &QPushButton::clicked, this, &PlanDialog::exportTable);
   connect(anew_, &QPushButton::clicked, this, &PlanDialog::beginAnew);
-  auto* column = new QVBoxLayout(part);
-  column->setContentsMargins(kPlanDialogMargin, 0, kPlanDialogMargin, 0);
-  column->setSpacing(8);
-  column->addWidget(table_, 1);
   limits_ = new PlanLimits(part);
   limits_->fill(controller_.limits());
   connect(limits_, &PlanLimits::edited, this, [this] { controller_.setLimits(limits_->limits()); });
-  column->addWidget(said_);
-  column->addLayout(inRow({add_, remove_, import_, export_, anew_, Stretch{}}));
-  column->addWidget(limits_);
+  part->setLayout(inColumn(
+      {{table_, 1}, said_, inRow({add_, remove_, import_, export_, anew_, Stretch{}}), limits_},
+      {.left = Space::kDialog, .right = Space::kDialog}));
   return part;
 }
 
 QWidget* PlanDialog::makeFoot() {
-  auto* foot = named(new QFrame(this), "planFoot");
-  follow_ = named(new QCheckBox("&Follow the plan", foot), "planFollow");
-  follow_->setToolTip("Record (Ctrl+R) makes the next recording of the plan, without asking");
+  follow_ = named(new QCheckBox("&Follow the plan", this),
+                  "planFollow",
+                  "Record (Ctrl+R) makes the next recording of the plan, without asking");
   connect(follow_, &QCheckBox::toggled, &controller_, &PlanController::setFollowed);
-  repeat_ = planButton("planRepeat", "Re&peat last take", {});
+  repeat_ = makeButton(this, "planRepeat", "Re&peat last take");
   connect(repeat_, &QPushButton::clicked, this, &PlanDialog::repeatLast);
-  auto* close = planButton("planClose", "&Close", "The plan is kept");
+  auto* close = makeButton(this, "planClose", "&Close", "The plan is kept");
   connect(close, &QPushButton::clicked, this, &QDialog::reject);
-  recordNext_ = planButton("planRecord", "&Record next", "Records what comes next");
-  recordNext_->setProperty("primary", true);
+  recordNext_ = makePrimary(this, "planRecord", "&Record next", "Records what comes next");
   connect(recordNext_, &QPushButton::clicked, this, &PlanDialog::recordNext);
-  auto* row = new QHBoxLayout(foot);
-  row->setContentsMargins(kPlanDialogMargin, 12, kPlanDialogMargin, 12);
-  row->setSpacing(8);
-  row->addWidget(follow_);
-  row->addStretch(1);
-  row->addWidget(close);
-  row->addWidget(repeat_);
-  row->addWidget(recordNext_);
-  return foot;
+  return makeDialogFoot(inRow({follow_, Stretch{}, close, repeat_, recordNext_}, kFootEdges));
 }
 
 // Widths of the columns for text of the present size.
@@ -197,7 +172,8 @@ std::array<int, PlanModel::kNumColumns> PlanDialog::wantedWidths() const {
 
 // What the columns don't get of the width of the window.
 int PlanDialog::aroundColumns() const {
-  return 2 * (kPlanDialogMargin + kPlanTableBorder) + table_->verticalHeader()->sizeHint().width() +
+  return 2 * (px(Space::kDialog) + kPlanTableBorder) +
+         table_->verticalHeader()->sizeHint().width() +
          table_->verticalScrollBar()->sizeHint().width();
 }
 

@@ -54,7 +54,6 @@ class PlanDialog : public QDialog {
   void fitSize();
   void fitColumns();
   QWidget* makeFoot();
-  QPushButton* planButton(const char* name, const QString& text, const QString& tip);
   void addRow();
   void removeRow();
   void importTable();

@@ -58,7 +58,6 @@ PlanLimits::PlanLimits(QWidget* parent)
   quality_->setSingleStep(0.05);
   quality_->setSpecialValueText("any");
   usual_ = makeButton(made, "planUsualLimits", "Us&ual", "The limits of a new plan");
-  usual_->setAutoDefault(false);
   auto* grid = new QGridLayout(made);
   grid->setContentsMargins(0, 2, 0, 0);
   grid->setHorizontalSpacing(10);

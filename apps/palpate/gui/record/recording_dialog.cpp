@@ -23,7 +23,6 @@
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/elided_text.h"
 #include "gui/widgets/make.h"
-#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -51,8 +50,6 @@ QLineEdit { padding: 4px 6px; }
 QPlainTextEdit { padding: 1px 2px; }
 QLineEdit:focus, QPlainTextEdit:focus { border-color: palette(highlight); }
 #recordingPreview { background: palette(base); border: 1px solid palette(mid); border-radius: 6px; }
-#recordingFoot { border-top: 1px solid palette(mid); }
-#recordingProblem { color: palette(bright-text); }
 #recordingInsert { padding-right: 22px; }
 #recordingInsert::menu-indicator { subcontrol-origin: border; subcontrol-position: right center; right: 9px; }
 )";
@@ -190,13 +187,11 @@ QWidget* RecordingDialog::makeFields() {
                                   "recordingInsert",
                                   "&Insert",
                                   "Adds a part to the name that changes with each recording");
-  placeholders->setAutoDefault(false);
   placeholders_ = makePlaceholders();
   placeholders->setMenu(placeholders_);
   add("File &name", template_, placeholders);
   folder_ = makeField("recordingFolder", 4096);
   auto* browse = makeButton(fields, "recordingBrowse", "&Browse…");
-  browse->setAutoDefault(false);
   connect(browse, &QPushButton::clicked, this, &RecordingDialog::browse);
   add("&Folder", folder_, browse);
   mcap_ = named(new QCheckBox("Also an M&CAP file, for Foxglove and ROS 2", fields),
@@ -234,7 +229,7 @@ QWidget* RecordingDialog::makePreview() {
   place_ = muted({}, frame);
   place_->setObjectName("recordingNextFolder");
   letShrink(place_);
-  problem_ = makeLines(frame, "recordingProblem");
+  problem_ = makeLines(frame, "recordingProblem", "problem");
   // A path may be of any length.
   problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   problem_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
@@ -245,19 +240,13 @@ QWidget* RecordingDialog::makePreview() {
 }
 
 QWidget* RecordingDialog::makeFoot(const QString& okText) {
-  auto* foot = named(new QFrame(this), "recordingFoot");
-  askEachTime_ = named(new QCheckBox("&Ask before each recording", foot),
+  askEachTime_ = named(new QCheckBox("&Ask before each recording", this),
                        "recordingAsk",
                        "Off: Record starts at once, with what is written here");
-  auto* cancel = makeButton(foot, "recordingCancel", "Cancel");
-  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
-  ok_ = makeButton(foot, "recordingOk", okText);
-  ok_->setProperty("primary", true);
-  ok_->setDefault(true);
-  keepWide(*ok_, 110);
+  auto* cancel = makeCancel(this, "recordingCancel");
+  ok_ = makeOk(this, "recordingOk", okText);
   connect(ok_, &QPushButton::clicked, this, &RecordingDialog::accept);
-  foot->setLayout(inRow({{askEachTime_, 1}, cancel, ok_}, kFootEdges));
-  return foot;
+  return makeDialogFoot(inRow({{askEachTime_, 1}, cancel, ok_}, kFootEdges));
 }
 
 void RecordingDialog::fill(const RecordingSettings& settings) {

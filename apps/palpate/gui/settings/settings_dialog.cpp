@@ -175,8 +175,7 @@ void SettingsDialog::alignUnits() {
 
 QLineEdit* SettingsDialog::addFolder(QFormLayout& form, const QString& label, const char* name) {
   auto* field = named(new QLineEdit(this), name);
-  auto* browse = new QPushButton("Browse…", this);
-  browse->setAutoDefault(false);
+  auto* browse = makeButton(this, {}, "Browse…");
   browse->setAccessibleName("Browse for the folder of " + QString(label).remove('&').toLower());
   auto* row = inRow({{field, 1}, browse});
   form.addRow(makeTitle(label, field), row);
@@ -196,8 +195,7 @@ void SettingsDialog::addFolders(QFormLayout& form) {
       "Where new recordings are written; the folder is created when it is needed");
   exports_ = addFolder(form, "&Exports", "settingsExports");
   exports_->setToolTip("Where pictures, movies and tables are written");
-  problem_ = makeLines(this, "settingsProblem");
-  problem_->setStyleSheet("color: palette(bright-text)");
+  problem_ = makeLines(this, "settingsProblem", "problem");
   form.addRow(problem_);
 }
 

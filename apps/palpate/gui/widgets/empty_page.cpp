@@ -4,18 +4,14 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "gui/widgets/make.h"
+
 namespace palpate::gui {
 
 EmptyPage::EmptyPage(const QString& part, QWidget* parent) : QWidget(parent) {
-  text_ = new QLabel(this);
-  text_->setObjectName(part + "Empty");
-  text_->setProperty("role", "muted");
-  // Names of folders aren't to be read as HTML.
-  text_->setTextFormat(Qt::PlainText);
-  text_->setWordWrap(true);
+  text_ = makeLines(this, part + "Empty", "muted");
   text_->setAlignment(Qt::AlignCenter);
-  button_ = new QPushButton(this);
-  button_->setObjectName(part + "EmptyButton");
+  button_ = makeButton(this, part + "EmptyButton", {});
   // Enter presses the button.
   button_->setAutoDefault(true);
   auto* column = new QVBoxLayout(this);

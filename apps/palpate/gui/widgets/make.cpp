@@ -2,13 +2,17 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QDialog>
 #include <QFontInfo>
+#include <QFrame>
 #include <QLabel>
 #include <QPushButton>
 #include <QToolButton>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -113,7 +117,40 @@ QPushButton* makeButton(QWidget* parent,
                         const QString& name,
                         const QString& text,
                         const QString& tip) {
-  return named(new QPushButton(text, parent), name, tip);
+  auto* button = named(new QPushButton(text, parent), name, tip);
+  button->setAutoDefault(false);
+  return button;
+}
+
+QPushButton* makePrimary(QWidget* parent,
+                         const QString& name,
+                         const QString& text,
+                         const QString& tip) {
+  auto* button = makeButton(parent, name, text, tip);
+  button->setProperty("primary", true);
+  return button;
+}
+
+QPushButton* makeOk(QDialog* dialog, const QString& name, const QString& text) {
+  constexpr int kLeastWidth = 110;  // [px]
+  auto* button = makePrimary(dialog, name, text);
+  button->setDefault(true);
+  keepWide(*button, kLeastWidth);
+  return button;
+}
+
+QPushButton* makeCancel(QDialog* dialog, const QString& name) {
+  auto* button = makeButton(dialog, name, "Cancel");
+  button->setAutoDefault(true);
+  QObject::connect(button, &QPushButton::clicked, dialog, &QDialog::reject);
+  return button;
+}
+
+QWidget* makeDialogFoot(QLayout* layout) {
+  auto* foot = new QFrame;
+  foot->setProperty("role", "foot");
+  foot->setLayout(layout);
+  return foot;
 }
 
 QToolButton* makeToolButton(QWidget* parent,

@@ -10,6 +10,7 @@
 #include <variant>
 
 class QAction;
+class QDialog;
 class QLabel;
 class QPushButton;
 class QToolButton;
@@ -79,17 +80,29 @@ Control* named(Control* control,
   return control;
 }
 
+// In a dialog, Return presses it while it has the focus, and else the one of makeOk().
 QPushButton* makeButton(QWidget* parent,
                         const QString& name,
                         const QString& text,
                         const QString& tip = {});
+// Such a button that stands out among others: what is usually wanted.
+QPushButton* makePrimary(QWidget* parent,
+                         const QString& name,
+                         const QString& text,
+                         const QString& tip = {});
+// The primary button of a dialog, which Return presses; and the one that rejects the dialog.
+QPushButton* makeOk(QDialog* dialog, const QString& name, const QString& text);
+QPushButton* makeCancel(QDialog* dialog, const QString& name);
+// What stands below a dialog and a hairline, usually a row within kFootEdges.
+QWidget* makeDialogFoot(QLayout* layout);
 QToolButton* makeToolButton(QWidget* parent,
                             const QString& name,
                             const QString& text,
                             const QString& tip = {});
 // Does, shows and enables what the action does; its icon stands beside its text.
 QToolButton* makeToolButton(QWidget* parent, QAction* action);
-// A label of plain text; `role` is that of the style sheet ("muted", "heading"), or empty.
+// A label of plain text; `role` is that of the style sheet ("muted", "heading",
+// "problem"), or empty.
 QLabel* makeLabel(QWidget* parent,
                   const QString& name,
                   const QString& role = {},

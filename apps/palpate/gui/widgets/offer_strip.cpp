@@ -16,9 +16,8 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   setObjectName("OfferStrip");
   setAttribute(Qt::WA_StyledBackground);
   text_ = named(new LongWordLabel(this), "offerText");
-  accept_ = named(new QPushButton(this), "offerAccept");
+  accept_ = makeButton(this, "offerAccept", {});
   accept_->setFocusPolicy(Qt::TabFocus);
-  accept_->setAutoDefault(false);
   auto* close = named(new QToolButton(this), "offerClose", "Not now", "Not now");
   close->setProperty("flat", true);
   close->setIcon(makeIcon(IconShape::kClose));
@@ -68,7 +67,6 @@ void OfferStrip::offerAlso(const QString& button,
                            std::function<void()> action) {
   auto* made = makeButton(this, "offerOther", button, tip);
   made->setFocusPolicy(Qt::TabFocus);
-  made->setAutoDefault(false);
   connect(made, &QPushButton::clicked, this, std::move(action));
   others_->addWidget(made);
 }
