@@ -85,7 +85,7 @@ class LibraryTest : public ::testing::Test {
   Widget* find(const char* name) {
     return panel_->findChild<Widget*>(name);
   }
-  LibraryTable* table() { return find<LibraryTable>("libraryTable"); }
+  QTableView* table() { return find<QTableView>("libraryTable"); }
   QStringList column(int column) {
     QStringList texts;
     for (int row = 0; row < table()->model()->rowCount(); ++row)

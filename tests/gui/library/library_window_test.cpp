@@ -13,7 +13,7 @@ namespace {
 class LibraryWindowTest : public WindowTest {
  protected:
   LibraryPanel& library() { return window().feature<LibraryFeature>().panel(); }
-  LibraryTable* table() { return find<LibraryTable>("libraryTable"); }
+  QTableView* table() { return find<QTableView>("libraryTable"); }
   void toggle() { press(Qt::Key_L, Qt::ControlModifier | Qt::ShiftModifier); }
   // The folder of the test, with as many files as there are names.
   void look(const std::vector<std::string>& names) {

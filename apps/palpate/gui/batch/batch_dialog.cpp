@@ -1,6 +1,5 @@
 #include "gui/batch/batch_dialog.h"
 
-#include <QAction>
 #include <QCheckBox>
 #include <QDragEnterEvent>
 #include <QFileInfo>
@@ -26,6 +25,7 @@
 #include "gui/batch/batch_results.h"
 #include "gui/desktop/ask.h"
 #include "gui/widgets/dialog_properties.h"
+#include "gui/widgets/keep_keys.h"
 #include "gui/widgets/make.h"
 
 namespace palpate::gui {
@@ -125,11 +125,7 @@ QWidget* BatchDialog::makeRecordings() {
   auto* folder = makeButton(this, "batchAddFolder", "Add fol&der…");
   remove_ = makeButton(this, "batchRemove", "&Remove");
   auto* side = makeBox(inColumn({{paths_, 1}, count_, inRow({files, folder, remove_, Stretch{}})}));
-  auto* removeKey = new QAction(paths_);
-  removeKey->setShortcut(QKeySequence::Delete);
-  removeKey->setShortcutContext(Qt::WidgetShortcut);
-  paths_->addAction(removeKey);
-  connect(removeKey, &QAction::triggered, this, &BatchDialog::removeChosen);
+  keepKeys(*paths_, {Qt::Key_Delete}, [this] { removeChosen(); });
   connect(remove_, &QPushButton::clicked, this, &BatchDialog::removeChosen);
   connect(files, &QPushButton::clicked, this, [this] {
     addPaths(ask_.files("Recordings to read",

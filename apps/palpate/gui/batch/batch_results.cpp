@@ -1,6 +1,5 @@
 #include "gui/batch/batch_results.h"
 
-#include <QAction>
 #include <QApplication>
 #include <QCheckBox>
 #include <QClipboard>
@@ -8,7 +7,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QStyledItemDelegate>
-#include <QTableView>
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -21,7 +19,9 @@
 #include "gui/appearance/captions.h"
 #include "gui/desktop/ask.h"
 #include "gui/desktop/reveal_file.h"
+#include "gui/widgets/keep_keys.h"
 #include "gui/widgets/make.h"
+#include "gui/widgets/rows_table.h"
 
 namespace palpate::gui {
 namespace {
@@ -107,39 +107,27 @@ QString BatchResultsModel::source(int row) const {
 BatchResults::BatchResults(Ask& ask, QWidget* parent)
     : QWidget(parent), reveal(revealInFileManager), ask_(ask), model_(new BatchResultsModel(this)) {
   summary_ = makeLines(nullptr, "batchSummary");
-  table_ = named(new QTableView, "batchTable");
+  table_ = named(new RowsTable, "batchTable");
   table_->setModel(model_);
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setTabKeyNavigation(false);
-  table_->setShowGrid(false);
-  table_->setWordWrap(false);
-  table_->setTextElideMode(Qt::ElideMiddle);
   table_->setItemDelegateForColumn(kRecording, new PathDelegate(table_));
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
   table_->horizontalHeader()->setStretchLastSection(true);
-  table_->horizontalHeader()->setHighlightSections(false);
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   table_->setColumnWidth(kRecording, 260);
   table_->setColumnWidth(kResultState, 100);
   all_ = named(new QCheckBox("Show all &recordings"), "batchShowAll");
-  copy_ = named(new QPushButton("Co&py"), "batchCopy", "Copy the selected rows, or all (Ctrl+C)");
-  save_ = named(new QPushButton("Save re&port…"), "batchSaveReport");
-  save_->setToolTip("A table as CSV, a row for each recording: source, result, state, text, files");
-  show_ = named(new QPushButton("Sho&w recording"), "batchReveal");
-  show_->setToolTip("Show the recording in the file manager; also by a double click");
-  auto* foot = inRow({all_, Stretch{}});
-  for (QPushButton* button : {show_, copy_, save_}) {
-    button->setAutoDefault(false);
-    foot->addWidget(button);
-  }
-  setLayout(inColumn({summary_, {table_, 1}, foot}, kPageEdges));
-  auto* copyKey = new QAction(table_);
-  copyKey->setShortcut(QKeySequence::Copy);
-  copyKey->setShortcutContext(Qt::WidgetShortcut);
-  table_->addAction(copyKey);
-  connect(copyKey, &QAction::triggered, this, &BatchResults::copyRows);
+  copy_ = makeButton(this, "batchCopy", "Co&py", "Copy the selected rows, or all (Ctrl+C)");
+  save_ =
+      makeButton(this,
+                 "batchSaveReport",
+                 "Save re&port…",
+                 "A table as CSV, a row for each recording: source, result, state, text, files");
+  show_ = makeButton(this,
+                     "batchReveal",
+                     "Sho&w recording",
+                     "Show the recording in the file manager; also by a double click");
+  setLayout(
+      inColumn({summary_, {table_, 1}, inRow({all_, Stretch{}, show_, copy_, save_})}, kPageEdges));
+  keepKeys(*table_, QKeySequence::Copy, [this] { copyRows(); });
   connect(copy_, &QPushButton::clicked, this, &BatchResults::copyRows);
   connect(save_, &QPushButton::clicked, this, &BatchResults::saveReport);
   connect(all_, &QCheckBox::toggled, this, &BatchResults::fill);
@@ -196,11 +184,7 @@ void BatchResults::fill() {
 }
 
 void BatchResults::copyRows() {
-  QModelIndexList rows = table_->selectionModel()->selectedRows();
-  std::sort(
-      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.row() < b.row(); });
-  if (rows.isEmpty())
-    for (int row = 0; row < model_->rowCount(); ++row) rows.append(model_->index(row, 0));
+  const QModelIndexList rows = table_->chosenOrAllRows();
   if (rows.isEmpty()) return;
   const TextTable table{.header = {"recording", "state", "text"},
                         .numRows = static_cast<std::size_t>(rows.size()),

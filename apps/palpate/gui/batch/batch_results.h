@@ -12,11 +12,11 @@
 class QCheckBox;
 class QLabel;
 class QPushButton;
-class QTableView;
 
 namespace palpate::gui {
 
 class Ask;
+class RowsTable;
 
 class BatchResultsModel : public QAbstractTableModel {
   Q_OBJECT
@@ -64,7 +64,7 @@ class BatchResults : public QWidget {
   bool running_ = false;
   BatchResultsModel* model_;
   QLabel* summary_;
-  QTableView* table_;
+  RowsTable* table_;
   QCheckBox* all_;
   QPushButton* copy_;
   QPushButton* save_;

@@ -13,6 +13,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 
 #include "gui/appearance/icons.h"
 #include "gui/appearance/settings_file.h"
@@ -20,6 +21,7 @@
 #include "gui/desktop/reveal_file.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/keep_keys.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
@@ -115,17 +117,39 @@ QLayout* LibraryPanel::makeTop() {
 }
 
 void LibraryPanel::buildTable() {
-  table_ = new LibraryTable(filter_, pages_);
+  table_ = named(new RowsTable(pages_), "libraryTable");
+  table_->setModel(filter_);
+  table_->setDragEnabled(true);
+  table_->setContextMenuPolicy(Qt::CustomContextMenu);
+  table_->setSortingEnabled(true);
+  QHeaderView* header = table_->horizontalHeader();
+  header->setSectionsMovable(true);
+  header->setStretchLastSection(true);
+  header->setMinimumSectionSize(36);
+  constexpr std::array kLetters = {26, 13, 17, 14, 12, 8, 18, 18, 18};
+  constexpr int kPadding = 24;  // [px] around the text of a cell
+  for (int column = 0; const int letters : kLetters)
+    header->resizeSection(column++, letters * fontMetrics().horizontalAdvance('0') + kPadding);
   table_->sortByColumn(LibraryModel::kDate, Qt::DescendingOrder);
-  restoreColumns(*table_->horizontalHeader(), settings_, kHeaderKey);
+  restoreColumns(*header, settings_, kHeaderKey);
   pages_->addWidget(table_);
-  connect(table_, &LibraryTable::openRequested, this, &LibraryPanel::openChosen);
-  connect(table_, &QTableView::doubleClicked, this, &LibraryPanel::openChosen);
-  connect(table_, &LibraryTable::searchRequested, this, &LibraryPanel::startSearch);
-  connect(table_, &LibraryTable::compareRequested, this, [this] {
-    const QStringList paths = chosen();
-    if (paths.size() == 1 && comparable()) emit compareRequested(paths.first());
+  // Ctrl moves without choosing.
+  keepKeys(*table_,
+           {Qt::Key_Left,
+            Qt::Key_Right,
+            Qt::SHIFT | Qt::Key_Left,
+            Qt::SHIFT | Qt::Key_Right,
+            Qt::CTRL | Qt::Key_Up,
+            Qt::CTRL | Qt::Key_Down});
+  keepKeys(*table_, QKeySequence::Copy, [this] { copyRows(); });
+  keepKeys(*table_, {Qt::Key_Return, Qt::Key_Enter}, [this] { openChosen(); });
+  keepKeys(
+      *table_, {Qt::CTRL | Qt::Key_Return, Qt::CTRL | Qt::Key_Enter}, [this] { compareChosen(); });
+  // On some keyboards the slash needs Shift.
+  keepKeys(*table_, {Qt::Key_Slash, Qt::SHIFT | Qt::Key_Slash, Qt::CTRL | Qt::Key_F}, [this] {
+    startSearch();
   });
+  connect(table_, &QTableView::doubleClicked, this, &LibraryPanel::openChosen);
   connect(table_, &QWidget::customContextMenuRequested, this, &LibraryPanel::showMenu);
   connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
     showSummary();
@@ -351,17 +375,39 @@ void LibraryPanel::startSearch() {
 }
 
 QStringList LibraryPanel::chosen() const {
-  QModelIndexList rows = table_->selectionModel()->selectedRows();
-  std::sort(
-      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.row() < b.row(); });
   QStringList paths;
-  for (const QModelIndex& row : rows) paths.append(model_->path(filter_->mapToSource(row).row()));
+  for (const QModelIndex& row : table_->chosenRows())
+    paths.append(model_->path(filter_->mapToSource(row).row()));
   return paths;
 }
 
 void LibraryPanel::openChosen() {
   const QStringList paths = chosen();
   if (!paths.isEmpty()) emit openRequested(paths);
+}
+
+void LibraryPanel::compareChosen() {
+  const QStringList paths = chosen();
+  if (paths.size() == 1 && comparable()) emit compareRequested(paths.first());
+}
+
+void LibraryPanel::copyRows() const {
+  const QModelIndexList rows = table_->chosenRows();
+  if (rows.isEmpty()) return;
+  const QHeaderView& header = *table_->horizontalHeader();
+  QStringList lines;
+  const auto addLine = [&](auto cell) {
+    QStringList cells;
+    for (int at = 0; at < header.count(); ++at) {
+      const int column = header.logicalIndex(at);
+      if (!header.isSectionHidden(column)) cells.append(cell(column).toString().simplified());
+    }
+    lines.append(cells.join('\t'));
+  };
+  addLine([&](int column) { return filter_->headerData(column, Qt::Horizontal); });
+  for (const QModelIndex& row : rows)
+    addLine([&](int column) { return row.siblingAtColumn(column).data(); });
+  QApplication::clipboard()->setText(lines.join('\n') + '\n');
 }
 
 void LibraryPanel::showMenu(const QPoint& at) {
@@ -374,13 +420,13 @@ void LibraryPanel::showMenu(const QPoint& at) {
   };
   const bool one = paths.size() == 1;
   add("&Open", "Return", !paths.isEmpty(), [this] { openChosen(); });
-  add("&Compare with the shown recording", "Ctrl+Return", one && comparable(), [&] {
-    emit compareRequested(paths.first());
+  add("&Compare with the shown recording", "Ctrl+Return", one && comparable(), [this] {
+    compareChosen();
   });
   add("&Batch…", {}, !paths.isEmpty(), [this] { emit batchRequested(); });
   menu.addSeparator();
   add("&Show in the file manager", {}, one, [&] { reveal(paths.first()); });
-  add("Copy &rows", "Ctrl+C", !paths.isEmpty(), [this] { table_->copyRows(); });
+  add("Copy &rows", "Ctrl+C", !paths.isEmpty(), [this] { copyRows(); });
   add("Copy &path", {}, !paths.isEmpty(), [&] {
     QApplication::clipboard()->setText(paths.join('\n'));
   });

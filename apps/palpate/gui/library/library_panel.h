@@ -11,7 +11,7 @@
 #include "gui/appearance/theme.h"
 #include "gui/library/library_model.h"
 #include "gui/library/library_scanner.h"
-#include "gui/library/library_table.h"
+#include "gui/widgets/rows_table.h"
 
 class QLabel;
 class QLayout;
@@ -85,6 +85,9 @@ class LibraryPanel : public QWidget {
   void showFolder();
   void rememberColumns();
   void openChosen();
+  void compareChosen();
+  // Copies the chosen rows with the headings of the visible columns, for a spreadsheet.
+  void copyRows() const;
 
   QSettings& settings_;
   Ask& ask_;
@@ -110,7 +113,7 @@ class LibraryPanel : public QWidget {
   QToolButton* refreshButton_ = nullptr;
   QLineEdit* search_ = nullptr;
   QStackedWidget* pages_ = nullptr;
-  LibraryTable* table_ = nullptr;
+  RowsTable* table_ = nullptr;
   EmptyPage* empty_ = nullptr;
   QLabel* summary_ = nullptr;
   QProgressBar* bar_ = nullptr;

@@ -4,7 +4,6 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QHeaderView>
-#include <QKeyEvent>
 #include <QLineEdit>
 #include <QScrollBar>
 #include <QStackedWidget>
@@ -19,6 +18,7 @@
 #include "gui/desktop/ask.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/keep_keys.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
@@ -53,41 +53,14 @@ bool LogFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
          });
 }
 
-bool LogTable::event(QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride) {
-    const auto* key = static_cast<QKeyEvent*>(event);
-    const auto moves = {
-        Qt::Key_Up, Qt::Key_Down, Qt::Key_Home, Qt::Key_End, Qt::Key_PageUp, Qt::Key_PageDown};
-    if (key->matches(QKeySequence::Copy) || key->matches(QKeySequence::SelectAll) ||
-        std::find(moves.begin(), moves.end(), key->key()) != moves.end()) {
-      event->accept();
-      return true;
-    }
-  }
-  return QTableView::event(event);
-}
-
-void LogTable::keyPressEvent(QKeyEvent* event) {
-  if (event->matches(QKeySequence::Copy)) {
-    emit copyRequested();
-  } else if (event->key() == Qt::Key_Home || event->key() == Qt::Key_End) {
-    const int row = event->key() == Qt::Key_Home ? 0 : model()->rowCount() - 1;
-    if (row < 0) return;
-    selectRow(row);
-    scrollTo(model()->index(row, 0));
-  } else {
-    QTableView::keyPressEvent(event);
-  }
-}
-
 void LogTable::resizeEvent(QResizeEvent* event) {
-  QTableView::resizeEvent(event);
+  RowsTable::resizeEvent(event);
   // The width of the last column follows.
   QTimer::singleShot(0, this, &LogTable::fitAllRows);
 }
 
 void LogTable::setModel(QAbstractItemModel* model) {
-  QTableView::setModel(model);
+  RowsTable::setModel(model);
   setWordWrap(true);
   connect(model,
           &QAbstractItemModel::rowsInserted,
@@ -188,14 +161,7 @@ void LogPanel::buildTop() {
 void LogPanel::buildTable() {
   pages_ = new FittingPages(this);
   table_ = named(new LogTable(pages_), "logTable", {}, "Log");
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setTabKeyNavigation(false);
-  table_->setShowGrid(false);
-  table_->setFrameShape(QFrame::NoFrame);
   table_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
-  table_->verticalHeader()->hide();
   table_->horizontalHeader()->hide();
   table_->horizontalHeader()->setStretchLastSection(true);
   table_->setModel(filter_);
@@ -203,9 +169,7 @@ void LogPanel::buildTable() {
   pages_->addWidget(table_);
   pages_->addWidget(empty_);
   static_cast<QBoxLayout*>(layout())->addWidget(pages_, 1);
-  connect(table_, &LogTable::copyRequested, this, [this] {
-    QApplication::clipboard()->setText(text());
-  });
+  keepKeys(*table_, QKeySequence::Copy, [this] { QApplication::clipboard()->setText(text()); });
   connect(empty_, &EmptyPage::buttonClicked, this, [this] {
     words_->clear();
     severity_->setCurrentIndex(0);
@@ -230,15 +194,9 @@ void LogPanel::showState() {
 }
 
 QString LogPanel::text() const {
-  std::vector<int> rows;
-  for (const QModelIndex& index : table_->selectionModel()->selectedRows())
-    rows.push_back(filter_->mapToSource(index).row());
-  if (rows.empty())
-    for (int row = 0; row < filter_->rowCount(); ++row)
-      rows.push_back(filter_->mapToSource(filter_->index(row, 0)).row());
-  std::sort(rows.begin(), rows.end());
   QString text;
-  for (const int row : rows) text += log_.lineText(row) + '\n';
+  for (const QModelIndex& row : table_->chosenOrAllRows())
+    text += log_.lineText(filter_->mapToSource(row).row()) + '\n';
   return text;
 }
 

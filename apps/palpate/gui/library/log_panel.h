@@ -3,10 +3,10 @@
 #pragma once
 
 #include <QSortFilterProxyModel>
-#include <QTableView>
 #include <QWidget>
 
 #include "gui/appearance/theme.h"
+#include "gui/widgets/rows_table.h"
 #include "gui/window_state/activity_log.h"
 
 class QComboBox;
@@ -36,21 +36,15 @@ class LogFilter : public QSortFilterProxyModel {
   QStringList words_;
 };
 
-// The table of messages; a long one has several rows of text. Keys that navigate in it are not
-// passed on as shortcuts of the window.
-class LogTable : public QTableView {
+// The table of messages; a long one has several rows of text.
+class LogTable : public RowsTable {
   Q_OBJECT
  public:
-  using QTableView::QTableView;
+  using RowsTable::RowsTable;
   // Called once.
   void setModel(QAbstractItemModel* model) override;
 
- signals:
-  void copyRequested();
-
  protected:
-  bool event(QEvent* event) override;
-  void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:

@@ -4,14 +4,12 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QHeaderView>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
 #include <QSortFilterProxyModel>
 #include <QSplitter>
 #include <QStackedWidget>
-#include <QTableView>
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -21,6 +19,7 @@
 #include "gui/recognise/feature_scatter.h"
 #include "gui/recognise/grasp_table_model.h"
 #include "gui/widgets/empty_page.h"
+#include "gui/widgets/keep_keys.h"
 #include "gui/widgets/make.h"
 
 namespace palpate::gui {
@@ -30,27 +29,6 @@ constexpr const char* kGraspsAxisXKey = "recognise/scatterX";
 constexpr const char* kGraspsAxisYKey = "recognise/scatterY";
 constexpr const char* kGraspsPartsKey = "recognise/graspsParts";
 constexpr int kMostGraspColumn = 170;  // [px]
-
-bool isGraspTableKey(const QKeyEvent& key) {
-  if (key.matches(QKeySequence::Copy) || key.matches(QKeySequence::SelectAll)) return true;
-  if ((key.modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier)) != 0) return false;
-  switch (key.key()) {
-    case Qt::Key_Up:
-    case Qt::Key_Down:
-    case Qt::Key_Left:
-    case Qt::Key_Right:
-    case Qt::Key_Home:
-    case Qt::Key_End:
-    case Qt::Key_PageUp:
-    case Qt::Key_PageDown:
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-    case Qt::Key_Space:
-      return true;
-    default:
-      return false;
-  }
-}
 
 }  // namespace
 
@@ -99,23 +77,20 @@ GraspsPage::GraspsPage(TrainingController& controller, QSettings& settings, QWid
 
 QWidget* GraspsPage::makeTable() {
   auto* part = new QWidget(parts_);
-  view_ = named(new QTableView(part), "graspsTable", {}, "Grasps of the training folder");
+  view_ = named(new RowsTable(part), "graspsTable", {}, "Grasps of the training folder");
   view_->setModel(sorted_);
-  view_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  view_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  view_->setTabKeyNavigation(false);
-  view_->setShowGrid(false);
-  view_->setWordWrap(false);
-  view_->setTextElideMode(Qt::ElideMiddle);
-  view_->setFrameShape(QFrame::NoFrame);
-  view_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   view_->setSortingEnabled(true);
   view_->sortByColumn(-1, Qt::AscendingOrder);
-  view_->verticalHeader()->hide();
-  view_->verticalHeader()->setDefaultSectionSize(view_->fontMetrics().height() + 8);
-  view_->horizontalHeader()->setHighlightSections(false);
-  view_->installEventFilter(this);
+  keepKeys(*view_,
+           {Qt::Key_Left, Qt::Key_Right, Qt::SHIFT | Qt::Key_Left, Qt::SHIFT | Qt::Key_Right});
+  keepKeys(*view_, QKeySequence::Copy, [this] { copy(); });
+  keepKeys(*view_, {Qt::Key_Return, Qt::Key_Enter}, [this] { openRow(chosenRow()); });
+  keepKeys(*view_, {Qt::Key_Space}, [this] {
+    if (leave_->isEnabled()) leaveOutChosen();
+  });
+  // Not those of the recording's events.
+  keepKeys(*this, QKeySequence::Undo, [this] { controller_.undoLeavingOut(); });
+  keepKeys(*this, QKeySequence::Redo, [this] { controller_.redoLeavingOut(); });
   leave_ =
       makeButton(part,
                  "graspsLeaveOut",
@@ -270,52 +245,10 @@ void GraspsPage::openRow(int row) {
 
 void GraspsPage::copy() const {
   std::vector<int> rows;
-  QModelIndexList chosen = view_->selectionModel()->selectedRows();
-  std::sort(
-      chosen.begin(), chosen.end(), [](const auto& a, const auto& b) { return a.row() < b.row(); });
-  for (const QModelIndex& row : chosen) rows.push_back(sorted_->mapToSource(row).row());
-  if (rows.empty()) rows = shownRows();
+  for (const QModelIndex& row : view_->chosenOrAllRows())
+    rows.push_back(sorted_->mapToSource(row).row());
   const TextTable text = graspTextTable(model_->table(), leftOut(), rows);
   QApplication::clipboard()->setText(QString::fromStdString(tabbedText(text, text.numRows)));
-}
-
-bool GraspsPage::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == view_ && event->type() == QEvent::ShortcutOverride &&
-      isGraspTableKey(static_cast<QKeyEvent&>(*event))) {
-    event->accept();
-    return true;
-  }
-  if (watched == view_ && event->type() == QEvent::KeyPress) {
-    const auto& key = static_cast<QKeyEvent&>(*event);
-    if (key.matches(QKeySequence::Copy)) {
-      copy();
-      return true;
-    }
-    if (key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter) {
-      openRow(chosenRow());
-      return true;
-    }
-    if (key.key() == Qt::Key_Space && leave_->isEnabled()) {
-      leaveOutChosen();
-      return true;
-    }
-  }
-  return QWidget::eventFilter(watched, event);
-}
-
-bool GraspsPage::event(QEvent* event) {
-  const bool override = event->type() == QEvent::ShortcutOverride;
-  if (override || event->type() == QEvent::KeyPress) {
-    const auto& key = static_cast<QKeyEvent&>(*event);
-    const bool undo = key.matches(QKeySequence::Undo);
-    if (undo || key.matches(QKeySequence::Redo)) {
-      if (!override && undo) controller_.undoLeavingOut();
-      if (!override && !undo) controller_.redoLeavingOut();
-      event->accept();
-      return true;
-    }
-  }
-  return QWidget::event(event);
 }
 
 bool GraspsPage::shown() const { return isVisible() && pages_->currentWidget() == parts_; }

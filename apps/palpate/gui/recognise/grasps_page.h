@@ -10,6 +10,7 @@
 #include "gui/appearance/theme.h"
 #include "gui/picture/exported_view.h"
 #include "gui/recognise/training_controller.h"
+#include "gui/widgets/rows_table.h"
 
 class QComboBox;
 class QLabel;
@@ -17,7 +18,6 @@ class QPushButton;
 class QSortFilterProxyModel;
 class QSplitter;
 class QStackedWidget;
-class QTableView;
 
 namespace palpate::gui {
 
@@ -31,7 +31,7 @@ class GraspsPage : public QWidget {
   // Both must outlive the page.
   GraspsPage(TrainingController& controller, QSettings& settings, QWidget* parent = nullptr);
   FeatureScatter& scatter() noexcept { return *scatter_; }
-  QTableView& table() noexcept { return *view_; }
+  RowsTable& table() noexcept { return *view_; }
   // Chooses one row of the feature table, and no other.
   void choose(int row);
   // Whether there are grasps, and they are visible.
@@ -42,13 +42,6 @@ class GraspsPage : public QWidget {
  signals:
   // The user wants to see this grasp of a recording.
   void graspAsked(const std::filesystem::path& file, std::size_t begin, std::size_t end);
-
- protected:
-  // Keys of the table aren't shortcuts of the playback.
-  bool eventFilter(QObject* watched, QEvent* event) override;
-  // With the focus on this page, the keys of undo and redo are those of leaving out, not those of
-  // the recording's events.
-  bool event(QEvent* event) override;
 
  private:
   QWidget* makeTable();
@@ -71,7 +64,7 @@ class GraspsPage : public QWidget {
   QSettings& settings_;
   GraspTableModel* model_;
   QSortFilterProxyModel* sorted_;
-  QTableView* view_;
+  RowsTable* view_;
   FeatureScatter* scatter_;
   QComboBox* x_;
   QComboBox* y_;

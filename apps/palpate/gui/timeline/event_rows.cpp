@@ -17,6 +17,8 @@
 
 #include <palpate/core/time.h>
 
+#include "gui/widgets/keep_keys.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -58,6 +60,8 @@ EventRows::EventRows(QWidget* parent) : QWidget(parent) {
   // A click chooses an event and leaves the arrow keys to the playback; Tab and F7 bring them here.
   setFocusPolicy(Qt::TabFocus);
   setAccessibleName("Events of the recording");
+  // While this widget has the focus, arrow keys go from event to event, not from frame to frame.
+  keepKeys(*this, {Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down, Qt::Key_Delete});
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
 }
 
@@ -470,20 +474,6 @@ void EventRows::focusOutEvent(QFocusEvent* event) {
 }
 
 bool EventRows::event(QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride) {
-    // While this widget has the focus, arrow keys go from event to event, not from frame to frame.
-    switch (static_cast<QKeyEvent*>(event)->key()) {
-      case Qt::Key_Left:
-      case Qt::Key_Right:
-      case Qt::Key_Up:
-      case Qt::Key_Down:
-      case Qt::Key_Delete:
-        if (static_cast<QKeyEvent*>(event)->modifiers() == Qt::NoModifier) event->accept();
-        break;
-      default:
-        break;
-    }
-  }
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     const auto mark = markAt(help->pos());

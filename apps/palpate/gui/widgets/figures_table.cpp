@@ -1,13 +1,13 @@
 #include "gui/widgets/figures_table.h"
 
 #include <QHeaderView>
-#include <QKeyEvent>
 #include <QPainter>
 #include <QStyledItemDelegate>
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
+#include "gui/widgets/keep_keys.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -85,6 +85,7 @@ FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* pa
     setHorizontalHeaderItem(i, item);
     letters_.push_back(column.letters);
   }
+  keepKeys(*this, kRowKeys);
   fitToText(*this, [this] { fitTextSize(); });
   connect(this, &QTableWidget::itemSelectionChanged, this, [this] {
     if (const int row = chosenRow(); row >= 0) emit rowChosen(row);
@@ -192,20 +193,6 @@ QSize FiguresTable::minimumSizeHint() const {
                         : 0;
   return {std::max(200, width),
           horizontalHeader()->sizeHint().height() + verticalHeader()->defaultSectionSize()};
-}
-
-bool FiguresTable::event(QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride) {
-    const auto& key = *static_cast<QKeyEvent*>(event);
-    const bool plain = (key.modifiers() & ~Qt::KeypadModifier) == 0;
-    if (plain && (key.key() == Qt::Key_Up || key.key() == Qt::Key_Down ||
-                  key.key() == Qt::Key_Home || key.key() == Qt::Key_End ||
-                  key.key() == Qt::Key_PageUp || key.key() == Qt::Key_PageDown)) {
-      event->accept();
-      return true;
-    }
-  }
-  return QTableWidget::event(event);
 }
 
 }  // namespace palpate::gui

@@ -50,8 +50,6 @@ class FiguresTable : public QTableWidget {
   void rowChosen(int row);
 
  protected:
-  // Cursor keys move within the table and don't trigger the shortcuts of the playback.
-  bool event(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:

@@ -11,6 +11,8 @@
 
 #include "palpate/core/number_text.h"
 
+#include "gui/widgets/keep_keys.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -48,16 +50,10 @@ void setUp(QAbstractSpinBox& field) {
   // Only finished input moves the playback.
   field.setKeyboardTracking(false);
   field.setFocusPolicy(Qt::ClickFocus);
-}
-
-// True for keys that belong to the field while it has the focus, although they are also shortcuts
-// of the window.
-bool keepsKey(QEvent* event) {
-  if (event->type() != QEvent::ShortcutOverride) return false;
-  const int key = static_cast<QKeyEvent*>(event)->key();
-  if (key != Qt::Key_Escape && key != Qt::Key_Up && key != Qt::Key_Down) return false;
-  event->accept();
-  return true;
+  // With Ctrl in larger steps.
+  keepKeys(
+      field,
+      {Qt::Key_Escape, Qt::Key_Up, Qt::Key_Down, Qt::CTRL | Qt::Key_Up, Qt::CTRL | Qt::Key_Down});
 }
 
 }  // namespace
@@ -137,8 +133,6 @@ int FrameField::valueFromText(const QString& text) const {
   return static_cast<int>(numberFieldNumberIn(text).value_or(value()));
 }
 
-bool FrameField::event(QEvent* event) { return keepsKey(event) || QSpinBox::event(event); }
-
 void FrameField::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) return QSpinBox::keyPressEvent(event);
   refused_->end();
@@ -177,8 +171,6 @@ QString SecondsField::textFromValue(double value) const {
   if (!placeholder_.isEmpty() && value == minimum()) return {};
   return QDoubleSpinBox::textFromValue(value);
 }
-
-bool SecondsField::event(QEvent* event) { return keepsKey(event) || QDoubleSpinBox::event(event); }
 
 void SecondsField::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) return QDoubleSpinBox::keyPressEvent(event);

@@ -54,7 +54,6 @@ class FrameField : public QSpinBox {
   QValidator::State validate(QString& text, int& position) const override;
   void fixup(QString& text) const override;
   int valueFromText(const QString& text) const override;
-  bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
@@ -73,7 +72,6 @@ class SecondsField : public QDoubleSpinBox {
   void fixup(QString& text) const override;
   double valueFromText(const QString& text) const override;
   QString textFromValue(double value) const override;
-  bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:

@@ -1,9 +1,9 @@
 #include "gui/widgets/status_lines.h"
 
 #include <QFontMetrics>
-#include <QKeyEvent>
 #include <QScrollBar>
 
+#include "gui/widgets/keep_keys.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -32,6 +32,8 @@ StatusLines::StatusLines(int lines, const QString& name, QWidget* parent)
     setFocusPolicy(last > 0 ? Qt::TabFocus : Qt::NoFocus);
     if (last <= 0) clearFocus();
   });
+  // They scroll here, and have other meanings in the window.
+  keepKeys(*this, {Qt::Key_Up, Qt::Key_Down, Qt::Key_PageUp, Qt::Key_PageDown});
   fitToText(*this, [this, lines] { setFixedHeight(lines * fontMetrics().lineSpacing() + 2); });
 }
 
@@ -43,24 +45,6 @@ void StatusLines::setText(const QString& text, const QString& tip) {
   }
   const QString wanted = tip.isEmpty() ? text : tip;
   if (label_->toolTip() != wanted) label_->setToolTip(wanted);
-}
-
-// The keys that scroll have other meanings in the window.
-bool StatusLines::event(QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride) {
-    const auto* key = static_cast<const QKeyEvent*>(event);
-    switch (key->key()) {
-      case Qt::Key_Up:
-      case Qt::Key_Down:
-      case Qt::Key_PageUp:
-      case Qt::Key_PageDown:
-        if (!(key->modifiers() & ~Qt::KeypadModifier)) event->accept();
-        return true;
-      default:
-        break;
-    }
-  }
-  return QScrollArea::event(event);
 }
 
 void StatusLines::focusInEvent(QFocusEvent* event) {

@@ -20,7 +20,6 @@ class StatusLines : public QScrollArea {
   void setText(const QString& text, const QString& tip = {});
 
  protected:
-  bool event(QEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
