@@ -75,7 +75,8 @@ ImportDialog::ImportDialog(QSettings& settings,
           LatestAnswer<ImportRequest, ImportLook>::Turns::kAtOnce) {
   setWindowTitle("Import");
   const ImportRequest last = loadImportRequest(settings);
-  setLayout(inColumn({inRow({{makeFile(), 3}, {makeMapping(), 4}}), {makePreview(), 1}, makeFoot()},
+  fields_ = new ImportFields(this);
+  setLayout(inColumn({inRow({{makeFile(), 3}, {fields_, 4}}), {makePreview(), 1}, makeFoot()},
                      kPageEdges));
   for (const KnownHand& each : knownHands(folders_))
     hand_->addItem(QString::fromStdString(each.key));
@@ -168,11 +169,6 @@ QWidget* ImportDialog::makeFile() {
   auto* time = inRow({{time_, 2}, {timeUnit_, 1}, {rate_, 1}});
   form->addRow(makeTitle("&Time", time_), time);
   return side;
-}
-
-QWidget* ImportDialog::makeMapping() {
-  fields_ = new ImportFields(this);
-  return fields_;
 }
 
 QWidget* ImportDialog::makePreview() {

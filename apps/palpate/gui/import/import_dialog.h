@@ -49,7 +49,6 @@ class ImportDialog : public QDialog {
 
  private:
   QWidget* makeFile();
-  QWidget* makeMapping();
   QWidget* makePreview();
   QWidget* makeFoot();
   void connectFields();
