@@ -1,7 +1,9 @@
 // The confusion matrix by itself: how many names are read, and what mouse and keys do.
 #include "gui/recognise/confusion_view.h"
 
+#include <QAccessible>
 #include <QApplication>
+#include <QHeaderView>
 #include <QImage>
 #include <QPainter>
 #include <QScrollBar>
@@ -97,10 +99,20 @@ TEST_F(ConfusionViewTest, MouseAndKeysChooseAndOpen) {
   QTest::keyClick(&view_, Qt::Key_Return);
   ASSERT_EQ(opened.count(), 1) << "Return opens";
   EXPECT_EQ(opened.at(0), (QVariantList{2, 2}));
+  QTest::mouseClick(view_.viewport(), Qt::LeftButton, {}, middleOf({2, 0}));
   QTest::mouseDClick(view_.viewport(), Qt::LeftButton, {}, middleOf({2, 0}));
   EXPECT_EQ(opened.count(), 2);
-  QTest::mouseClick(view_.viewport(), Qt::LeftButton, {}, QPoint(2, 2));
-  EXPECT_EQ(clicked.count(), 1) << "names are no cells";
+  QTest::mouseClick(view_.horizontalHeader()->viewport(), Qt::LeftButton, {}, QPoint(2, 2));
+  EXPECT_EQ(view_.chosen(), ConfusionView::Cell(2, 0)) << "names are no cells";
+}
+
+TEST_F(ConfusionViewTest, AScreenReaderIsToldEachCell) {
+  showClasses(5);
+  QAccessibleTableInterface* table =
+      QAccessible::queryAccessibleInterface(&view_)->tableInterface();
+  ASSERT_NE(table, nullptr);
+  EXPECT_EQ(table->cellAt(2, 0)->text(QAccessible::Name), "some object 2 called some object 0: 2");
+  EXPECT_EQ(table->rowDescription(2), "some object 2");
 }
 
 TEST_F(ConfusionViewTest, TheRowAndColumnUnderThePointerStandOut) {

@@ -86,6 +86,7 @@ QStatusBar::item { border: 0; }
 QTableView { background: @panel; border: 0; gridline-color: @border; }
 QHeaderView { background: @panel; }
 QHeaderView::section { background: @panel; color: @muted; border: 0; border-bottom: 1px solid @border; padding: 3px 6px; }
+QTableCornerButton::section { background: @panel; border: 0; }
 QScrollArea { border: 0; background: @panel; }
 QScrollBar:vertical { background: transparent; width: 10px; }
 QScrollBar::handle:vertical { background: @border; border-radius: 4px; min-height: 24px; margin: 1px; }

@@ -1,5 +1,7 @@
 #include "gui/recognise/check_page.h"
 
+#include <QApplication>
+#include <QClipboard>
 #include <QComboBox>
 #include <QLabel>
 #include <QPainter>
@@ -14,6 +16,7 @@
 #include "gui/recognise/confusion_view.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/keep_keys.h"
 #include "gui/widgets/make.h"
 
 namespace palpate::gui {
@@ -125,6 +128,10 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   connect(confusion_, &ConfusionView::cellOpened, this, [this](int truth, int called) {
     listCell(truth, called);
     openGrasp(0);
+  });
+  keepKeys(*confusion_, QKeySequence::Copy, [this] {
+    const TextTable table = confusionTable(controller_.checked());
+    QApplication::clipboard()->setText(QString::fromStdString(tabbedText(table, table.numRows)));
   });
   connect(back_, &QPushButton::clicked, this, [this] {
     confusion_->choose(std::nullopt);

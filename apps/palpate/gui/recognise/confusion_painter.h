@@ -31,16 +31,8 @@ struct ConfusionGrid {
   QFont font;
   // Side of a cell [px].
   double side = 0.0;
-  // The visible part of the cells.
+  // The cells, as far as there is room.
   QRectF window;
-  // The top left of the first cell; outside the window when scrolled.
-  QPointF origin;
-  // Smaller cells have no numbers [px].
-  double leastSideForNumbers = 13.0;
-  double wholeWidth() const { return side * columns; }
-  double wholeHeight() const { return side * rows; }
-  int calledOf(int column) const { return column < rows ? column : ConfusionMatrix::kUnknown; }
-  int columnOf(int called) const { return called == ConfusionMatrix::kUnknown ? rows : called; }
   QRectF rectOf(const ConfusionCell& cell) const;
 };
 
@@ -49,25 +41,31 @@ struct ConfusionGrid {
 ConfusionGrid confusionGrid(const ConfusionMatrix& matrix,
                             const QRectF& area,
                             const QFont& plain,
-                            std::optional<double> side = {},
-                            QPointF scrolled = {});
+                            std::optional<double> side = {});
+// With that of "unknown", if an answer was so.
+int confusionColumns(const ConfusionMatrix& matrix);
 // The name of a class; "unknown" for ConfusionMatrix::kUnknown.
 QString confusionName(const ConfusionMatrix& matrix, int index);
+// For names beside cells of this side [px].
+QFont confusionNameFont(const QFont& plain, double side);
 
-// The highlighted cells.
-struct ConfusionMarks {
-  // This cell is drawn with a frame.
-  std::optional<ConfusionCell> chosen;
-  // The row and column of this cell are highlighted.
-  std::optional<ConfusionCell> hovered;
-};
-// Paints a matrix with a given layout; the font is the painter's.
-void paintConfusion(QPainter& painter,
-                    const QRectF& area,
-                    const ConfusionGrid& grid,
-                    const ConfusionMatrix& matrix,
-                    Theme theme,
-                    const ConfusionMarks& marks = {});
+// Paints a name along a row or, rotated, a column; illegible ones are left out. A marked one stands
+// out and is legible.
+void paintConfusionName(QPainter& painter,
+                        const QRectF& where,
+                        const QString& name,
+                        QFont font,
+                        Qt::Alignment side,
+                        const QColor& color,
+                        bool marked = false);
+// Paints a cell, whose number is left out where the cell is smaller than `leastSide` [px].
+void paintConfusionCell(QPainter& painter,
+                        const QRectF& where,
+                        const ConfusionMatrix& matrix,
+                        const ConfusionCell& cell,
+                        const ThemeColors& colors,
+                        bool highlighted = false,
+                        double leastSide = 13.0);
 // Paints the whole matrix as large as fits, for a picture: finer than a screen, so that numbers of
 // smaller cells are legible, too.
 void paintConfusion(QPainter& painter,

@@ -4,7 +4,8 @@
 // Ctrl with the wheel, + and - zoom; 0 shows everything.
 #pragma once
 
-#include <QAbstractScrollArea>
+#include <QLabel>
+#include <QTableWidget>
 #include <optional>
 
 #include <palpate/recognition/classification_report.h>
@@ -14,7 +15,7 @@
 
 namespace palpate::gui {
 
-class ConfusionView : public QAbstractScrollArea {
+class ConfusionView : public QTableWidget {
   Q_OBJECT
  public:
   using Cell = ConfusionCell;
@@ -23,7 +24,10 @@ class ConfusionView : public QAbstractScrollArea {
   void setMatrix(std::optional<ConfusionMatrix> matrix);
   const std::optional<ConfusionMatrix>& matrix() const noexcept { return matrix_; }
   void choose(std::optional<Cell> cell);
-  const std::optional<Cell>& chosen() const noexcept { return chosen_; }
+  std::optional<Cell> chosen() const;
+  Cell cellOf(const QModelIndex& index) const;
+  // The cell whose row and column are highlighted: under the pointer, else the chosen one.
+  QModelIndex marked() const;
   // Side of a cell [px]: the zoomed one, else one with legible names. setSide() limits the value;
   // nothing returns to legible names.
   double side() const;
@@ -36,36 +40,26 @@ class ConfusionView : public QAbstractScrollArea {
   QSize minimumSizeHint() const override { return {200, 180}; }
 
  signals:
+  // cellClicked() follows, if it was by mouse.
   void cellChosen(int truth, int called);
-  // By mouse; follows cellChosen().
-  void cellClicked(int truth, int called);
   // Double click or Return: the user wants to see the grasps of the cell.
   void cellOpened(int truth, int called);
 
  protected:
-  void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
-  void mousePressEvent(QMouseEvent* event) override;
-  void mouseDoubleClickEvent(QMouseEvent* event) override;
-  void mouseMoveEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
-  void keyPressEvent(QKeyEvent* event) override;
-  bool event(QEvent* event) override;
   bool viewportEvent(QEvent* event) override;
-  void scrollContentsBy(int dx, int dy) override;
 
  private:
-  ConfusionGrid gridInSight() const;
-  // "cup called bottle: 3"
-  QString textOf(const Cell& cell) const;
-  std::optional<Cell> cellAt(const QPointF& at) const;
-  // Updates the scroll bars.
+  QModelIndex indexOf(const Cell& cell) const;
+  QModelIndex chosenIndex() const { return selectionModel()->selectedIndexes().value(0); }
+  // The sizes of names and cells.
   void layOut();
-  void reveal(const Cell& cell);
-  void moveChosen(int columns, int rows);
+  void hover(const QModelIndex& index);
 
   std::optional<ConfusionMatrix> matrix_;
-  std::optional<Cell> chosen_, hovered_;
+  QLabel* directions_;
+  QModelIndex hovered_;
   std::optional<double> side_;
 };
 
