@@ -115,13 +115,13 @@ BatchResults::BatchResults(Ask& ask, QWidget* parent)
   table_->setColumnWidth(kRecording, 260);
   table_->setColumnWidth(kResultState, 100);
   all_ = named(new QCheckBox("Show all &recordings"), "batchShowAll");
-  copy_ = makeButton(this, "batchCopy", "Co&py", "Copy the selected rows, or all (Ctrl+C)");
+  copy_ = makeButton(nullptr, "batchCopy", "Co&py", "Copy the selected rows, or all (Ctrl+C)");
   save_ =
-      makeButton(this,
+      makeButton(nullptr,
                  "batchSaveReport",
                  "Save re&port…",
                  "A table as CSV, a row for each recording: source, result, state, text, files");
-  show_ = makeButton(this,
+  show_ = makeButton(nullptr,
                      "batchReveal",
                      "Sho&w recording",
                      "Show the recording in the file manager; also by a double click");

@@ -128,7 +128,7 @@ QWidget* ImportDialog::makeFile() {
     importPresets(settings_).save(name, request().mapping);
     listPresets(name);
   });
-  removePreset_ = makeButton(this, "importRemovePreset", "Forget");
+  removePreset_ = makeButton(nullptr, "importRemovePreset", "Forget");
   connect(removePreset_, &QPushButton::clicked, this, [this] {
     importPresets(settings_).remove(preset_->currentData().toString());
     listPresets("");
@@ -191,8 +191,7 @@ QWidget* ImportDialog::makeFoot() {
   ok_ = makeOk(this, "importOk", "Import");
   connect(ok_, &QPushButton::clicked, this, &ImportDialog::accept);
   return makeBox(inColumn({inRow({makeTitle("Sa&ve as", out_), out_, replace_, strict_}),
-                           inRow({{problem_, 1}, cancel, ok_})}),
-                 this);
+                           inRow({{problem_, 1}, cancel, ok_})}));
 }
 
 void ImportDialog::connectFields() {
