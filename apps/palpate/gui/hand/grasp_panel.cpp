@@ -66,6 +66,8 @@ GraspPanel::GraspPanel(QSettings& settings,
   highestLimit = [](const GraspRequest&) { return kMaxGraspLimitCounts; };
   const GraspRequest usual;
   preshape_ = named(new QComboBox(this), "preshape");
+  preshape_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  preshape_->setMinimumContentsLength(8);
   for (const Preshape& each : movableHand().file->preshapes)
     preshape_->addItem(QString::fromStdString(each.title), QString::fromStdString(each.name));
   const int index = preshape_->findData(

@@ -186,6 +186,7 @@ void HandDock::makePages(QSettings& settings, Ask& ask, QWidget* content) {
   connect(chooser_, &QTabBar::currentChanged, this, [this, &settings](int index) {
     pages_->setCurrentIndex(index);
     settings.setValue(kPageKey, index);
+    if (isVisible()) fitWidth();
   });
   chooser_->setCurrentIndex(std::clamp(settings.value(kPageKey, 0).toInt(), 0, pages_->count() - 1));
 }
@@ -299,10 +300,8 @@ void HandDock::clearAnswers() {
 }
 
 void HandDock::fitWidth() {
-  int widest = body_->widget()->minimumSizeHint().width();
-  for (int i = 0; i < pages_->count(); ++i)
-    widest = std::max(widest, pages_->widget(i)->minimumSizeHint().width() + 2 * px(Space::kWide));
-  body_->setMinimumWidth(widest + body_->verticalScrollBar()->sizeHint().width());
+  body_->setMinimumWidth(body_->widget()->minimumSizeHint().width() +
+                         body_->verticalScrollBar()->sizeHint().width());
 }
 
 void HandDock::setHand(CaptureSession* session, GraspControl* control) {

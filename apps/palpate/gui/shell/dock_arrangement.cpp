@@ -24,7 +24,7 @@ constexpr int kNarrowestRight = 455;
 constexpr double kRightShare = 0.345;  // of the window's width
 constexpr int kNarrowestRightLive = 330;
 constexpr double kRightShareLive = 0.24;
-// Most that the left side takes: widths of the letter m, and of the window's width.
+// Largest width of the left side: in sizes of the text, and a share of the window's width.
 constexpr int kLeftLiveEm = 24;
 constexpr double kLeftLiveShare = 0.25;
 constexpr double kBottomShare = 0.235;  // of the window's height
