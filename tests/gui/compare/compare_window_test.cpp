@@ -20,6 +20,7 @@ using CompareWindowTest = CompareWindowFixture;
 
 TEST_F(CompareWindowTest, TakesThePlaceOfTheMatricesAndGivesItBack) {
   open({"early.dsa", "late.dsa"});
+  window().docks().show("Inspect");
   ASSERT_TRUE(dock("Timeline")->isVisible());
   compareNow();
   EXPECT_TRUE(compare().isVisible());

@@ -126,7 +126,7 @@ TEST_F(StreamShownTest, AHandFromAFolderThatWasBrokenSinceIsRefusedInOneLine) {
 TEST_F(StreamShownTest, AHandWithoutAxesIsReadNotMoved) {
   show("flat_pad_16x16", padValues());
   EXPECT_EQ(handState(), "This hand is read, not moved: its stream takes no commands.");
-  for (const char* absent : {"handControls", "handJoints", "handTemperatures", "stopHand"})
+  for (const char* absent : {"handControls", "stopHand"})
     EXPECT_TRUE(find<QWidget>(absent)->isHidden()) << absent;
   for (const char* action :
        {"graspHand", "reactiveGrasp", "slipAwareGrasp", "openHand", "relaxHand", "stopHand"})
@@ -145,12 +145,12 @@ TEST_F(StreamShownTest, AnglesAndTemperaturesAreShownInTheirUnits) {
   ASSERT_EQ(gripper.axes.size(), 1u);
   std::vector<float> values(gripper.layout->numCells(), 1.0F);
   show("parallel_gripper", values, {"angles 12.5"});
-  EXPECT_FALSE(find<QWidget>("handJoints")->isHidden());
+  window().docks().show("Inspect");
   EXPECT_TRUE(await([&] {
-    const auto facts = find<FactsView>("liveAngles")->facts();
+    const auto facts = find<FactsView>("angleFacts")->facts();
     return facts.size() == 1 && facts[0].value == "12.5 mm";
   }));
-  EXPECT_EQ(find<QWidget>("handTemperatures")->isHidden(), gripper.temperatureSensors.empty());
+  EXPECT_EQ(find<FactsView>("temperatureFacts")->isHidden(), gripper.temperatureSensors.empty());
 }
 
 // The texts of a widget's labels and of the facts in it that can be seen.

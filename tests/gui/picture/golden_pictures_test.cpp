@@ -85,6 +85,8 @@ TEST_F(GoldenPicturesTest, HeatMapsDark) {
 
 TEST_F(GoldenPicturesTest, TimelineLight) {
   show({1440, 900}, ThemeChoice::kLight);
+  window().feature<TimelineFeature>().panel().setFixedHeight(175);
+  QCoreApplication::processEvents();
   compare(window().feature<TimelineFeature>().panel().grab().toImage(), "timeline_light.png");
 }
 

@@ -295,14 +295,14 @@ TEST_F(MainWindowTest, KeysAndAboutOpen) {
 TEST_F(MainWindowTest, DocksHideAndShow) {
   auto* inspect = window().findChild<QDockWidget*>("Inspect");
   auto* timelineDock = window().findChild<QDockWidget*>("Timeline");
-  ASSERT_TRUE(inspect->isVisible() && timelineDock->isVisible());
+  ASSERT_TRUE(!inspect->isVisible() && timelineDock->isVisible());
   press(Qt::Key_I, Qt::ControlModifier);
-  EXPECT_FALSE(inspect->isVisible());
+  EXPECT_TRUE(inspect->isVisible());
   press(Qt::Key_L, Qt::ControlModifier);
   EXPECT_FALSE(timelineDock->isVisible());
   press(Qt::Key_I, Qt::ControlModifier);
   press(Qt::Key_L, Qt::ControlModifier);
-  EXPECT_TRUE(inspect->isVisible() && timelineDock->isVisible());
+  EXPECT_TRUE(!inspect->isVisible() && timelineDock->isVisible());
 }
 
 TEST_F(MainWindowTest, QuitCloses) {

@@ -203,6 +203,7 @@ TEST_F(WindowFitsTest, TheKeyOfADockBehindAnotherBringsItToTheFront) {
   open({"rich.dsa"});
   window().setAnimated(false);
   auto* inspect = find<QDockWidget>("Inspect");
+  window().docks().show("Inspect");
   for (const char* name : {"Link", "Filter", "Log", "Slip", "Calibrate", "Recognise", "Hand"}) {
     auto* dock = find<QDockWidget>(name);
     const QKeySequence key = dock->toggleViewAction()->shortcut();
@@ -380,6 +381,7 @@ TEST_F(WindowFitsTest, TheDockHandHasItsWidthAgainAfterLargerText) {
 TEST_F(WindowFitsTest, TabsOfDocksHaveNoLineBelowThem) {
   connectEmulated();
   window().docks().reset();
+  for (const char* name : {"Inspect", "Link"}) window().docks().show(name);
   processAll();
   window().grab();
   int bars = 0;

@@ -49,7 +49,7 @@ TEST_F(WindowLayoutTest, SizeIsRemembered) {
   EXPECT_EQ(window().size(), size);
 }
 
-TEST_F(WindowLayoutTest, HiddenAndMovedDocksAreRemembered) {
+TEST_F(WindowLayoutTest, ShownAndMovedDocksAreRemembered) {
   open({"good.dsa"});
   press(Qt::Key_I, Qt::ControlModifier);
   window().addDockWidget(Qt::TopDockWidgetArea, dock("Timeline"));
@@ -57,7 +57,7 @@ TEST_F(WindowLayoutTest, HiddenAndMovedDocksAreRemembered) {
   window().close();
   start();
   open({"good.dsa"});
-  EXPECT_FALSE(dock("Inspect")->isVisible());
+  EXPECT_TRUE(dock("Inspect")->isVisible());
   EXPECT_TRUE(dock("Timeline")->isVisible());
   EXPECT_EQ(window().dockWidgetArea(dock("Timeline")), Qt::TopDockWidgetArea);
 }
@@ -95,7 +95,7 @@ TEST_F(WindowLayoutTest, TheStartPageBetweenDoesNotLoseTheLayout) {
   window().close();  // from the start page
   start();
   open({"good.dsa"});
-  EXPECT_FALSE(dock("Inspect")->isVisible());
+  EXPECT_TRUE(dock("Inspect")->isVisible());
   EXPECT_TRUE(dock("Timeline")->isVisible());
 }
 
@@ -104,7 +104,7 @@ TEST_F(WindowLayoutTest, ResetPutsEverythingBack) {
   press(Qt::Key_I, Qt::ControlModifier);
   window().addDockWidget(Qt::TopDockWidgetArea, dock("Timeline"));
   press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
-  EXPECT_TRUE(dock("Inspect")->isVisible());
+  EXPECT_FALSE(dock("Inspect")->isVisible());
   EXPECT_EQ(window().dockWidgetArea(dock("Inspect")), Qt::RightDockWidgetArea);
   EXPECT_EQ(window().dockWidgetArea(dock("Timeline")), Qt::BottomDockWidgetArea);
 }
@@ -129,7 +129,7 @@ TEST_F(WindowLayoutTest, ABrokenSettingsFileDoesNotStopTheProgram) {
       "[window]\ngeometry=rubbish\nlayout=@ByteArray(nonsense)\n[recent]\nfiles=,,\n");
   start();
   open({"good.dsa"});
-  EXPECT_TRUE(dock("Inspect")->isVisible());
+  EXPECT_TRUE(dock("Timeline")->isVisible());
 }
 
 TEST_F(WindowLayoutTest, ANarrowWindowKeepsEveryControl) {
@@ -144,6 +144,8 @@ TEST_F(WindowLayoutTest, ANarrowWindowKeepsEveryControl) {
       EXPECT_TRUE(part->isVisible()) << name;
       EXPECT_GT(part->width(), 40) << name << " at " << size.width();
     }
+    window().docks().show("Inspect");
+    QCoreApplication::processEvents();
     // Matrix names are read in full, and the figures that matter most are there.
     auto* table = find<MatrixTable>("matrixTable");
     EXPECT_GE(table->columnWidth(0), table->fontMetrics().horizontalAdvance("2 proximal") + 30);

@@ -73,6 +73,8 @@ QPushButton[primary="true"]:disabled { background: transparent; border-color: @b
 QPushButton[danger="true"] { background: @dangerSoft; border-color: @danger; color: @danger; font-weight: bold; }
 QPushButton[danger="true"]:pressed { background: @danger; color: @window; }
 QPushButton[danger="true"]:disabled { background: transparent; border-color: @border; color: @muted; }
+#stopHand:enabled { background: #b3261e; border-color: #b3261e; color: #ffffff; }
+#stopHand:enabled:pressed { background: #7f1712; }
 QAbstractSpinBox { background: @window; border: 1px solid @border; border-radius: 4px; padding: 3px 5px; }
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { width: 0; border: 0; }
 QAbstractSpinBox:focus { border-color: @accent; }

@@ -47,7 +47,7 @@ constexpr const char* kForceLimitTip =
     "with its limit in counts, and closes no further while a finger is above this one";
 constexpr const char* kNotInSightTip =
     "A recording is shown, not the hand. Live (F6) shows the hand; then it can be moved";
-constexpr int kForecastLines = 2;
+constexpr int kForecastLines = 3;
 constexpr int kForecastMs = 250;
 constexpr double kForecastDeg = 0.5;  // a joint that moves less changes no forecast
 

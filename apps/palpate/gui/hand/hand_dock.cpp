@@ -153,10 +153,8 @@ QWidget* HandDock::makeHead() {
   stop_ = makeButton(head, "stopHand", "Stop  (Esc)");
   stop_->setProperty("danger", true);
   stop_->setFocusPolicy(Qt::TabFocus);
-  // As high as the lines beside it.
-  stop_->setSizePolicy(QSizePolicy::Minimum, QSizePolicy::Expanding);
-  keepWide(*stop_, 120);
-  head->setLayout(inColumn({inRow({{state_, 1}, stop_}, Space::kWide)}, kPageEdges));
+  fitToText(*stop_, [stop = stop_] { stop->setMinimumHeight(3 * stop->fontMetrics().height()); });
+  head->setLayout(inColumn({stop_, state_}, kPageEdges));
   return head;
 }
 
@@ -168,6 +166,7 @@ void HandDock::makePages(QSettings& settings, Ask& ask, QWidget* content) {
   chooser_ = named(new QTabBar(content), "handPages");
   chooser_->setDrawBase(false);
   chooser_->setExpanding(false);
+  chooser_->setUsesScrollButtons(false);
   chooser_->setFocusPolicy(Qt::TabFocus);
   pages_ = named(new FittingPages(content), kDockPages);
   const auto page = [this](QWidget* panel, const QString& name, const QString& tip) {
@@ -188,7 +187,8 @@ void HandDock::makePages(QSettings& settings, Ask& ask, QWidget* content) {
     settings.setValue(kPageKey, index);
     if (isVisible()) fitWidth();
   });
-  chooser_->setCurrentIndex(std::clamp(settings.value(kPageKey, 0).toInt(), 0, pages_->count() - 1));
+  chooser_->setCurrentIndex(
+      std::clamp(settings.value(kPageKey, 0).toInt(), 0, pages_->count() - 1));
 }
 
 QStringList HandDock::pageNames() const {
@@ -250,14 +250,11 @@ QWidget* HandDock::makeBody(QSettings& settings, Ask& ask) {
   auto* content = new QWidget(area);
   makePages(settings, ask, content);
   auto* settable = named(new QWidget(content), "handControls");
-  settable->setLayout(inColumn({chooser_, pages_}));
+  const Edges sides{.left = Space::kUsual, .right = Space::kUsual};
+  settable->setLayout(inColumn({chooser_, makeBox(inColumn({pages_}, sides), settable)}));
   controls_ = {settable, stop_};
   content->setLayout(
-      inColumn({settable, Stretch{}},
-               {.left = Space::kWide,
-                .top = Space::kNarrow,
-                .right = Space::kWide,
-                .bottom = Space::kWide}));
+      inColumn({settable, Stretch{}}, {.top = Space::kNarrow, .bottom = Space::kWide}));
   area->setWidget(content);
   body_ = area;
   return area;
@@ -534,7 +531,8 @@ void HandDock::showHeat(const Temperatures& temperatures) {
   QStringList hot;
   for (std::size_t i = 0; i < std::min(temperatures.degC.size(), sensors_.size()); ++i)
     if (temperatures.degC[i] > hottest)
-      hot.append(QString::fromStdString(sensors_[i].name) + " " + unit.text(temperatures.degC[i], 1));
+      hot.append(QString::fromStdString(sensors_[i].name) + " " +
+                 unit.text(temperatures.degC[i], 1));
   heat_->setVisible(!hot.isEmpty());
   heat_->setText("Too hot: " + hot.join(", ") + ". Relax the hand and let it cool below " +
                  unit.text(hottest, 0) + ".");

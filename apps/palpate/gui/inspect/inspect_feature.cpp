@@ -167,8 +167,7 @@ void InspectFeature::showPlotted() {
 }
 
 std::vector<DockSpec> InspectFeature::docks() {
-  return {
-      {.dock = dock_, .key = QKeySequence("Ctrl+I"), .tab = 0}};
+  return {{.dock = dock_, .key = QKeySequence("Ctrl+I"), .tab = 0}};
 }
 
 std::vector<ExportedView> InspectFeature::views() {

@@ -76,7 +76,7 @@ PlanDialog::PlanDialog(WindowState& windowState,
   question_ = new OfferStrip(this);
   auto* top = inRow({progress_, {next_, 1}, bar_},
                     Space::kWide,
-                    {.left = Space::kDialog, .top = Space::kWide, .right = Space::kDialog});
+                    {.left = Space::kWide, .top = Space::kWide, .right = Space::kWide});
   setLayout(inColumn({top, question_, {makeRows(), 1}, makeFoot()}, Space::kWide));
   connect(model_, &PlanModel::refused, this, &PlanDialog::say);
   connect(&controller, &PlanController::changed, this, &PlanDialog::showState);
@@ -140,7 +140,7 @@ QWidget* PlanDialog::makeRows() {
   connect(limits_, &PlanLimits::edited, this, [this] { controller_.setLimits(limits_->limits()); });
   part->setLayout(inColumn(
       {{table_, 1}, said_, inRow({add_, remove_, import_, export_, anew_, Stretch{}}), limits_},
-      {.left = Space::kDialog, .right = Space::kDialog}));
+      {.left = Space::kWide, .right = Space::kWide}));
   return part;
 }
 
@@ -155,7 +155,8 @@ QWidget* PlanDialog::makeFoot() {
   connect(close, &QPushButton::clicked, this, &QDialog::reject);
   recordNext_ = makePrimary(this, "planRecord", "&Record next", "Records what comes next");
   connect(recordNext_, &QPushButton::clicked, this, &PlanDialog::recordNext);
-  return makeDialogFoot(inRow({follow_, Stretch{}, close, repeat_, recordNext_}, kFootEdges));
+  return makeDialogFoot(
+      inRow({follow_, Stretch{}, close, repeat_, recordNext_}, around(Space::kWide)));
 }
 
 // Widths of the columns for text of the present size.
@@ -172,8 +173,7 @@ std::array<int, PlanModel::kNumColumns> PlanDialog::wantedWidths() const {
 
 // What the columns don't get of the width of the window.
 int PlanDialog::aroundColumns() const {
-  return 2 * (px(Space::kDialog) + kPlanTableBorder) +
-         table_->verticalHeader()->sizeHint().width() +
+  return 2 * (px(Space::kWide) + kPlanTableBorder) + table_->verticalHeader()->sizeHint().width() +
          table_->verticalScrollBar()->sizeHint().width();
 }
 

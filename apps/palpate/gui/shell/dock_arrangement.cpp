@@ -27,7 +27,7 @@ constexpr double kRightShareLive = 0.24;
 // Largest width of the left side: in sizes of the text, and a share of the window's width.
 constexpr int kLeftLiveEm = 24;
 constexpr double kLeftLiveShare = 0.25;
-constexpr double kBottomShare = 0.235;  // of the window's height
+constexpr double kBottomShare = 0.25;  // of the window's height
 // Lines of text that the bottom dock has room for, whatever its share; below a recording there are
 // rows of events, too, unless the window is low.
 constexpr int kBottomLines = 11, kFewBottomLines = 9;
