@@ -233,11 +233,11 @@ def cdr_text(out, value):
     return out + struct.pack("<I", len(value) + 1) + value.encode() + b"\0"
 
 
-def cdr_image(stamp_ns, rows, encoding, big=False, padding=0):
+def cdr_image(stamp_ns, rows, encoding, big=False, padding=0, frame="camera"):
     """A sensor_msgs/msg/Image of rows of numbers; its rows are `padding` bytes longer than they need be."""
     order, form = ">" if big else "<", {"mono8": "B", "mono16": "H", "16UC1": "H", "32FC1": "f", "rgb8": "B"}[encoding]
     out = struct.pack("<iI", stamp_ns // 10**9, stamp_ns % 10**9)
-    out = cdr_text(out, "camera")
+    out = cdr_text(out, frame)
     out += b"\0" * (-len(out) % 4)
     out += struct.pack("<II", len(rows), len(rows[0]) if rows else 0)
     out = cdr_text(out, encoding) + struct.pack("<B", big)
@@ -264,12 +264,14 @@ class Writer:
         self.file, self.chunk, self.waiting, self.topics, self.compression = open(path, "wb"), chunk, [], {}, compression
         self.file.write(MAGIC + record(1, text("") + text("test")))
 
-    def message(self, topic, schema_name, data, log_ns, encoding="cdr"):
-        if topic not in self.topics:
-            number = self.topics[topic] = len(self.topics) + 7
+    def message(self, topic, schema_name, data, log_ns, encoding="cdr", publisher=""):
+        """Each publisher of a topic has a channel of its own."""
+        key = (topic, publisher)
+        if key not in self.topics:
+            number = self.topics[key] = len(self.topics) + 7
             self.put(record(3, struct.pack("<H", number) + text(schema_name) + text("ros2msg") + text("")))
             self.put(record(4, struct.pack("<HH", number, number) + text(topic) + text(encoding) + struct.pack("<I", 0)))
-        self.put(record(5, struct.pack("<HIQQ", self.topics[topic], 0, log_ns, log_ns) + data))
+        self.put(record(5, struct.pack("<HIQQ", self.topics[key], 0, log_ns, log_ns) + data))
         if self.chunk and len(self.waiting) >= self.chunk:
             self.end_chunk()
 

@@ -32,8 +32,10 @@ MS = 10**6
 def image(topic, at, rows, form='mono16', log=None):
   w.message(topic, 'sensor_msgs/msg/Image', m.cdr_image(at * MS, rows, form), (at if log is None else log) * MS)
 def pad(at, value, log=None): image('/pad', at, [[value, 2]], log=log)
-def joints(at, names, positions, topic='/joint_states', log=None):
-  w.message(topic, 'sensor_msgs/msg/JointState', m.cdr_joints(at * MS, names, positions), (at if log is None else log) * MS)
+def joints(at, names, positions, topic='/joint_states', log=None, publisher=''):
+  w.message(topic, 'sensor_msgs/msg/JointState', m.cdr_joints(at * MS, names, positions), (at if log is None else log) * MS, publisher=publisher)
+def pad_of(publisher, at, value, frame='camera'):
+  w.message('/pad', 'sensor_msgs/msg/Image', m.cdr_image(at * MS, [[value, 2]], 'mono16', frame=frame), at * MS, publisher=publisher)
 )" + script + "\nw.close()\n");
     return folder_ / "a.mcap";
   }
@@ -155,6 +157,72 @@ joints(1, names + ['finger_2_base', 'finger_0_base'], [.6, .5, .4, .3, .2, .1, .
       written(matrices + "joints(1, [f'j{i}' for i in range(7)], [.1, .2, .3, .4, .5, .6, .7])"));
   expectDeg(others, 0, {.1, .2, .3, .4, .5, .6, .7});
   expectNote(others, "in the order of the file");
+}
+
+TEST_F(McapForeign, OfTwoPublishersOfATopicTheFirstOneIsRead) {
+  const std::string channels =
+      "for i in range(4): pad_of('ab'[i % 2], 10 * i + 10, [i, 700][i % 2])";
+  const std::string frameIds =
+      "for i in range(4): pad_of('', 10 * i + 10, [i, 700][i % 2], ['left', 'right'][i % 2])";
+  for (const std::string& script : {channels, frameIds}) {
+    const fs::path file = written(script);
+    const Profile profile = openRecording(file);
+    ASSERT_EQ(profile.numFrames(), 2u) << script;
+    EXPECT_EQ(profile.frame(0).values, (Values{0, 2}));
+    EXPECT_EQ(profile.frame(1).values, (Values{2, 2}));
+    EXPECT_EQ(profile.frameTimeUs(1), 30'000);
+    EXPECT_NE(lostText(profile).find("2 messages of the topic \"/pad\" are left out (the first: it "
+                                     "is of another publisher, channel "),
+              std::string::npos)
+        << lostText(profile);
+    fs::remove(file);
+  }
+}
+
+TEST_F(McapForeign, PublishersOneAfterTheOtherAreOne) {
+  const Profile profile = openRecording(
+      written("for i in range(4): pad_of('aabb'[i], 10 * i + 10, i, ['one', 'two'][i // 2])"));
+  ASSERT_EQ(profile.numFrames(), 4u);
+  EXPECT_EQ(profile.frame(3).values, (Values{3, 2}));
+  expectNoNote(profile);
+}
+
+TEST_F(McapForeign, OfTwoPublishersOfTheSameJointsTheFirstOneIsRead) {
+  const Profile profile = openRecording(written(R"(
+pad(1, 7)
+for i in range(3):
+  joints(10 * i + 1, ['a', 'b'], [i, 2], publisher='state')
+  joints(10 * i + 2, ['b', 'c'], [9, 9], publisher='command')
+)"));
+  ASSERT_EQ(profile.numAngles(), 3u);
+  EXPECT_EQ(profile.hand().axes.size(), 2u);
+  for (int i = 0; i < 3; ++i)
+    expectDeg(profile, static_cast<std::size_t>(i), {static_cast<double>(i), 2});
+  EXPECT_NE(lostText(profile).find("3 messages of the topic \"/joint_states\" are left out"),
+            std::string::npos)
+      << lostText(profile);
+}
+
+// One camera counts from the start of its computer, the other from 1970.
+TEST_F(McapForeign, StampsOfTwoClocksGiveWayToTheLogTimes) {
+  const Profile profile = openRecording(written(R"(
+T0 = 1763800000000
+for i in range(3):
+  image('/a', T0 + 10 * i, [[i, 2]], log=T0 + 10 * i + 1)
+  image('/b', 5000 + 10 * i, [[i, 3]], log=T0 + 10 * i + 4)
+)"));
+  ASSERT_EQ(profile.numFrames(), 6u);
+  EXPECT_EQ(profile.frameTimeUs(0), 1763800000001'000);
+  EXPECT_EQ(profile.frameTimeUs(5), 1763800000024'000);
+  EXPECT_EQ(profile.frame(5).values, (Values{2, 2, 2, 3}));
+  expectNote(profile, "the stamps of the topic \"/b\" are of another clock");
+}
+
+TEST_F(McapForeign, JointsWithoutANameAreSaid) {
+  const Profile profile = openRecording(
+      written("pad(1, 7)\njoints(1, ['a', 'b'], [1, 2])\njoints(2, ['', ''], [3, 4])"));
+  EXPECT_EQ(profile.numAngles(), 1u);
+  EXPECT_NE(lostText(profile).find("a joint has no name"), std::string::npos) << lostText(profile);
 }
 
 TEST_F(McapForeign, ACameraBesideThePadIsLeftOut) {

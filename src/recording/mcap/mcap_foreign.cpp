@@ -337,6 +337,7 @@ struct ForeignTopic {
   std::uint32_t rows = 0;
   std::uint32_t columns = 0;
   bool isBytes = true;           // of images: 8 bits per pixel
+  bool hasManyIds = false;       // more than are told apart
   std::size_t messages = 0;      // that are used
   std::size_t leftOut = 0;       // messages that are not
   std::string firstReason = {};  // why the first of those is not
@@ -344,9 +345,14 @@ struct ForeignTopic {
   std::size_t notNumbers = 0;    // values that are 0 instead
 };
 
-// The images of a topic, or the messages about one set of joints.
+// The images of a topic, or the messages about one set of joints, of one publisher until others are
+// put behind it (joinPublishers()).
 struct ForeignSeries {
   std::size_t topic = 0;
+  std::uint16_t channel = 0;
+  std::string frameId = {};           // of images
+  std::set<std::string> joints = {};  // their names
+  std::int64_t firstUs = 0;
   std::int64_t lastUs = 0;
   std::int64_t lastLogUs = 0;
   bool begun = false;
@@ -380,6 +386,8 @@ class ForeignReader {
     findUnfitTopics();
     requireChosen();
     requireImages();
+    joinPublishers();
+    useOneClock();
     orderByTime();
     return built();
   }
@@ -483,13 +491,17 @@ class ForeignReader {
       if (imageSeries_.size() == kMaxMatrices)
         fail("has more than " + std::to_string(kMaxMatrices) +
              " topics of images; choose some with --topic");
-      imageSeries_[index] = newSeries(index);
+      imageSeries_[index] = seriesOf(index, message.channel, std::string(image->frameId), {});
     }
     topic.rows = image->rows;
     topic.columns = image->columns;
     topic.isBytes &= mcapPixelBytes(image->encoding) == 1;
     takePixels(*image, topic);
-    addPlace(imageSeries_[index], image->timeUs, message, piece, records);
+    addPlace(seriesOf(index, message.channel, std::string(image->frameId), {}),
+             image->timeUs,
+             message,
+             piece,
+             records);
   }
 
   // Leaves out topics without an image that could be a matrix: those of cameras.
@@ -530,12 +542,13 @@ class ForeignReader {
     if (joints->positions.empty()) return;  // speeds and torques are not read
     const std::string fault = faultOf(*joints);
     if (!fault.empty()) return leaveOut(topic, fault);
-    if (joints->names != lastJoints_ || jointSeries_.empty()) {
+    if (joints->names != lastJoints_ || message.channel != lastJointChannel_ ||
+        jointSeries_.empty()) {
       const std::set<std::string> names(joints->names.begin(), joints->names.end());
+      if (names.contains("")) return leaveOut(topic, "a joint has no name");
       if (names.size() != joints->names.size()) return leaveOut(topic, "a joint is named twice");
-      const auto [set, isNew] = jointSeries_.emplace(names, 0);
-      if (isNew) {
-        set->second = newSeries(index);
+      lastJointSeries_ = seriesOf(index, message.channel, {}, names);
+      if (jointSeries_.emplace(names, lastJointSeries_).second) {
         for (const std::string& name : joints->names)
           if (std::find(jointNames_.begin(), jointNames_.end(), name) == jointNames_.end())
             jointNames_.push_back(name);
@@ -547,7 +560,7 @@ class ForeignReader {
         }
       }
       lastJoints_ = joints->names;
-      lastJointSeries_ = set->second;
+      lastJointChannel_ = message.channel;
     }
     addPlace(lastJointSeries_, joints->timeUs, message, piece, records);
   }
@@ -569,9 +582,113 @@ class ForeignReader {
     return "";
   }
 
-  std::uint16_t newSeries(std::size_t topic) {
-    series_.push_back({.topic = topic});
-    return static_cast<std::uint16_t>(series_.size() - 1);
+  // The messages of a publisher: those of a channel with one frame_id. Of more publishers than
+  // anybody has, the rest count as the first one.
+  std::uint16_t seriesOf(std::size_t topic,
+                         std::uint16_t channel,
+                         std::string frameId,
+                         const std::set<std::string>& joints) {
+    constexpr std::size_t kMostSeries = 4096;
+    const auto same = [&](const ForeignSeries& each) {
+      return each.topic == topic && each.channel == channel && each.frameId == frameId &&
+             each.joints == joints;
+    };
+    if (lastSeries_ < series_.size() && same(series_[lastSeries_])) return lastSeries_;
+    auto found = std::find_if(series_.begin(), series_.end(), same);
+    if (found == series_.end() && series_.size() >= kMostSeries) {
+      topics_[topic].hasManyIds = true;
+      found = std::find_if(series_.begin(), series_.end(), [&](const ForeignSeries& each) {
+        return each.topic == topic && each.joints == joints;
+      });
+    }
+    if (found == series_.end()) {
+      series_.push_back(
+          {.topic = topic, .channel = channel, .frameId = std::move(frameId), .joints = joints});
+      found = std::prev(series_.end());
+    }
+    return lastSeries_ = static_cast<std::uint16_t>(found - series_.begin());
+  }
+
+  // Publishers of one topic after each other are one series. Of those at the same time only the
+  // first one is read: nobody could tell their messages apart.
+  void joinPublishers() {
+    std::vector<std::uint16_t> joined(series_.size());  // the series of each
+    std::vector<bool> isLeftOut(series_.size());
+    for (std::size_t s = 0; s < series_.size(); ++s) {
+      joined[s] = static_cast<std::uint16_t>(s);
+      for (std::size_t first = 0; first < s && series_[s].begun; ++first) {
+        ForeignSeries& before = series_[first];
+        if (joined[first] != first || isLeftOut[first] || !before.begun ||
+            before.topic != series_[s].topic || !sharesJoints(before, series_[s]) ||
+            (before.channel == series_[s].channel && !before.joints.empty()))
+          continue;
+        const bool isCounted =  // a frame_id that counts the messages
+            topics_[before.topic].hasManyIds && before.channel == series_[s].channel;
+        isLeftOut[s] = series_[s].firstUs <= before.lastUs && !isCounted;
+        if (isLeftOut[s]) break;
+        if (before.joints != series_[s].joints) continue;
+        joined[s] = static_cast<std::uint16_t>(first);
+        before.lastUs = std::max(before.lastUs, series_[s].lastUs);
+        before.lastLogUs = series_[s].lastLogUs;
+        before.logsAscend = before.logsAscend && series_[s].logsAscend;
+        before.notLater += series_[s].notLater;
+        break;
+      }
+    }
+    std::erase_if(places_, [&](const ForeignPlace& place) {
+      const ForeignSeries& series = series_[place.series];
+      if (!isLeftOut[place.series]) return false;
+      --topics_[series.topic].messages;
+      leaveOut(topics_[series.topic], otherPublisherText(place.series));
+      return true;
+    });
+    for (ForeignPlace& place : places_) place.series = joined[place.series];
+    for (std::size_t s = 0; s < series_.size(); ++s)
+      if (isLeftOut[s] || joined[s] != s) series_[s] = {.topic = series_[s].topic};
+    std::erase_if(jointSeries_, [&](const auto& set) { return isLeftOut[set.second]; });
+    if (std::find(isLeftOut.begin(), isLeftOut.end(), true) != isLeftOut.end())
+      std::erase_if(jointNames_, [&](const std::string& name) {
+        return std::none_of(jointSeries_.begin(), jointSeries_.end(), [&](const auto& set) {
+          return set.first.contains(name);
+        });
+      });
+  }
+
+  static bool sharesJoints(const ForeignSeries& a, const ForeignSeries& b) {
+    return (a.joints.empty() && b.joints.empty()) ||
+           std::any_of(a.joints.begin(), a.joints.end(), [&](const std::string& name) {
+             return b.joints.contains(name);
+           });
+  }
+
+  std::string otherPublisherText(std::size_t series) const {
+    const ForeignSeries& left = series_[series];
+    return "it is of another publisher, channel " + std::to_string(left.channel) +
+           (left.frameId.empty() ? "" : ", frame_id " + inQuotes(left.frameId));
+  }
+
+  // Where the stamps of one topic are of another clock than those of another, as one that counts
+  // from the start of a computer, all times are the log times.
+  void useOneClock() {
+    constexpr std::int64_t kMostApartUs = 86'400'000'000;
+    std::optional<std::int64_t> least;
+    std::optional<std::int64_t> most;
+    std::string names;
+    for (const ForeignSeries& series : series_) {
+      if (!series.begun) continue;
+      const std::int64_t ahead = series.lastUs - series.lastLogUs;
+      if (!least || ahead < *least) least = ahead;
+      if (!most || ahead > *most) most = ahead;
+    }
+    if (!least || *most - *least <= kMostApartUs) return;
+    for (const ForeignSeries& series : series_)
+      if (series.begun && std::abs(series.lastUs - series.lastLogUs) > kMostApartUs)
+        names += (names.empty() ? "" : ", ") + inQuotes(topics_[series.topic].name);
+    for (ForeignPlace& place : places_) place.timeUs = place.logUs;
+    for (ForeignSeries& series : series_) series.notLater = 0;
+    usesLogTimes_ = true;
+    note("the stamps of the topic " + names +
+         " are of another clock: all times are the file's log times instead");
   }
 
   void addPlace(std::uint16_t index,
@@ -583,6 +700,7 @@ class ForeignReader {
     const auto logUs = static_cast<std::int64_t>(message.logNs / 1000);
     // A message without a stamp has that of its record.
     const std::int64_t timeUs = stampUs == 0 ? logUs : stampUs;
+    if (!series.begun) series.firstUs = timeUs;
     if (series.begun && timeUs <= series.lastUs) ++series.notLater;
     if (series.begun && logUs <= series.lastLogUs) series.logsAscend = false;
     series.lastUs = timeUs;
@@ -604,7 +722,8 @@ class ForeignReader {
     std::erase_if(places_, [&](const ForeignPlace& place) {
       return series_[place.series].topic == *joints_;
     });
-    for (const auto& [names, series] : jointSeries_) series_[series] = {.topic = *joints_};
+    for (ForeignSeries& series : series_)
+      if (series.topic == *joints_) series = {.topic = *joints_};
     topics_[*joints_].messages = 0;
     jointSeries_.clear();
     jointNames_.clear();
@@ -672,7 +791,7 @@ class ForeignReader {
     std::stable_sort(places_.begin(), places_.end(), [](const auto& a, const auto& b) {
       return a.timeUs < b.timeUs;
     });
-    if (stampsAscend || logsAscend) return;
+    if (logsAscend || (stampsAscend && !usesLogTimes_)) return;
     for (const ForeignSeries& series : series_)
       if (series.notLater > 0)
         note("stamps of the topic " + inQuotes(topics_[series.topic].name) +
@@ -846,6 +965,9 @@ class ForeignReader {
   std::vector<std::string> jointNames_;                         // in the order of the file
   std::size_t numUnnamed_ = 0;                                  // joints without names
   std::vector<std::string> lastJoints_;                         // of the last message
+  std::uint16_t lastJointChannel_ = 0;
+  std::uint16_t lastSeries_ = 0;
+  bool usesLogTimes_ = false;
   std::uint16_t lastJointSeries_ = 0;
   std::vector<ForeignPlace> places_;
   std::vector<std::string> notes_;

@@ -373,7 +373,7 @@ std::optional<McapImage> readRosImage(std::string_view message) {
   CdrReader reader(message);
   McapImage image;
   image.timeUs = reader.time();
-  reader.text();  // frame_id
+  image.frameId = reader.text();
   image.rows = reader.number<std::uint32_t>();
   image.columns = reader.number<std::uint32_t>();
   image.encoding = reader.text();
@@ -407,6 +407,9 @@ std::optional<McapImage> readRawImage(std::string_view message) {
         break;
       case 6u << 3 | 2:
         image.data = reader.take(reader.varint());
+        break;
+      case 7u << 3 | 2:
+        image.frameId = reader.take(reader.varint());
         break;
       default:
         reader.skip(tag & 7);

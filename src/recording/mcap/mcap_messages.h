@@ -115,6 +115,7 @@ class CdrReader {
 // An image as a message has it; views of the message.
 struct McapImage {
   std::int64_t timeUs = 0;
+  std::string_view frameId;
   std::uint32_t rows = 0;
   std::uint32_t columns = 0;
   std::string_view encoding;
