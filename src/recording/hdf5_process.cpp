@@ -163,12 +163,20 @@ std::vector<std::byte> Hdf5Process::ask(Hdf5Request wanted,
   throw FormatError(path_, name.empty() ? fault : inQuotes(name) + " " + fault);
 }
 
-std::vector<std::string> Hdf5Process::arrayNames() {
-  const std::vector<std::byte> value = ask(Hdf5Request::kArrayNames, {});
+std::vector<std::string> Hdf5Process::namesAsked(Hdf5Request wanted, const std::string& name) {
+  const std::vector<std::byte> value = ask(wanted, name);
   ByteReader in(value);
   std::vector<std::string> names;
   for (std::uint32_t count = in.u32(); count > 0 && in.ok(); --count) names.push_back(textFrom(in));
   return names;
+}
+
+std::vector<std::string> Hdf5Process::arrayNames() {
+  return namesAsked(Hdf5Request::kArrayNames, {});
+}
+
+std::vector<std::string> Hdf5Process::axisNames(const std::string& name) {
+  return namesAsked(Hdf5Request::kAxisNames, name);
 }
 
 bool Hdf5Process::has(const std::string& name) {

@@ -58,12 +58,16 @@ class Hdf5Process {
                                            std::uint64_t longest);
   std::optional<std::int64_t> integerAttribute(const std::string& object, const std::string& name);
   std::optional<double> numberAttribute(const std::string& object, const std::string& name);
+  // The names of the axes of a data set, as its dimension labels or dimension scales (netCDF) say;
+  // one that has none is empty. Empty: no axis has one.
+  std::vector<std::string> axisNames(const std::string& name);
 
  private:
   // The value that is answered.
   std::vector<std::byte> ask(Hdf5Request wanted,
                              const std::string& name,
                              std::string_view rest = {});
+  std::vector<std::string> namesAsked(Hdf5Request wanted, const std::string& name);
   // Send or receive all bytes before the deadline. Return false where that can't be.
   bool send(std::string_view bytes);
   bool receive(std::span<std::byte> bytes);

@@ -29,6 +29,7 @@ enum class Hdf5Request : std::uint8_t {
   kTextAttribute,     // attribute, longest u64 [bytes] -> u8 whether there is one, text
   kIntegerAttribute,  // attribute -> u8 whether there is one, i64
   kNumberAttribute,   // attribute -> u8 whether there is one, f64
+  kAxisNames,         // -> u32 count, texts: by the labels of the axes, or by their scales; none: 0
 };
 // kFault: a text that follows the name of the object in a message.
 enum class Hdf5Answer : std::uint8_t { kValue, kFault };

@@ -238,6 +238,61 @@ Hdf5Id openArray(hid_t file, const std::string& name, const ChunkBand& kept) {
   return opened;
 }
 
+constexpr std::size_t kMostAxes = 8;
+constexpr std::size_t kMostAxisNameBytes = 256;
+
+// An attribute with an element of this class for each axis, opened; nothing: there is none.
+Hdf5Id axisAttribute(hid_t array, const char* name, H5T_class_t kind, std::size_t numAxes) {
+  if (H5Aexists(array, name) <= 0) return {};
+  Hdf5Id attribute(H5Aopen(array, name, H5P_DEFAULT), H5Aclose);
+  if (!attribute.ok()) return {};
+  const Hdf5Id type(H5Aget_type(attribute.get()), H5Tclose);
+  const Hdf5Id space(H5Aget_space(attribute.get()), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  if (H5Tget_class(type.get()) != kind || count != static_cast<hssize_t>(numAxes)) return {};
+  return attribute;
+}
+
+// DIMENSION_LABELS: texts of any length.
+void readAxisLabels(hid_t array, std::vector<std::string>& names) {
+  const Hdf5Id attribute = axisAttribute(array, "DIMENSION_LABELS", H5T_STRING, names.size());
+  if (!attribute.ok()) return;
+  const Hdf5Id type(H5Aget_type(attribute.get()), H5Tclose);
+  if (H5Tis_variable_str(type.get()) <= 0) return;
+  const Hdf5Id memory(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(memory.get(), H5T_VARIABLE);
+  H5Tset_cset(memory.get(), H5Tget_cset(type.get()));
+  std::vector<char*> texts(names.size(), nullptr);
+  if (H5Aread(attribute.get(), memory.get(), static_cast<void*>(texts.data())) < 0) return;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (texts[i]) names[i] = std::string_view(texts[i]).substr(0, kMostAxisNameBytes);
+    H5free_memory(texts[i]);
+  }
+}
+
+// DIMENSION_LIST: for each axis a list of references to its scales, of which the first one names
+// it.
+void readAxisScales(hid_t array, std::vector<std::string>& names) {
+  const Hdf5Id attribute = axisAttribute(array, "DIMENSION_LIST", H5T_VLEN, names.size());
+  if (!attribute.ok()) return;
+  const Hdf5Id type(H5Aget_type(attribute.get()), H5Tclose);
+  const Hdf5Id element(H5Tget_super(type.get()), H5Tclose);
+  if (H5Tequal(element.get(), H5T_STD_REF_OBJ) <= 0) return;
+  const Hdf5Id memory(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose);
+  const Hdf5Id space(H5Aget_space(attribute.get()), H5Sclose);
+  std::vector<hvl_t> lists(names.size());
+  if (H5Aread(attribute.get(), memory.get(), lists.data()) < 0) return;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (lists[i].len == 0 || !names[i].empty()) continue;
+    std::string path(kMostAxisNameBytes, '\0');
+    const ssize_t length = H5Rget_name(array, H5R_OBJECT, lists[i].p, path.data(), path.size());
+    if (length <= 0) continue;
+    path.resize(std::min(static_cast<std::size_t>(length), path.size() - 1));
+    names[i] = path.substr(path.rfind('/') + 1);
+  }
+  H5Dvlen_reclaim(memory.get(), space.get(), H5P_DEFAULT, lists.data());
+}
+
 bool receiveAll(int socket, void* bytes, std::size_t count) {
   auto* next = static_cast<char*>(bytes);
   while (count > 0) {
@@ -359,6 +414,9 @@ std::string Hdf5Answers::answer(std::span<const std::byte> request) {
           put(std::bit_cast<std::uint64_t>(number.value_or(0.0)), 8);
         });
         break;
+      case Hdf5Request::kAxisNames:
+        value = axisNames(name);
+        break;
     }
   } catch (const Hdf5Fault& found) {
     if (ranOutOfMemory()) throw std::bad_alloc();
@@ -478,6 +536,21 @@ std::string Hdf5Answers::texts(const std::string& name, ByteReader& in) {
   std::string value;
   appendLittleEndian(value, read, 4);
   return value + all;
+}
+
+std::string Hdf5Answers::axisNames(const std::string& name) {
+  const Array& from = array(name);
+  std::vector<std::string> names(from.facts.shape.size());
+  if (!names.empty() && names.size() <= kMostAxes) {
+    readAxisLabels(from.id.get(), names);
+    readAxisScales(from.id.get(), names);
+  }
+  if (std::all_of(names.begin(), names.end(), [](const auto& each) { return each.empty(); }))
+    names.clear();
+  std::string value;
+  appendLittleEndian(value, names.size(), 4);
+  for (const std::string& each : names) appendText(value, each);
+  return value;
 }
 
 template <typename Read>

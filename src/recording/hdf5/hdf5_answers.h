@@ -41,6 +41,7 @@ class Hdf5Answers {
   const Array& arrayToRead(const std::string& name);
   std::string numbers(const std::string& name, ByteReader& in);
   std::string texts(const std::string& name, ByteReader& in);
+  std::string axisNames(const std::string& name);
   // Opens the object and calls `read` with it and the name of the attribute, which comes next.
   template <typename Read>
   void attribute(const std::string& name, ByteReader& in, Read read);
