@@ -154,7 +154,8 @@ Json importJson(const fs::path& out, const ImportReport& report) {
                .set("below", static_cast<std::int64_t>(report.outside.below))
                .set("nan", static_cast<std::int64_t>(report.outside.notANumber))
                .set("first", report.outside.first))
-      .set("notes", jsonList(report.notes));
+      .set("notes", jsonList(report.notes))
+      .set("doubts", jsonList(report.doubts));
 }
 
 std::string importText(const fs::path& out, const ImportReport& report) {

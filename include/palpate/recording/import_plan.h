@@ -41,8 +41,12 @@ struct PlannedSeries {
   // Where the time is a number of the array columns.front(): which one of a row.
   std::optional<std::size_t> timeWithin;
   TimeUnit timeUnit = TimeUnit::kSeconds;
+  double timeFactor = 1.0;  // a time is a number x timeFactor of the unit
   // Of frames: which one of `values` is their number, which has no target.
   std::optional<std::size_t> number;
+  // Which of `values`, which have no target, say what a row is from: the rows of another sensor or
+  // topic than the first one are left out.
+  std::vector<std::size_t> origins;
   // What was chosen, in words: "matrix 0 \"pad\": m0, kPa to counts, x 0.1".
   std::vector<std::string> description;
 };
@@ -54,7 +58,8 @@ struct ImportPlan {
   bool isTaxelList = false;
   std::optional<double> rateHz;  // of rows without a time: the mapping's, or that of the file
   std::string timeDescription;
-  std::vector<std::string> notes;  // what was not imported, or was guessed
+  std::vector<std::string> notes;   // what was not imported, or was guessed
+  std::vector<std::string> doubts;  // why values may belong to other taxels
 };
 
 // Throws Error: no column fits, with the shapes that the hand expects and what the file has; a

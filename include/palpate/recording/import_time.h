@@ -59,7 +59,11 @@ class TimeReader {
  public:
   // `startUs`: host time of the first row [us since 1970]; empty: times are as in the file. Of
   // times of day, midnight of a day: that day. `decimal`: the character before decimals in texts.
-  TimeReader(TimeUnit unit, std::optional<std::int64_t> startUs, char decimal = '.');
+  // `factor`: a time is a number x factor of the unit.
+  TimeReader(TimeUnit unit,
+             std::optional<std::int64_t> startUs,
+             char decimal = '.',
+             double factor = 1.0);
 
   // Nothing when the cell holds no time, or one that a recording can't hold.
   std::optional<std::int64_t> us(const TimeCell& cell);
@@ -80,10 +84,12 @@ class TimeReader {
  private:
   std::int64_t turn() const noexcept;  // of the counter; 0: it is none
   std::optional<std::int64_t> usOfWhole(std::int64_t value) const;
+  std::optional<std::int64_t> usOfNumber(double number) const;
 
   TimeUnit unit_;
   std::optional<std::int64_t> startUs_;
   char decimal_;
+  double factor_;
   std::optional<std::int64_t> shiftUs_;    // added to every time; known from the first one
   std::optional<std::int64_t> lastWhole_;  // of the last us()
   std::optional<std::int64_t> keptWhole_;  // of the last row that was taken

@@ -82,10 +82,12 @@ struct ImportReport {
   // How often a time counter of 32 bits started again at 0, or a time of day passed midnight.
   std::uint64_t counterRestarts = 0;
   std::vector<std::string> notes;  // of the plan, and of what was found in the rows
+  // Why values may belong to other taxels (ImportPlan), and what came from other sources.
+  std::vector<std::string> doubts;
 
   // Whether something was left out, or values don't belong to the hand.
   bool isPartial() const noexcept {
-    return refused.total() + outside.total() + nulBytes.count + missingFrames > 0;
+    return refused.total() + outside.total() + nulBytes.count + missingFrames + doubts.size() > 0;
   }
   // "4096 bytes 0 left out (a power cut?), from line 10"; empty without any.
   std::string nulText() const;

@@ -33,13 +33,16 @@ struct TableColumn {
   std::string unit = {};  // as in the file: "kPa"; empty when it is not known
   std::vector<std::size_t> shape = {};        // of the numbers of one row; empty: one number
   std::optional<std::uint64_t> numRows = {};  // known of arrays, not of texts
-  std::string type = {};                      // "int16", "float64", "text", "bool", ..
+  // The names of the axes of an array, that of the rows first ("time", "x", "y"); empty: unknown.
+  std::vector<std::string> axes = {};
+  std::string type = {};  // "int16", "float64", "text", "bool", ..
   // value = number * scale + offset, as the file says (scale_factor, add_offset of netCDF).
   double scale = 1.0;
   double offset = 0.0;
-  std::string example = {};            // the first text of a column that has texts or dates
-  bool isNumeric = true;               // false: texts and other things that can't be values
-  bool hasDates = false;               // dates or times of day: can only be the time
+  std::vector<double> missing = {};  // numbers that stand for no value (_FillValue, missing_value)
+  std::string example = {};          // the first text of a column that has texts or dates
+  bool isNumeric = true;             // false: texts and other things that can't be values
+  bool hasDates = false;             // dates or times of day: can only be the time
   DateForm dateForm = DateForm::kIso;  // of such a column
   bool isDayOnly = false;              // dates without a time of day
 

@@ -44,7 +44,17 @@ inline std::optional<double> cellNumber(std::string_view cell, char decimal) {
       return parseDouble(pointed);
     }
   }
-  return parseDouble(cell);
+  if (const auto number = parseDouble(cell)) return number;
+  // Fortran's double precision: 1.0D+02.
+  constexpr std::size_t kLongestFortran = 40;
+  const auto exponent = cell.find_first_of("Dd");
+  if (exponent == std::string_view::npos || cell.find('.') > exponent ||
+      cell.size() > kLongestFortran ||
+      cell.find_first_not_of("0123456789+-.Dd") != std::string_view::npos)
+    return std::nullopt;
+  std::string usual(cell);
+  usual[exponent] = 'e';
+  return parseDouble(usual);
 }
 
 // Whether a number with one comma may have it after its thousands: "1,010".

@@ -194,6 +194,14 @@ std::optional<std::vector<std::size_t>> placesInLayout(const ColumnGroup& group,
   return places;
 }
 
+// 'x' or 'y' of a word that names columns or rows.
+char letterOf(std::string_view name) {
+  const std::string word = smallLetters(name);
+  if (word == "x" || word == "c" || word == "col" || word == "column" || word == "columns")
+    return 'x';
+  return word == "y" || word == "r" || word == "row" || word == "rows" ? 'y' : '\0';
+}
+
 // 'x' or 'y' where the word before index `position` of a stem ("col#_row#") names columns or rows.
 char letterBefore(std::string_view stem, std::size_t position) {
   std::size_t at = stem.find('#');
@@ -205,9 +213,7 @@ char letterBefore(std::string_view stem, std::size_t position) {
                             std::isalpha(static_cast<unsigned char>(stem[i])) != 0;
        --i)
     word.insert(word.begin(), stem[i]);
-  word = smallLetters(word);
-  if (word == "x" || word == "c" || word == "col" || word == "column") return 'x';
-  return word == "y" || word == "r" || word == "row" ? 'y' : '\0';
+  return letterOf(word);
 }
 
 // Matches a name against a pattern of * and {m}, {y}, {x}, {i}; the numbers at the letters.
@@ -344,7 +350,10 @@ std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
       ColumnGroup& group = groups.emplace_back();
       group.stem = stem;
       for (std::size_t n = 0; n < numbers.size() + columns[c].shape.size(); ++n)
-        group.letters += n < numbers.size() ? letterBefore(stem, n) : '\0';
+        group.letters += n < numbers.size() ? letterBefore(stem, n)
+                         : columns[c].axes.size() <= columns[c].shape.size()
+                             ? '\0'
+                             : letterOf(columns[c].axes[n - numbers.size() + 1]);
     }
     groups[at->second].columns.push_back(c);
     appendElements(columns, c, numbers, groups[at->second].elements);

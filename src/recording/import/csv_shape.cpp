@@ -18,6 +18,8 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
+constexpr std::string_view kRowNames = "row names";
+
 // What a cell is, as far as the shape of the table depends on it.
 enum class CellKind { kEmpty, kNumber, kDecimalComma, kDate, kText };
 
@@ -210,6 +212,27 @@ void describeDates(TableColumn& column,
   column.isDayOnly = std::all_of(dates.begin(), dates.end(), [](std::string_view date) {
     return date.find(':') == std::string_view::npos;
   });
+}
+
+// Where each row has one cell more than the names, the names are those of the columns behind the
+// first one, as R's write.table writes them: that one has the names of the rows, unless it has
+// other numbers.
+void shiftNames(CsvShape& shape, const Candidate& table, std::size_t nameRow) {
+  if (table.rows[nameRow].size() + 1 != table.numCells || table.numCells < 3) return;
+  bool countsRows = true;
+  std::int64_t last = 0;
+  for (std::size_t i = nameRow + 1; i < table.rows.size(); ++i) {
+    const Cells& row = table.rows[i];
+    if (row.size() != table.numCells) continue;
+    if (trimmedCell(row.back()).empty()) return;  // an empty end
+    const auto number = parseInteger(trimmedCell(row[0]));
+    const bool isText = !cellNumber(row[0], shape.decimal) && !isDateText(trimmedCell(row[0]));
+    countsRows = countsRows && (isText || number == last + 1);
+    last = number.value_or(last);
+  }
+  for (std::size_t c = shape.columns.size() - 1; c > 0; --c)
+    shape.columns[c].name = shape.columns[c - 1].name;
+  shape.columns[0].name = countsRows ? std::string(kRowNames) : "";
 }
 
 // Marks the columns that hold dates or texts.
@@ -418,6 +441,15 @@ std::optional<CsvShape> nestedForm(const SampleLines& sample, const TableOptions
   return std::nullopt;
 }
 
+// The values of a line in the order of these names, as far as it has them.
+NestedLine inOrderOf(const std::vector<std::string>& names, const NestedLine& line) {
+  std::map<std::string_view, std::string_view> values;
+  for (std::size_t i = 0; i < line.names.size(); ++i) values[line.names[i]] = line.values[i];
+  NestedLine ordered;
+  for (const std::string& name : names) ordered.values.push_back(values[name]);
+  return ordered;
+}
+
 // The shape of lines with lists in them; nothing when most lines have none.
 std::optional<CsvShape> nestedShape(const SampleLines& sample, const TableOptions& options) {
   auto shape = nestedForm(sample, options);
@@ -426,13 +458,20 @@ std::optional<CsvShape> nestedShape(const SampleLines& sample, const TableOption
   std::map<std::size_t, std::size_t> counts;
   std::map<std::size_t, std::vector<std::string>> namesBySize;
   Candidate table;
+  std::string fault;
   for (std::size_t i = shape->nameLine != 0 ? 1 : 0; i < sample.texts.size(); ++i) {
     NestedLine each;
-    if (!splitNested(sample.texts[i], *shape, each)) continue;
+    if (!splitNested(sample.texts[i], *shape, each)) {
+      if (fault.empty()) fault = each.fault;
+      continue;
+    }
     ++counts[each.names.size()];
-    namesBySize.try_emplace(each.names.size(), std::move(each.names));
+    const auto [known, isNew] = namesBySize.try_emplace(each.names.size(), std::move(each.names));
+    if (!isNew && each.names != known->second) each = inOrderOf(known->second, each);
     table.rows.push_back(std::move(each.values));
   }
+  if (counts.empty() && !fault.empty())
+    throw Error("each line" + fault + "; name them differently, or save a list for each");
   if (counts.empty()) return std::nullopt;
   const auto most =
       std::max_element(counts.begin(), counts.end(), [](const auto& one, const auto& other) {
@@ -458,8 +497,13 @@ std::optional<CsvShape> nestedShape(const SampleLines& sample, const TableOption
 bool splitNested(std::string_view line, const CsvShape& shape, NestedLine& values) {
   values.names.clear();
   values.values.clear();
-  if (shape.cellNames.empty())
-    return flattenNested(trimmed(line), trimmed(line).starts_with('{') ? "" : "list", values);
+  values.fault.clear();
+  if (shape.cellNames.empty()) {
+    if (!flattenNested(trimmed(line), trimmed(line).starts_with('{') ? "" : "list", values))
+      return false;
+    useGivenNames(values);
+    return values.fault.empty();
+  }
   Cells cells;
   splitNestedCells(line, shape.delimiter, cells);
   if (cells.size() != shape.cellNames.size()) return false;
@@ -472,7 +516,8 @@ bool splitNested(std::string_view line, const CsvShape& shape, NestedLine& value
       values.values.push_back(cell);
     }
   }
-  return true;
+  useGivenNames(values);
+  return values.fault.empty();
 }
 
 void splitCells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
@@ -595,7 +640,13 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
     return std::move(*pads);
   }
 
-  if (auto nested = nestedShape(sample, options)) {
+  std::optional<CsvShape> nested;
+  try {
+    nested = nestedShape(sample, options);
+  } catch (const Error& error) {
+    throw FormatError(path, error.what());
+  }
+  if (nested) {
     nested->stamped = isStamped;
     for (const TableColumn& column : nested->columns)
       if (column.example == "...")
@@ -629,6 +680,7 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
   if (named && !rows.empty()) {
     const std::size_t at = rows[0].index;
     nameFrom(table.rows[at]);
+    shiftNames(shape, table, at);
     shape.nameLine = numbers[at];
     firstRow = at + 1;
     if (rows.size() > 1 && holdsUnits(rows[1], table.rows[rows[1].index])) {
@@ -653,6 +705,10 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
   requireQuotedCommas(path, table, rows, options);
   dropEmptyEnd(shape, table, firstRow);
   describeCells(shape, table, rows, firstRow);
+  if (shape.columns.front().name == kRowNames) {
+    shape.columns.front().type = "text";
+    shape.columns.front().isNumeric = shape.columns.front().hasDates = false;
+  }
   if (std::none_of(shape.columns.begin(), shape.columns.end(), [](const TableColumn& column) {
         return column.type == "number";
       }))

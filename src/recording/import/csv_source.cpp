@@ -160,7 +160,10 @@ bool CsvSource::splitNamed(std::string_view line, TableRow& row) {
     return splitLabelled(line, names_, values_);
   }
   row.fault = " has no list or object as the first lines have";
-  if (!splitNested(line, shape_, nested_)) return false;
+  if (!splitNested(line, shape_, nested_)) {
+    if (!nested_.fault.empty()) row.fault = nested_.fault;
+    return false;
+  }
   names_.assign(nested_.names.begin(), nested_.names.end());
   values_.assign(nested_.values.begin(), nested_.values.end());
   return true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -55,12 +56,7 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
       if (column.unit.empty())
         column.unit = file_->textAttribute(name, key, kMostUnitBytes).value_or("");
     if (column.unit.empty()) column.unit = unitInName(name);
-    if (column.isNumeric) {
-      column.scale = file_->numberAttribute(name, "scale_factor").value_or(1.0);
-      column.offset = file_->numberAttribute(name, "add_offset").value_or(0.0);
-      if (!std::isfinite(column.scale) || column.scale == 0.0 || !std::isfinite(column.offset))
-        throw FormatError(path, inQuotes(name) + " has a scale_factor or add_offset that is none");
-    }
+    if (column.isNumeric) describe(column);
     facts_.push_back(std::move(facts));
     columns_.push_back(std::move(column));
   }
@@ -69,6 +65,25 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
   for (std::size_t c = 0; c < columns_.size() && described < kMostDescribedTexts; ++c)
     if (facts_[c].kind == Hdf5Kind::kText && facts_[c].shape.size() == 1 && facts_[c].fault.empty())
       ++described, describeTexts(c);
+}
+
+// What netCDF's attributes say of an array of numbers.
+void Hdf5Source::describe(TableColumn& column) {
+  const auto numberOf = [&](const char* key) -> std::optional<double> {
+    if (const auto number = file_->numberAttribute(column.name, key)) return number;
+    const auto whole = file_->integerAttribute(column.name, key);
+    return whole ? std::optional(static_cast<double>(*whole)) : std::nullopt;
+  };
+  column.scale = numberOf("scale_factor").value_or(1.0);
+  column.offset = numberOf("add_offset").value_or(0.0);
+  if (!std::isfinite(column.scale) || column.scale == 0.0 || !std::isfinite(column.offset))
+    throw FormatError(path_,
+                      inQuotes(column.name) + " has a scale_factor or add_offset that is none");
+  for (const char* key : {"_FillValue", "missing_value"})
+    if (const auto number = numberOf(key); number && std::isfinite(*number))
+      column.missing.push_back(*number);
+  if (column.numRows) column.axes = file_->axisNames(column.name);
+  if (column.axes.size() != 1 + column.shape.size()) column.axes.clear();
 }
 
 std::vector<std::string> Hdf5Source::texts(std::size_t column,
@@ -132,6 +147,7 @@ void Hdf5Source::reverseAxes(std::size_t column) {
   if (shape.size() < 2) return;
   std::reverse(shape.begin(), shape.end());
   columns_[column].setArrayShape(shape);
+  std::reverse(columns_[column].axes.begin(), columns_[column].axes.end());
   if (!reversed_.insert(column).second) reversed_.erase(column);
 }
 
@@ -178,6 +194,8 @@ void Hdf5Source::load(std::size_t column,
                       std::vector<double>& values) {
   values.resize(count * columns_[column].width());
   readRows(column, first, Hdf5Number::kF64, std::span(values));
+  for (const double missing : columns_[column].missing)
+    std::replace(values.begin(), values.end(), missing, std::numeric_limits<double>::quiet_NaN());
 }
 
 void Hdf5Source::loadTimes(std::size_t column,
@@ -195,10 +213,14 @@ void Hdf5Source::loadTimes(std::size_t column,
   if (facts_[column].kind == Hdf5Kind::kInteger) {
     std::vector<std::int64_t> values(count);  // larger unsigned numbers are cut to INT64_MAX
     readRows(column, first, Hdf5Number::kI64, std::span(values));
-    for (std::size_t i = 0; i < count; ++i)
-      times[i] = {.state = CellState::kNumber,
+    const std::vector<double>& missing = columns_[column].missing;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto number = static_cast<double>(values[i]);
+      const bool isThere = std::find(missing.begin(), missing.end(), number) == missing.end();
+      times[i] = {.state = isThere ? CellState::kNumber : CellState::kNotFinite,
                   .whole = values[i],
-                  .number = static_cast<double>(values[i])};
+                  .number = number};
+    }
     return;
   }
   std::vector<double> values;

@@ -36,6 +36,7 @@ class Hdf5Source final : public ArraySource {
   template <typename Value>
   void readRows(std::size_t column, std::uint64_t first, Hdf5Number type, std::span<Value> values);
 
+  void describe(TableColumn& column);
   // Texts first .. first + count - 1 of a column of them.
   std::vector<std::string> texts(std::size_t column, std::uint64_t first, std::size_t count);
   // Of a column of texts: whether they are dates.

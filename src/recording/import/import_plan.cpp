@@ -16,6 +16,7 @@
 #include "recording/import/column_unit.h"
 #include "recording/import/column_words.h"
 #include "recording/import/matrix_reading.h"
+#include "recording/import/plan_checks.h"
 #include "recording/import/sample_choice.h"
 #include "recording/import/time_choice.h"
 
@@ -36,21 +37,6 @@ std::vector<std::string> namesOf(const HandDescription& hand, Kind kind) {
 
 std::string matrixShape(const MatrixLayout& matrix) {
   return std::to_string(matrix.rows) + " x " + std::to_string(matrix.columns);
-}
-
-// What the cells of a column hold instead of numbers: "text such as "0x1F": hexadecimal".
-std::string whyNoNumbers(const TableColumn& column) {
-  if (column.example.empty())
-    return column.type == "structure" ? "structure: save each field as an array of its own"
-                                      : column.type;
-  const std::string_view cell = column.example;
-  const std::string text = column.type + " such as " + inQuotes(cell);
-  if (cell.starts_with("0x") || cell.starts_with("0X")) return text + ": hexadecimal";
-  if (cell.starts_with("\xE2\x88\x92")) return text + ": its minus is not an ASCII minus";
-  const auto blank = cell.find_first_not_of("+-.0123456789");
-  if (blank != 0 && blank != std::string_view::npos && isKnownUnit(cell.substr(blank)))
-    return text + ": a unit in the cell; put it into the name";
-  return text;
 }
 
 class Planner {
@@ -109,7 +95,6 @@ class Planner {
                                                         const ChosenElements& chosen,
                                                         const std::string& what);
   std::string allName() const;
-  std::string unusableText() const;
   std::string formsText() const;
   void note(const std::string& text) {
     if (std::find(plan_.notes.begin(), plan_.notes.end(), text) == plan_.notes.end())
@@ -156,6 +141,9 @@ PlannedValue Planner::conversion(const ValueMapping& values,
     note(what + ": " + shortened(column.name) +
          " is scaled as its scale_factor and add_offset say");
   }
+  for (const double missing : column.missing)
+    note(what + ": " + numberText(missing) + " in " + shortened(column.name) +
+         " is a missing value, as its _FillValue or missing_value says");
   const bool isOurs = std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& each) {
     return each.name == "meta" && !each.isNumeric;  // palpate convert's values are the hand's
   });
@@ -383,6 +371,8 @@ void Planner::noteOrder(const std::string& what,
   const auto say = [&](const char* text) {
     note(what + ": " + inQuotes(columns_[group.columns.front()].name) + text);
   };
+  if (isArray && letters == order && order == IndexOrder::kColumnRow && others != places)
+    say(" has columns x rows, as the names of its axes say, and is transposed");
   if (isArray && others == places && group.elements.size() > 1 && source_.isColumnMajor())
     say(" is taken row by row; where MATLAB's (:) made it, use a mapping with \"order\": "
         "\"columns\"");
@@ -671,7 +661,8 @@ PlannedSeries Planner::foundFrames() {
   const SensorLayout& layout = *hand_.layout;
   refuse("no columns fit the hand " + inQuotes(hand_.name) + ", which has " + shapeText(layout) +
          " (as many columns are expected, or arrays of rows x " + matrixShape(layout.matrix(0)) +
-         "); the file has " + namesText(columns_) + unusableText() + formsText());
+         "); the file has " + namesText(columns_) + unusableText(columns_) + source_.advice() +
+         formsText());
 }
 
 // Whether frames can be found when the rows of the arrays are as they are now.
@@ -731,6 +722,11 @@ void Planner::findFrameAxis() {
     for (const std::size_t c : arrays) source_.reverseAxes(c);
     isReversed_ = !isReversed_;
   };
+  if (const auto named = frameAxisByName(columns_)) {
+    if (*named) reverse();
+    if (*named) note("the last axis of the arrays is the frames, as its name says");
+    return;
+  }
   if (lasts.size() != 1 || *lasts.begin() == 1) return;
   if (lasts == firsts) return noteFirstAxis(arrays);
   const bool fits = anyFrames();
@@ -747,21 +743,6 @@ void Planner::findFrameAxis() {
                           ", is taken for the frames");
   else
     reverse();
-}
-
-// Why columns of the file hold no numbers, for a message.
-std::string Planner::unusableText() const {
-  constexpr std::size_t kShown = 6;
-  std::string text;
-  std::size_t count = 0;
-  for (const TableColumn& column : columns_) {
-    if ((column.isNumeric && column.type != "bool") || column.hasDates) continue;
-    if (++count > kShown) continue;
-    text += (count > 1 ? ", " : "; no numbers: ") + shortened(column.name) + " (" +
-            whyNoNumbers(column) + ")";
-  }
-  return text + (count > kShown ? " and " + std::to_string(count - kShown) + " more" : "") +
-         source_.advice();
 }
 
 // What can be done where nothing fits: columns are chosen only where there are enough of them.
@@ -882,6 +863,7 @@ ImportPlan Planner::plan() {
       series.time = taxels.time;
       series.timeWithin = taxels.timeWithin;
       series.timeUnit = taxels.timeUnit;
+      series.timeFactor = taxels.timeFactor;
       series.timeFile = taxels.timeFile;
     } else {
       times_.find(series, own);
@@ -901,6 +883,9 @@ ImportPlan Planner::plan() {
   }
   if (mapping_.time.rateHz)
     plan_.timeDescription = "rows at equal intervals, " + numberText(*mapping_.time.rateHz) + " Hz";
+  if (mapping_.matrices.empty())
+    plan_.doubts = numberingDoubts(columns_, plan_.series.front(), *hand_.layout);
+  for (PlannedSeries& series : plan_.series) addOrigins(columns_, series);
   noteUnused();
   return std::move(plan_);
 }

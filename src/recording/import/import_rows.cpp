@@ -31,6 +31,7 @@ ImportRows::ImportRows(const HandDescription& hand,
       sink_(std::move(sink)),
       frame_(hand.layout) {
   report_.notes = plan.notes;
+  report_.doubts = plan.doubts;
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
     for (const std::uint8_t isTaxel : hand.layout->matrix(m).staticMask)
       maximum_.push_back(isTaxel != 0 ? hand.maximumOf(m) : -1.0F);
@@ -74,6 +75,7 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
     report_.counterRestarts += timeReader_ ? timeReader_->numRestarts() : 0;
     if (all[i].first().kind == PlannedSeries::Kind::kFrames) noteRows(source);
   }
+  noteOthers();
   countFirstGap();
   if (report_.frames > 1) {
     report_.durationS = static_cast<double>(lastFrameUs_ - *firstUs_) / kUsPerS;
@@ -345,7 +347,52 @@ void ImportRows::countMissing(const TableSource& source, const Pass& pass, const
         counted(count, "frame") + " before " + source.rowWord() + " " + std::to_string(row.line);
 }
 
+// Whether a row is from another sensor or topic than the first one with values of its series.
+bool ImportRows::isOfOther(const TableSource& source, const Pass& pass, const TableRow& row) {
+  constexpr std::size_t kMostOthers = 64;
+  std::size_t begin = 0;
+  for (const PlannedSeries* series : pass.series) {
+    bool isThere = false;
+    for (std::size_t i = 0; i < series->values.size() && !isThere; ++i)
+      isThere = series->values[i].target && row.states[begin + i] != CellState::kEmpty;
+    std::string from;
+    for (const std::size_t origin : series->origins)
+      from += (from.empty() ? "" : ", ") + source.textOf(begin + origin);
+    begin += series->values.size();
+    if (series->origins.empty() || !isThere) continue;
+    const auto [origin, isFirst] = origins_.try_emplace(series, Origin{from, {}});
+    if (isFirst || origin->second.taken == from) continue;
+    if (strict_)
+      throw FormatError(source.path(),
+                        source.rowWord() + (" " + std::to_string(row.line)) + " is from " +
+                            inQuotes(from) + ", others are from " + inQuotes(origin->second.taken));
+    auto& others = origin->second.others;
+    ++others[others.size() < kMostOthers || others.contains(from) ? from : ".."];
+    return true;
+  }
+  return false;
+}
+
+void ImportRows::noteOthers() {
+  constexpr std::size_t kShown = 8;
+  for (const auto& [series, origin] : origins_) {
+    std::uint64_t rows = 0;
+    std::string names;
+    std::size_t shown = 0;
+    for (const auto& [name, count] : origin.others) {
+      rows += count;
+      if (++shown <= kShown) names += (names.empty() ? "" : ", ") + inQuotes(name);
+    }
+    if (rows == 0) continue;
+    report_.doubts.push_back(counted(rows, "row") + " from " + names +
+                             (shown > kShown ? ", .." : "") + " left out: only " +
+                             inQuotes(origin.taken) +
+                             " is imported; save each of them in a file of its own");
+  }
+}
+
 void ImportRows::takeRow(TableSource& source, const Pass& pass, const TableRow& row) {
+  if (row.complete && isOfOther(source, pass, row)) return;
   countMissing(source, pass, row);
   if (!row.complete) {
     refuse(source, row, report_.refused.wrongCount, row.fault);
@@ -378,7 +425,9 @@ void ImportRows::runPass(TableSource& source,
   timeReader_.reset();
   const PlannedSeries& first = pass.first();
   timeUnit_ = first.timeUnit;
-  if (first.time) timeReader_.emplace(first.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
+  if (first.time)
+    timeReader_.emplace(
+        first.timeUnit, mapping_.time.startUs, mapping_.text.decimal, first.timeFactor);
   const bool isApart = !first.timeFile.empty();
   const auto times = isApart ? openTable(first.timeFile, mapping_.text) : nullptr;
   if (times) times->start({}, first.time);

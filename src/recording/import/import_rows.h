@@ -58,6 +58,8 @@ class ImportRows {
                     const Pass& pass,
                     std::uint64_t mostRows,
                     const Progress& progress);
+  bool isOfOther(const TableSource& source, const Pass& pass, const TableRow& row);
+  void noteOthers();
   void takeRow(TableSource& source, const Pass& pass, const TableRow& row);
   bool examineAll(const TableSource& source, const Pass& pass, const TableRow& row);
   void addAll(const TableSource& source, const Pass& pass, std::int64_t us, const TableRow& row);
@@ -96,6 +98,12 @@ class ImportRows {
   ImportReport report_;
   bool atEnd_ = true;
   TactileFrame frame_;
+  // Of series whose rows say what they are from.
+  struct Origin {
+    std::string taken;                            // of the first row that has values
+    std::map<std::string, std::uint64_t> others;  // rows that are left out
+  };
+  std::map<const PlannedSeries*, Origin> origins_;
   std::vector<float> maximum_;  // of each place; below 0: it has no taxel
   std::vector<double> sample_;
   GapDetector gaps_;

@@ -236,8 +236,11 @@ TimeUnit guessTimeUnit(double value, bool isWhole) {
   return isWhole ? TimeUnit::kMilliseconds : TimeUnit::kSeconds;
 }
 
-TimeReader::TimeReader(TimeUnit unit, std::optional<std::int64_t> startUs, char decimal)
-    : unit_(unit), startUs_(startUs), decimal_(decimal) {}
+TimeReader::TimeReader(TimeUnit unit,
+                       std::optional<std::int64_t> startUs,
+                       char decimal,
+                       double factor)
+    : unit_(unit), startUs_(startUs), decimal_(decimal), factor_(factor) {}
 
 std::int64_t TimeReader::turn() const noexcept {
   if (unit_ == TimeUnit::kClock) return kUsPerDay;
@@ -270,6 +273,7 @@ std::optional<std::int64_t> TimeReader::wholeOf(const TimeCell& cell) const {
 std::optional<std::int64_t> TimeReader::usOfWhole(std::int64_t value) const {
   std::int64_t total = 0;
   if (__builtin_add_overflow(value, base_, &total)) return std::nullopt;
+  if (factor_ != 1.0) return usOfNumber(static_cast<double>(total));
   constexpr std::array<std::int64_t, 6> kUsPerUnit = {
       1'000'000, 1000, 1, 0, 60'000'000, 3'600'000'000};
   if (unit_ == TimeUnit::kNanoseconds)  // rounded to the nearest, also before 1970
@@ -279,6 +283,13 @@ std::optional<std::int64_t> TimeReader::usOfWhole(std::int64_t value) const {
   if (std::abs(static_cast<double>(total)) * static_cast<double>(factor) > kLargestUs)
     return std::nullopt;
   return total * factor;
+}
+
+std::optional<std::int64_t> TimeReader::usOfNumber(double number) const {
+  constexpr std::array<double, 6> kUsPerUnit = {1e6, 1e3, 1.0, 1e-3, 60e6, 3600e6};
+  const double value = number * factor_ * kUsPerUnit[static_cast<std::size_t>(unit_)];
+  if (!(std::abs(value) <= kLargestUs)) return std::nullopt;
+  return std::llround(value);
 }
 
 std::optional<std::int64_t> TimeReader::us(const TimeCell& cell) {
@@ -298,9 +309,7 @@ std::optional<std::int64_t> TimeReader::us(const TimeCell& cell) {
   } else if (lastWhole_) {
     us = usOfWhole(*lastWhole_);
   } else if (number && !isDateUnit(unit_)) {
-    constexpr std::array<double, 6> kUsPerUnit = {1e6, 1e3, 1.0, 1e-3, 60e6, 3600e6};
-    const double value = *number * kUsPerUnit[static_cast<std::size_t>(unit_)];
-    if (std::abs(value) <= kLargestUs) us = std::llround(value);
+    us = usOfNumber(*number);
   }
   if (!us || std::abs(static_cast<double>(*us)) > kLargestUs) return std::nullopt;
   const bool isDay = unit_ == TimeUnit::kClock && startUs_ && *startUs_ % kUsPerDay == 0;

@@ -46,6 +46,7 @@ std::vector<std::size_t> placesOfLabels(const HandDescription& hand,
     for (std::size_t i = 0; i < frames.columns.size(); ++i)
       places[frames.columns[i]] = frames.values[i].target.value();
     notes.insert(notes.end(), plan.notes.begin(), plan.notes.end());
+    notes.insert(notes.end(), plan.doubts.begin(), plan.doubts.end());
   } catch (const Error&) {
     return {};
   }

@@ -41,6 +41,7 @@ void LineReader::restart() {
   buffer_.clear();
   begin_ = 0;
   ended_ = false;
+  lineEnd_ = '\n';
   endsWithinLine_ = beginsAtNul_ = endsAtNul_ = false;
   nul_ = {};
   joinsNul_ = false;
@@ -66,8 +67,11 @@ bool LineReader::fill() {
   } while (count < 0 && errno == EINTR);
   if (count < 0) throw FileError(path_, "can't be read: " + std::generic_category().message(errno));
   buffer_.resize(before + static_cast<std::size_t>(count));
+  const bool isFirst = read_ == 0;
   read_ += static_cast<std::uint64_t>(count);
   ended_ = count == 0;
+  if (isFirst && buffer_.find('\n') == std::string::npos && buffer_.find('\r') < buffer_.size() - 1)
+    lineEnd_ = '\r';
   return count > 0;
 }
 
@@ -88,7 +92,7 @@ void LineReader::skipNulBytes() {
 
 // Where the next line ends in the buffer: npos if it goes on behind it.
 std::size_t LineReader::endFrom(std::size_t from) const {
-  const std::size_t end = buffer_.find('\n', from);
+  const std::size_t end = buffer_.find(lineEnd_, from);
   return std::min(end, std::string_view(buffer_).substr(0, end).find('\0', from));
 }
 

@@ -15,10 +15,10 @@ class LineReader {
  public:
   // Throws FileError.
   explicit LineReader(const std::filesystem::path& path);
-  // Reads the next line without its end (LF or CR LF); false at the end. A list in quotes that goes
-  // on in lines which begin with a blank, as NumPy wraps it, is one line with them. The line is
-  // valid until the next call. Bytes 0 are left out, and end a line, too. Throws FileError,
-  // FormatError (longer than kMaxLineBytes).
+  // Reads the next line without its end (LF or CR LF, or CR in a file whose first lines end so);
+  // false at the end. A list in quotes that goes on in lines which begin with a blank, as NumPy
+  // wraps it, is one line with them. The line is valid until the next call. Bytes 0 are left out,
+  // and end a line, too. Throws FileError, FormatError (longer than kMaxLineBytes).
   bool next(std::string_view& line);
   std::uint64_t number() const noexcept { return first_; }  // of the last line, from 1
   // Whether the file ends within the last line, without a line end.
@@ -43,6 +43,7 @@ class LineReader {
   std::string buffer_;
   std::size_t begin_ = 0;  // of what is not yet given out
   bool ended_ = false;
+  char lineEnd_ = '\n';
   bool endsWithinLine_ = false;
   bool beginsAtNul_ = false;
   bool endsAtNul_ = false;

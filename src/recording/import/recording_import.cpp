@@ -119,6 +119,7 @@ std::string ImportReport::lossText() const {
             " missing by the numbers in the file",
         firstMissing);
   if (nulBytes.count > 0) text += (text.empty() ? "" : "; ") + nulText();
+  for (const std::string& doubt : doubts) text += (text.empty() ? "" : "; ") + doubt;
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "recording/import/sample_choice.h"
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 
 #include "palpate/core/escaped_line.h"
@@ -121,6 +122,30 @@ std::vector<TableElement> findSamples(const std::vector<TableColumn>& columns,
     return isFit(group) && hasWord(columns[group.columns.front()], kMeasuredWords);
   });
   if (chosen == groups.end()) chosen = std::find_if(groups.begin(), groups.end(), isFit);
+  // As many as the hand has, each with a name of its own: "joint.position.left".
+  std::map<std::string_view, std::vector<std::size_t>> lists;
+  for (const std::size_t c : named) {
+    const std::string_view name = columns[c].name;
+    const auto dot = name.rfind('.');
+    if (dot == std::string_view::npos || !isScalar(columns[c])) continue;
+    const auto inList = wordsOf(name.substr(0, dot));
+    if (std::any_of(
+            inList.begin(), inList.end(), [&](const auto& word) { return words.contains(word); }))
+      lists[name.substr(0, dot)].push_back(c);
+  }
+  for (const auto& [list, all] : lists) {
+    if (all.size() != count || chosen != groups.end()) continue;
+    std::string order;
+    for (std::size_t i = 0; i < count; ++i) {
+      elements.push_back({all[i], 0, {}});
+      order += (i > 0 ? ", " : "") + names[i] + " = " + shortened(columns[all[i]].name);
+    }
+    notes.push_back(what +
+                    ": their names are others than the hand's; taken in the order of the "
+                    "file: " +
+                    order);
+    return elements;
+  }
   for (auto group = groups.begin(); group != groups.end(); ++group) {
     if (group == chosen) continue;
     if (!isFit(*group) && chosen == groups.end())

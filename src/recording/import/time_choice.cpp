@@ -33,12 +33,35 @@ const std::set<std::string> kTimeWords = {"time",
                                           "elapsed"};
 // Alone they name the time; in front of a number they may name a taxel.
 const std::set<std::string> kShortTimeWords = {
-    "t", "s", "ms", "us", "ns", "sec", "secs", "nsec", "nsecs", "nanosec", "nanosecs"};
+    "t", "ts", "s", "ms", "us", "ns", "sec", "secs", "nsec", "nsecs", "nanosec", "nanosecs"};
+
+// A number of a unit: 100 us.
+struct ScaledUnit {
+  double factor = 1.0;
+  TimeUnit unit = TimeUnit::kSeconds;
+};
+// Of a text that ends in it, behind a letter that is no part of it: "time_100us", "t [0.1 ms]".
+std::optional<ScaledUnit> scaledUnitAtEnd(std::string_view text) {
+  while (!text.empty() && (text.back() == ')' || text.back() == ']' || text.back() == ' '))
+    text.remove_suffix(1);
+  const auto number = text.find_last_of("0123456789");
+  if (number == std::string_view::npos) return std::nullopt;
+  const auto unit = timeUnitNamed(trimmed(text.substr(number + 1)));
+  const auto before = text.find_last_not_of("0123456789.", number);
+  const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
+  const auto factor = parseDouble(text.substr(begin, number + 1 - begin));
+  constexpr std::string_view kSeparators = "_ [(-/";
+  if (!unit || isDateUnit(*unit) || !factor || *factor <= 0.0 || *factor == 1.0 ||
+      (begin > 0 && kSeparators.find(text[begin - 1]) == std::string_view::npos))
+    return std::nullopt;
+  return ScaledUnit{*factor, *unit};
+}
 
 bool namesTime(const TableColumn& column) {
-  if (hasWord(column, kTimeWords)) return true;
+  if (hasWord(column, kTimeWords) || column.name.ends_with(".t")) return true;  // of JSON
   const auto words = wordsOf(column.name);
-  return !words.empty() && column.name.find_first_of("0123456789") == std::string::npos &&
+  const bool hasNumber = column.name.find_first_of("0123456789") != std::string::npos;
+  return !words.empty() && (!hasNumber || scaledUnitAtEnd(column.name)) &&
          std::all_of(words.begin(), words.end(), [](const std::string& word) {
            return kShortTimeWords.contains(word);
          });
@@ -276,6 +299,7 @@ bool TimeChoice::takeTimeFile(PlannedSeries& series, const std::string& named) {
   series.time = times.time;
   series.timeWithin.reset();
   series.timeUnit = times.timeUnit;
+  series.timeFactor = times.timeFactor;
   series.timeFile = file;
   plan_.notes.insert(plan_.notes.end(), plan.notes.begin(), plan.notes.end());
   if (series.kind == PlannedSeries::Kind::kFrames)
@@ -364,14 +388,22 @@ TimeUnit TimeChoice::dateUnitOf(const TableColumn& column) {
     case DateForm::kClock:
       break;
   }
-  if (!mapping_.time.startUs)
-    plan_.notes.push_back("time: " + inQuotes(column.name) +
-                          " has times of day without a date; give the day by --start 2026-11-22");
+  if (!mapping_.time.startUs) {
+    const bool areMinutes = std::count(column.example.begin(), column.example.end(), ':') == 1;
+    plan_.notes.push_back("time: " + inQuotes(column.name) + " has times of day without a date" +
+                          (areMinutes ? ", taken as hours and minutes (minutes and seconds are "
+                                        "read as 0:" +
+                                            column.example + ")"
+                                      : "") +
+                          "; give the day by --start 2026-11-22");
+  }
   return TimeUnit::kClock;
 }
 
 // The unit that a column or its name states. Another one than of a time is refused.
-std::optional<TimeUnit> TimeChoice::statedUnit(const TableColumn& column, std::string& origin) {
+std::optional<TimeUnit> TimeChoice::statedUnit(const TableColumn& column,
+                                               std::string& origin,
+                                               double& factor) {
   const auto since = column.unit.find(" since ");  // of netCDF
   const auto unit = timeUnitNamed(column.unit.substr(0, since));
   origin = "by the file";
@@ -380,6 +412,17 @@ std::optional<TimeUnit> TimeChoice::statedUnit(const TableColumn& column, std::s
       plan_.notes.push_back("time: of " + inQuotes(column.unit) +
                             " only the unit is used; give the date by --start");
     return unit;
+  }
+  if (const auto scaled = scaledUnitAtEnd(column.unit.empty() ? column.name : column.unit);
+      scaled && !unit && mapping_.time.unit.empty()) {
+    factor = scaled->factor;
+    if (column.unit.empty()) {
+      origin = "by the name";
+      plan_.notes.push_back("time: " + inQuotes(column.name) + " is taken to count " +
+                            numberText(factor) + " " + std::string(nameOf(scaled->unit)) +
+                            "; if that is not its unit, choose another one by --time-unit");
+    }
+    return scaled->unit;
   }
   if (!column.unit.empty() && !unit && mapping_.time.unit.empty())
     refuse("the unit " + inQuotes(column.unit) + " of " + inQuotes(column.name) +
@@ -398,7 +441,7 @@ void TimeChoice::setTimeUnit(PlannedSeries& series) {
   } else if (!mapping_.time.unit.empty() && series.kind == PlannedSeries::Kind::kFrames &&
              series.time != joinedTime_) {
     series.timeUnit = *timeUnitNamed(mapping_.time.unit);
-  } else if (const auto unit = statedUnit(column, origin)) {
+  } else if (const auto unit = statedUnit(column, origin, series.timeFactor)) {
     series.timeUnit = *unit;
   } else {
     if (!mapping_.time.unit.empty()) {
@@ -420,8 +463,9 @@ void TimeChoice::setTimeUnit(PlannedSeries& series) {
     }
   }
   if (series.kind == PlannedSeries::Kind::kFrames)
-    plan_.timeDescription =
-        shortened(column.name) + " [" + std::string(nameOf(series.timeUnit)) + ", " + origin + "]";
+    plan_.timeDescription = shortened(column.name) + " [" +
+                            (series.timeFactor == 1.0 ? "" : numberText(series.timeFactor) + " ") +
+                            std::string(nameOf(series.timeUnit)) + ", " + origin + "]";
 }
 
 // What the first numbers of the rows tell of a number within them.

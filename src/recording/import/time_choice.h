@@ -61,7 +61,9 @@ class TimeChoice {
   std::size_t finestOf(std::size_t time);
   TimeUnit dateUnitOf(const TableColumn& column);
   void setTimeUnit(PlannedSeries& series);
-  std::optional<TimeUnit> statedUnit(const TableColumn& column, std::string& origin);
+  std::optional<TimeUnit> statedUnit(const TableColumn& column,
+                                     std::string& origin,
+                                     double& factor);
   [[noreturn]] void refuse(const std::string& why) const;
   [[noreturn]] void refuseText(const TableColumn& column) const;
 
