@@ -78,6 +78,7 @@ void StreamLineParser::readLabelled(std::string_view line, const Sink& sink) {
   const bool withTime = hasTime(shape_.fits(kFrame, count), shape_.fits(kFrame, count - 1));
   if (!shape_.fits(kFrame, count - (withTime ? 1 : 0)))
     return refuse(counted(count, "value") + " with labels instead of " + shape_.expected(kFrame));
+  if (!hasUsualLength(labelledLength_, count)) return;
   if (withTime) {
     const std::optional<StreamTime> unit = timeOfLabel(lineLabels_.front());
     if (!unit)
@@ -91,6 +92,7 @@ void StreamLineParser::readLabelled(std::string_view line, const Sink& sink) {
     labels_.assign(lineLabels_.begin() + static_cast<std::ptrdiff_t>(from), lineLabels_.end());
     if (!learnLabels(false)) return;
   }
+  if (!isOfFrames(labels_.front(), labelsNamed_, /*mayWait=*/false, sink)) return;
   takeLabelled(from, item, sink);
 }
 
@@ -103,45 +105,60 @@ bool StreamLineParser::learnLabels(bool mayBeInside) {
   for (std::size_t i = 0; i < labels_.size() && why.empty(); ++i)
     if (!placeOf_.emplace(labels_[i], i).second)
       why = "the label " + inQuotes(labels_[i]) + " is there twice";
-  if (why.empty() && !findPlacesOfLabels() && mayBeInside)
+  if (why.empty()) labelsNamed_ = findPlacesOfLabels(labels_, valueOf_);
+  if (why.empty() && !labelsNamed_ && mayBeInside)
     why = "the order of the values is not known: send all of a frame in one line";
+  if (why.empty() && !labelsNamed_ && options_.placesOfLabels)
+    note("the labels (" + inQuotes(labels_.front()) + " to " + inQuotes(labels_.back()) +
+         ") don't say which taxel each is: they are taken in the order of the first frame; send "
+         "names of the matrices and numbers");
   if (!why.empty()) {
     forgetLabels();
     refuse(why);
     return false;
   }
-  if (mayBeInside) {
-    for (auto& [label, i] : placeOf_) labels_[i = valueOf_[i]] = label;
-    std::iota(valueOf_.begin(), valueOf_.end(), 0);
-  }
+  knownLabels_.clear();
+  for (std::size_t i = 0; i < labels_.size(); ++i) knownLabels_.emplace(labels_[i], valueOf_[i]);
+  if (mayBeInside) orderByNumbers();
   labelsLearned_ = true;
   labelSeen_.assign(labels_.size(), false);
   numLabelsSeen_ = 0;
   return true;
 }
 
+// A frame begins with the label of its first value.
+void StreamLineParser::orderByNumbers() {
+  for (auto& [label, i] : placeOf_) labels_[i = valueOf_[i]] = label;
+  std::iota(valueOf_.begin(), valueOf_.end(), 0);
+}
+
 // Finds the value that each label stands for. Returns whether the labels themselves say it: then
-// the reversed order has the same places.
-bool StreamLineParser::findPlacesOfLabels() {
-  labelNotes_.clear();
-  valueOf_.clear();
-  bool areNamed = false;
+// the reversed order has the same places. Labels that were there before keep their places.
+bool StreamLineParser::findPlacesOfLabels(const std::vector<std::string>& labels,
+                                          std::vector<std::size_t>& places) {
+  places.clear();
+  std::vector<std::string> guessed;
   if (options_.placesOfLabels) {
     std::vector<std::string> ignored;
-    valueOf_ = options_.placesOfLabels(labels_, labelNotes_);
+    places = options_.placesOfLabels(labels, guessed);
     std::vector<std::size_t> reversed =
-        options_.placesOfLabels({labels_.rbegin(), labels_.rend()}, ignored);
+        options_.placesOfLabels({labels.rbegin(), labels.rend()}, ignored);
     std::ranges::reverse(reversed);
-    areNamed = valueOf_.size() == labels_.size() && valueOf_ == reversed;
-    if (!areNamed)
-      labelNotes_.push_back("the labels (" + inQuotes(labels_.front()) + " to " +
-                            inQuotes(labels_.back()) +
-                            ") don't say which taxel each is: they are taken in the order of the "
-                            "first frame; send names of the matrices and numbers");
+    if (places.size() == labels.size() && places == reversed) {
+      for (const std::string& text : guessed) note(text);
+      return true;
+    }
   }
-  if (valueOf_.size() == labels_.size()) return areNamed;
-  valueOf_.resize(labels_.size());
-  std::iota(valueOf_.begin(), valueOf_.end(), 0);
+  if (knownLabels_.size() == labels.size() && std::ranges::all_of(labels, [&](const auto& label) {
+        return knownLabels_.contains(label);
+      })) {
+    places.clear();
+    for (const std::string& label : labels) places.push_back(knownLabels_.at(label));
+    return true;
+  }
+  if (places.size() == labels.size()) return false;
+  places.resize(labels.size());
+  std::iota(places.begin(), places.end(), 0);
   return false;
 }
 
@@ -222,10 +239,31 @@ bool StreamLineParser::endsFirstLabels(std::string_view label, const Sink& sink)
     return false;
   }
   if (!learnLabels(options_.startsInside)) return false;
-  if (options_.startsInside) return true;
+  if (labelsNamed_) noteOwnFrames();
+  if (options_.startsInside || beginsInside()) return true;
   for (std::size_t i = 0; i < labels_.size(); ++i) values_[valueOf_[i]] = partValues_[i];
   StreamItem item;
   deliverFrame(item, labels_.size(), sink);
+  return true;
+}
+
+// Whether the labels of the first frame show that the input began within one, as a pipe from a port
+// does: they count from another value than the first one to the last one, and then from the first
+// one on. Then a frame begins with its first value, and the part before it is refused.
+bool StreamLineParser::beginsInside() {
+  const std::size_t count = labels_.size();
+  const std::size_t first = valueOf_.front();
+  if (first == 0 || !labelsNamed_) return false;
+  for (std::size_t i = 0; i < count; ++i)
+    if (valueOf_[i] != (first + i) % count) return false;
+  refuse("a frame of " + counted(count - first, "value") + " with labels instead of " +
+         std::to_string(count));
+  std::rotate(partValues_.begin(),
+              partValues_.begin() + static_cast<std::ptrdiff_t>(count - first),
+              partValues_.begin() + static_cast<std::ptrdiff_t>(count));
+  orderByNumbers();
+  numLabelsSeen_ = first;
+  std::fill_n(labelSeen_.begin(), first, true);
   return true;
 }
 

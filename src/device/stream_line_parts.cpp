@@ -30,6 +30,9 @@ bool StreamLineParser::takePad(const Head& head, std::size_t count, const Sink& 
       hasTime(isCountOf(matrix, count), count > 0 && isCountOf(matrix, count - 1));
   const std::size_t given = count - (withTime && count > 0 ? 1 : 0);
   if (!isCountOf(matrix, given)) return false;
+  noteOwnFrames();
+  if (!hasUsualLength(padLengths_[*index], count) || !orderLists(*index, 1, listOrder_))
+    return true;
   StreamItem item;
   item.sequence = head.sequence;
   if (!firstPad_) firstPad_ = options_.startsInside ? 0 : *index;
@@ -38,9 +41,10 @@ bool StreamLineParser::takePad(const Head& head, std::size_t count, const Sink& 
   const std::size_t at = layout.offset(*index);
   std::size_t next = withTime ? 1 : 0;
   for (std::size_t i = 0; i < matrix.numCells(); ++i)
-    partValues_[at + i] = given == matrix.numCells() || matrix.staticMask[i] != 0
-                              ? static_cast<float>(numbers_[next++])
-                              : 0.0F;
+    partValues_[at + (listOrder_.empty() ? i : listOrder_[i])] =
+        given == matrix.numCells() || matrix.staticMask[i] != 0
+            ? static_cast<float>(numbers_[next++])
+            : 0.0F;
   partSeen_[*index] = true;
   if (++numPartMatrices_ < layout.numMatrices()) return true;
   numPartMatrices_ = 0;
@@ -136,6 +140,7 @@ bool StreamLineParser::takeRow(const Head& head, std::size_t count, const Sink& 
   }
   heldWord_.reset();
   hasRows_ = true;
+  noteOwnFrames();
   addRow(sink);
   return true;
 }

@@ -104,6 +104,8 @@ void readTactileMatrices(const Json& matrices,
   }
 }
 
+bool hasZeros(std::string_view line) { return line.find('\0') != std::string_view::npos; }
+
 // Finds the ends of lines. The next '\n' is kept, so that each byte is looked at twice at most,
 // whatever ends the lines.
 class LineEnds {
@@ -136,7 +138,8 @@ StreamLineParser::StreamLineParser(StreamShape shape, const StreamLineOptions& o
       skipping_(options.startsInside),
       numbers_(std::max({shape_.numPlaces(), shape_.numAxes(), shape_.numTemperatures()}) + 1),
       values_(shape_.numPlaces()),
-      rowsBegin_(!options.startsInside) {}
+      rowsBegin_(!options.startsInside),
+      padLengths_(shape_.layout().numMatrices()) {}
 
 void StreamLineParser::push(std::span<const std::byte> bytes, const Sink& sink) {
   if (bytes.empty()) return;
@@ -213,14 +216,17 @@ void StreamLineParser::endLine(const Sink& sink) {
 void StreamLineParser::cutOff(const Sink& sink) {
   const std::string_view line = trimmed(pending_, " \t");
   // An object and a list have an end of their own.
-  if (skipping_ || line.empty() || line.front() == '#' ||
-      std::string_view("}])").find(line.back()) != std::string_view::npos)
-    return endLine(sink);
-  lastEnd_ = '\0';
-  ++stats_.lines;
-  stats_.lineBytes += pending_.size();
-  pending_.clear();
-  refuse("the last line has no end: its last number may be cut off");
+  if (skipping_ || line.empty() || line.front() == '#' || hasZeros(line) ||
+      std::string_view("}])").find(line.back()) != std::string_view::npos) {
+    endLine(sink);
+  } else {
+    lastEnd_ = '\0';
+    ++stats_.lines;
+    stats_.lineBytes += pending_.size();
+    pending_.clear();
+    refuse("the last line has no end: its last number may be cut off");
+  }
+  releaseHeld(sink);
 }
 
 void StreamLineParser::takeLine(std::string_view line, const Sink& sink) {
@@ -229,6 +235,10 @@ void StreamLineParser::takeLine(std::string_view line, const Sink& sink) {
   line = trimmed(line, " \t");
   if (line.empty()) return separateRows();
   if (line.front() == '#') return;
+  if (hasZeros(line))
+    return refuse(
+        "it has bytes of 0, as UTF-16 and packets have: send ASCII or UTF-8, and packets only from "
+        "the beginning on");
   if (line.front() == '{') {
     if (options_.acceptJson)
       readJson(line, sink);
@@ -244,9 +254,12 @@ void StreamLineParser::takeLine(std::string_view line, const Sink& sink) {
 // Lists in brackets are numbers; a line of more than one label has labelled values.
 void StreamLineParser::takeText(std::string_view line, const Sink& sink) {
   constexpr std::string_view kBrackets = "[]()";
+  text_ = line;
+  listLengths_.clear();
   const std::size_t last = line.find_last_not_of(",; \t");
   if (kBrackets.find(line.front()) != std::string_view::npos ||
       (last != std::string_view::npos && kBrackets.find(line[last]) != std::string_view::npos)) {
+    measureLists(line);
     plain_.assign(line);
     for (char& c : plain_)
       if (kBrackets.find(c) != std::string_view::npos) c = ' ';
@@ -333,7 +346,7 @@ std::size_t StreamLineParser::readValues(const char* at, const char* end, bool& 
 
 void StreamLineParser::readNumbers(std::string_view line, const Sink& sink) {
   Head head;
-  if (!readHead(line, head)) return;
+  if (!readHead(line, head) || takeHeader(line, head)) return;
   bool failed = false;
   const std::size_t count = readValues(head.values, line.data() + line.size(), failed);
   if (!failed)
@@ -415,19 +428,28 @@ void StreamLineParser::deliver(const Head& head, std::size_t count, const Sink& 
       hasTime(shape_.fits(head.kind, count), count > 0 && shape_.fits(head.kind, count - 1));
   const std::size_t given = count - (withTime && count > 0 ? 1 : 0);
   if (!shape_.fits(head.kind, given) || (withTime && count == 0)) {
-    if (count == 1 && head.hasColon && head.kind == StreamItemKind::kFrame && !hasWholeFrames_)
+    if (count == 1 && head.hasColon && head.kind == StreamItemKind::kFrame && !hasWholeFrames_ &&
+        (!hasOwnFrames_ || labelsNamed_))
       return takeLabel(head.name, numbers_[0], sink);
     return refuse(countFault(head, count));
   }
+  if (head.kind == StreamItemKind::kFrame) {
+    const bool isOwn = head.name.empty() || shape_.isOwnName(head.name);
+    if (!isOfFrames(head.name, isOwn, /*mayWait=*/true, sink)) return;
+  }
+  if (!hasUsualLength(lengths_[static_cast<std::size_t>(head.kind)], count)) return;
   StreamItem item;
   item.kind = head.kind;
   item.sequence = head.sequence;
   if (withTime && !readTime(options_.time, count, /*beginsFrame=*/true, item)) return;
   const std::span<const double> numbers = std::span(numbers_).subspan(withTime ? 1 : 0, given);
   if (head.kind == StreamItemKind::kFrame) {
+    if (!orderLists(0, shape_.layout().numMatrices(), listOrder_)) return;
     endParts();
-    std::ranges::transform(
-        numbers, values_.begin(), [](double value) { return static_cast<float>(value); });
+    const std::vector<std::size_t>& order = listOrder_.empty() ? headerOrder_ : listOrder_;
+    const bool isOrdered = order.size() == given;
+    for (std::size_t i = 0; i < given; ++i)
+      values_[isOrdered ? order[i] : i] = static_cast<float>(numbers[i]);
     return deliverFrame(item, given, sink);
   }
   if (const std::string fault = shape_.check(numbers); !fault.empty()) return refuse(fault);
@@ -495,6 +517,7 @@ std::optional<StreamItem> StreamLineParser::readJsonFrame(const Json& object) {
     values_ = partValues_;
     numPartMatrices_ = 0;
   }
+  noteOwnFrames();
   StreamItem item;
   item.sequence = sequence;
   const Json stamp = header.at("stamp");

@@ -125,6 +125,7 @@ std::optional<DeviceEvent> StreamLink::openGap(std::int64_t untilUs) const {
 
 void StreamLink::forget() {
   session_ = {};
+  earlierLines_.reset();
   std::lock_guard lock(mutex_);
   description_ = {};
   lastFault_.clear();
@@ -140,12 +141,14 @@ void StreamLink::connect(ByteChannel& channel) {
   packets_.reset();
   if (format_ != StreamFormat::kBinary)
     lines_ = std::make_unique<StreamLineParser>(shape_, lineOptions_);
+  if (lines_ && earlierLines_) lines_->knowLabelsOf(*earlierLines_);
   if (format_ == StreamFormat::kAuto || format_ == StreamFormat::kBinary)
     packets_ = std::make_unique<StreamPacketParser>(shape_);
   session_.lastFrameUs = clock_.monotonicUs();
   session_.connectedUs = time_.nowUs();
   session_.frameSinceConnect = false;
   session_.silent = false;
+  session_.notesTold = 0;
   session_.closedUs.reset();
   session_.readsPile = options_.source != nullptr && options_.source->waitedUs() > kPileUs;
   session_.framesBeforePile = session_.frames;
@@ -163,7 +166,8 @@ void StreamLink::disconnected() {
   session_.before.refused += now.refused;
   session_.before.outOfRange += now.outOfRange;
   session_.before.skippedBytes += now.skippedBytes;
-  lines_.reset();
+  watchRemarks();
+  if (lines_) earlierLines_ = std::move(lines_);
   packets_.reset();
   tellLoss(/*atOnce=*/true);
   const bool isClosed = channel_->atEnd();
@@ -461,10 +465,12 @@ void StreamLink::watchRemarks() {
     session_.guessTold = true;
     remark(lines_->guess());
   }
-  if (lines_ && !session_.labelsTold && !lines_->labelNotes().empty()) {
-    session_.labelsTold = true;
-    for (const std::string& note : lines_->labelNotes()) remark(note);
-  }
+  // Only this thread writes remarks_.
+  if (lines_)
+    for (; session_.notesTold < lines_->notes().size(); ++session_.notesTold) {
+      const std::string& note = lines_->notes()[session_.notesTold];
+      if (std::ranges::find(remarks_, note) == remarks_.end()) remark(note);
+    }
   if (options_.source == nullptr) return;
   if (const std::string text = options_.source->takeRemark(); !text.empty()) remark(text);
 }

@@ -107,6 +107,7 @@ class StreamLink : public PortLink {
 
   // Of this connection; null when the form is not read, or another one was found.
   std::unique_ptr<StreamLineParser> lines_;
+  std::unique_ptr<StreamLineParser> earlierLines_;  // of the connection before
   std::unique_ptr<StreamPacketParser> packets_;
   bool formatFound_ = false;
 
@@ -150,7 +151,7 @@ class StreamLink : public PortLink {
     bool readsPile = false;
     std::uint64_t framesBeforePile = 0;
     bool guessTold = false;
-    bool labelsTold = false;
+    std::size_t notesTold = 0;  // of this connection
 
     std::uint64_t reportedRefused = 0;
     std::uint64_t reportedOutOfRange = 0;

@@ -29,6 +29,13 @@ bool equalsInAnyCase(std::string_view a, std::string_view b) {
       [](unsigned char c) { return std::tolower(c); });
 }
 
+// Whether `word` is `name`, which may have blanks where the word has '_' or '-'.
+bool isSameWord(std::string_view word, std::string_view name) {
+  return std::ranges::equal(word, name, [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b) || (b == ' ' && (a == '_' || a == '-'));
+  });
+}
+
 std::string sizeText(std::int64_t rows, std::int64_t columns) {
   return std::to_string(rows) + " x " + std::to_string(columns);
 }
@@ -55,7 +62,8 @@ StreamShape::StreamShape(const HandDescription& hand)
     : layout_(hand.layout),
       numAxes_(hand.axes.size()),
       numTemperatures_(hand.temperatureSensors.size()),
-      unit_(hand.unit) {
+      unit_(hand.unit),
+      handName_(hand.name) {
   if (!layout_ || layout_->numCells() == 0)
     throw std::invalid_argument("StreamShape: the hand has no matrices");
   for (std::size_t m = 0; m < layout_->numMatrices(); ++m) {
@@ -141,6 +149,13 @@ std::optional<std::size_t> StreamShape::matrixNamed(std::string_view name) const
   });
   if (name.empty() || found == names_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names_.begin());
+}
+
+bool StreamShape::isOwnName(std::string_view name) const noexcept {
+  return equalsInAnyCase(name, "frame") || isSameWord(name, handName_) ||
+         std::ranges::any_of(names_, [&](const auto& each) {
+           return isSameWord(name, each.first) || isSameWord(name, each.second);
+         });
 }
 
 std::string StreamShape::check(std::span<const double> numbers) const {

@@ -124,7 +124,7 @@ TEST(StreamDevice, DeliversLinesAndPacketsWithBothTimes) {
 
 TEST(StreamDevice, AnglesAndTemperaturesAreSeriesOfTheirOwn) {
   Bench bench({.hand = smallHand()});
-  bench.send("angles,1.5,-2\ntemperatures,36.5\nf,1,2,3\nangles,2,3\n");
+  bench.send("angles,1.5,-2\ntemperatures,36.5\nframe,1,2,3\nangles,2,3\n");
   ASSERT_EQ(bench.sink.angles.size(), 2u);
   EXPECT_EQ(bench.sink.angles[0].deg, (std::vector<double>{1.5, -2}));
   EXPECT_GT(bench.sink.angles[1].hostUs, bench.sink.angles[0].hostUs);
@@ -347,6 +347,32 @@ TEST(StreamDevice, WhatTheFirstNumberWasTakenForIsSaidOnce) {
   EXPECT_NE(bench.link->remarks()[0].find("is taken for its time in milliseconds"),
             std::string::npos);
   EXPECT_EQ(bench.lastEvent("link").text, bench.link->remarks()[0]);
+}
+
+// Without numbers in them the labels say no order: after a reconnection they keep what they stood
+// for.
+TEST(StreamDevice, LabelsKeepTheirTaxelsOverAReconnection) {
+  Bench bench;
+  bench.send("a:1,b:2,c:3\n");
+  bench.replug();
+  bench.send("c:30,b:20,a:10\n");
+  ASSERT_EQ(bench.sink.frames.size(), 2u);
+  EXPECT_EQ(bench.sink.frames[1].values, (std::vector<float>{10, 20, 30}));
+}
+
+TEST(StreamDevice, LinesThatAreTakenForFramesAreSaidOnce) {
+  Bench bench;
+  bench.send("raw:1,2,3\nimu:7,8,9\nraw:4,5,6\n");
+  EXPECT_EQ(bench.sink.frames.size(), 2u);
+  EXPECT_EQ(bench.status().suspect, 1u);
+  bench.replug();
+  bench.send("raw:1,2,3\nraw:4,5,6\n");
+  EXPECT_EQ(bench.sink.frames.size(), 4u);
+  ASSERT_EQ(bench.link->remarks().size(), 1u);
+  EXPECT_EQ(
+      bench.link->remarks()[0],
+      "lines with \"raw\" are taken for the frames: it is no name of the hand's, but no other "
+      "lines are frames");
 }
 
 TEST(StreamDevice, BytesWithoutTheEndOfALineAreNamed) {

@@ -42,7 +42,7 @@ FormReading readForm(const std::string& text,
   reading.fault = parser.lastFault();
   reading.outOfRange = parser.lastOutOfRange();
   reading.guess = parser.guess();
-  reading.labelNotes = parser.labelNotes();
+  reading.labelNotes = parser.notes();
   EXPECT_EQ(reading.stats.lineBytes + reading.stats.skippedBytes + parser.pendingBytes(),
             text.size());
   return reading;
@@ -343,6 +343,212 @@ TEST(StreamLineForms, AMillionLinesOfReturnsAreReadInOneRead) {
   const FormReading reading = readForm(text + "0,1,2,3,4,5\r", padHand({{2, 3}}));
   EXPECT_EQ(reading.frames, std::vector<Values>{kTwoFrames[0]});
   EXPECT_EQ(reading.stats.lines, 1'000'001u);
+}
+
+// --- Other lines between those of the frames
+
+// The pad of the case "never silently wrong": 2 x 3, named as its matrix.
+HandDescription onePad(int rows, int columns) {
+  HandDescription hand = padHand({{rows, columns}});
+  hand.name = "Pad";
+  hand.matrices[0].name = "pad";
+  return hand;
+}
+
+TEST(StreamLineForms, LinesWithAnotherNameAreNoFramesOnceOwnOnesCame) {
+  for (const char* text : {"pad:0,1,2,3,4,5\nimu:0,1,2,9,5,6\npad:10,11,12,13,14,15\n",
+                           "0,1,2,3,4,5\nimu:0,1,2,9,5,6\n10,11,12,13,14,15\n",
+                           "frame#1,0,1,2,3,4,5\nimu#1,0,1,2,9,5,6\nframe#2,10,11,12,13,14,15\n",
+                           "p0:0,p1:1,p2:2,p3:3,p4:4,p5:5\nimu:0,1,2,9,5,6\n"
+                           "p0:10,p1:11,p2:12,p3:13,p4:14,p5:15\n",
+                           "0,1,2,3,4,5\nax:0,ay:1,az:2,gx:9,gy:5,gz:6\n10,11,12,13,14,15\n",
+                           "0,1,2\n3,4,5\n\nimu:0,1,2,9,5,6\n10,11,12\n13,14,15\n\n"}) {
+    const HandDescription hand = onePad(2, 3);
+    const FormReading reading = readForm(text, hand, withLabels(hand));
+    EXPECT_EQ(reading.frames, kTwoFrames) << text;
+    EXPECT_EQ(reading.stats.refused, 1u) << text << reading.fault;
+    EXPECT_NE(reading.fault.find(" is no name of the hand's, and its frames come without it"),
+              std::string::npos)
+        << reading.fault;
+  }
+  EXPECT_EQ(readForm("L:1,2,3,4\nR:5,6,7,8\nimu:8,7,6,5,4,3,2,1\nL:1,2,3,4\nR:5,6,7,8\n", twoPads())
+                .frames.size(),
+            2u);
+}
+
+// It isn't known yet that it is none: it waits.
+TEST(StreamLineForms, AFirstLineWithAnotherNameWaitsForTheNextOne) {
+  for (const char* own : {"", "pad:"}) {
+    const std::string text = "imu:9,9,9,9,9,9\n" + std::string(own) +
+                             "0,1,2,3,4,5\nimu:9,9,9,9,9,9\n" + std::string(own) +
+                             "10,11,12,13,14,15\n";
+    const FormReading reading = readForm(text, onePad(2, 3));
+    EXPECT_EQ(reading.frames, kTwoFrames);
+    EXPECT_EQ(reading.stats.refused, 2u);
+    EXPECT_EQ(reading.labelNotes, std::vector<std::string>{});
+  }
+  EXPECT_EQ(readForm("offsets: 512 510 498 505 500 511\n0,1,2,3,4,5\n", onePad(2, 3)).fault,
+            "line 1: \"offsets\" is no name of the hand's, and its frames come without it");
+}
+
+TEST(StreamLineForms, ALoneOtherNameIsReadAndSaid) {
+  const std::vector<std::string> note{
+      "lines with \"raw\" are taken for the frames: it is no name of the hand's, but no other "
+      "lines "
+      "are frames"};
+  const FormReading alone = readForm("raw 0,1,2,3,4,5\nraw 10,11,12,13,14,15\n", onePad(2, 3));
+  EXPECT_EQ(alone.frames, kTwoFrames);
+  EXPECT_EQ(alone.labelNotes, note);
+  EXPECT_EQ(alone.stats.refused, 0u);
+  const FormReading both = readForm(
+      "raw 0,1,2,3,4,5\nfiltered 1,1,1,1,1,1\nraw 10,11,12,13,14,15\nfiltered 1,1,1,1,1,1\n",
+      onePad(2, 3));
+  EXPECT_EQ(both.frames, kTwoFrames);
+  EXPECT_EQ(both.labelNotes, note);
+  EXPECT_EQ(both.stats.refused, 2u);
+  EXPECT_EQ(both.fault,
+            "line 4: \"filtered\" is no name of the hand's, and the first frames were lines with "
+            "\"raw\"");
+  const FormReading last = readForm("raw 0,1,2,3,4,5\n", onePad(2, 3), {}, SIZE_MAX, true);
+  EXPECT_EQ(last.frames, std::vector<Values>{kTwoFrames[0]});
+  EXPECT_EQ(last.labelNotes, note);
+}
+
+// 21.5 degC were a force.
+TEST(StreamLineForms, ATemperatureIsNoForceOfAHandWithOneTaxel) {
+  for (const char* text : {"force: 3\ntemperature: 21.5\nforce: 56\ntemperature: 21.6\n",
+                           ">force:3\n>temp:21.5\n>force:56\n>temp:21.6\n",
+                           "temp: 21.5\npad: 3\ntemp: 21.6\npad: 56\n"}) {
+    const FormReading reading = readForm(text, onePad(1, 1));
+    EXPECT_EQ(reading.frames, (std::vector<Values>{{3}, {56}})) << text;
+    EXPECT_EQ(reading.stats.refused, 2u) << text << reading.fault;
+  }
+}
+
+TEST(StreamLineForms, ALineWithoutItsTimeOrAValueIsRefused) {
+  const FormReading less =
+      readForm("100,0,1,2,3,4,5\n110,6,7,9,10,11\n120,10,11,12,13,14,15\n", padHand({{2, 3}}));
+  EXPECT_EQ(less.frames, kTwoFrames);
+  EXPECT_EQ(less.fault, "line 2: 6 numbers instead of 7, as in the lines before");
+  const FormReading more =
+      readForm("0,1,2,3,4,5\n6,7,8,99,9,10,11\n10,11,12,13,14,15\n", padHand({{2, 3}}));
+  EXPECT_EQ(more.frames, kTwoFrames);
+  EXPECT_EQ(more.fault, "line 2: 7 numbers instead of 6, as in the lines before");
+  EXPECT_EQ(more.guess, "");
+  // Six places, five taxels: "#.#" is the second row.
+  const FormReading masked = readForm("1,0,2,3\n4,5,6\n7,0,8,9\n", smallHand());
+  EXPECT_EQ(masked.frames, (std::vector<Values>{{1, 0, 2, 3}, {7, 0, 8, 9}}));
+  EXPECT_EQ(masked.fault, "line 2: 3 numbers instead of 4, as in the lines before");
+  const FormReading pads =
+      readForm("L,50,1,2,3,4\nR,50,5,6,7,8\nL,2,3,4,5\nR,60,5,6,7,8\n", twoPads());
+  EXPECT_EQ(pads.frames.size(), 1u);
+  EXPECT_EQ(readForm("angles,500,1,2\nangles,1,2\n", smallHand()).stats.refused, 1u);
+}
+
+// A pipe that begins within a line: the first line has lost its time.
+TEST(StreamLineForms, AFirstLineThatWasCutOffIsNotTheMeasure) {
+  const FormReading reading = readForm(
+      "9,9,9,9,9,9\n100,1,1,1,1,1,1\n110,0,1,2,3,4,5\n120,10,11,12,13,14,15\n", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames,
+            (std::vector<Values>{{9, 9, 9, 9, 9, 9}, kTwoFrames[0], kTwoFrames[1]}));
+  EXPECT_EQ(reading.stats.refused, 1u);
+  EXPECT_EQ(reading.labelNotes,
+            (std::vector<std::string>{"lines have 7 numbers from line 3 on, 6 before: the frames "
+                                      "before it may be wrong"}));
+}
+
+TEST(StreamLineForms, ListsOfColumnsAreTransposed) {
+  const std::vector<std::string> note{
+      "the lists of a frame have columns x rows and are transposed"};
+  const FormReading reading =
+      readForm("[[0, 3], [1, 4], [2, 5]]\n[[10, 13], [11, 14], [12, 15]]\n", padHand({{2, 3}}));
+  EXPECT_EQ(reading.frames, kTwoFrames);
+  EXPECT_EQ(reading.labelNotes, note);
+  const FormReading timed = readForm("[100, [[0, 3], [1, 4], [2, 5]]]\n", padHand({{2, 3}}));
+  EXPECT_EQ(timed.frames, std::vector<Values>{kTwoFrames[0]});
+  EXPECT_EQ(timed.timesUs, (std::vector<std::optional<std::int64_t>>{100'000}));
+  // Rows first where both fit; a list per matrix; two matrices of different sizes.
+  const FormReading square = readForm("[[1, 2], [3, 4]]\n", padHand({{2, 2}}));
+  EXPECT_EQ(square.frames, (std::vector<Values>{{1, 2, 3, 4}}));
+  EXPECT_EQ(square.labelNotes, std::vector<std::string>{});
+  EXPECT_EQ(readForm("[[1, 2, 3, 4], [5, 6, 7, 8]]\n", twoPads()).frames,
+            (std::vector<Values>{{1, 2, 3, 4, 5, 6, 7, 8}}));
+  EXPECT_EQ(readForm("[[[1, 4], [2, 5], [3, 6]], [[7], [8]]]\n", padHand({{2, 3}, {2, 1}})).frames,
+            (std::vector<Values>{{1, 2, 3, 4, 5, 6, 7, 8}}));
+  HandDescription named = padHand({{2, 3}, {1, 1}});
+  named.matrices[0].shortName = "L";
+  named.matrices[1].shortName = "R";
+  EXPECT_EQ(readForm("L: [[1, 4], [2, 5], [3, 6]]\nR: [7]\n", named).frames,
+            (std::vector<Values>{{1, 2, 3, 4, 5, 6, 7}}));
+  EXPECT_EQ(readForm("[[1, 2, 3, 4, 5, 6], [7, 8, 9, 10, 11, 12]]\n", padHand({{3, 4}})).fault,
+            "line 1: its lists have neither the rows nor the columns of the hand: send a list per "
+            "row");
+}
+
+TEST(StreamLineForms, LabelsOfAnEarlierConnectionKeepTheirValues) {
+  const HandDescription hand = padHand({{2, 3}});
+  StreamLineParser first(StreamShape(hand), withLabels(hand));
+  const std::string before = "a:0,b:1,c:2,d:3,e:4,f:5\n";
+  first.push(std::as_bytes(std::span(before)), [](const StreamItem&) {});
+  for (const char* after : {"f:15,e:14,d:13,c:12,b:11,a:10\n",
+                            "c:12\nd:13\ne:14\nf:15\na:10\nb:11\nc:9\n",
+                            "f,e,d,c,b,a\n15,14,13,12,11,10\n"}) {
+    StreamLineParser second(StreamShape(hand), withLabels(hand));
+    second.knowLabelsOf(first);
+    std::vector<Values> frames;
+    const std::string text = after;
+    second.push(std::as_bytes(std::span(text)), [&](const StreamItem& item) {
+      frames.emplace_back(item.values.begin(), item.values.end());
+    });
+    // The second text begins within a frame, whose beginning isn't there.
+    if (text.starts_with("c:"))
+      EXPECT_EQ(frames, std::vector<Values>{});
+    else
+      EXPECT_EQ(frames, std::vector<Values>{kTwoFrames[1]}) << after;
+  }
+}
+
+TEST(StreamLineForms, APipeThatBeginsWithinAFrameOfNumberedLabels) {
+  std::string text;
+  for (int value = 3; value < 18; ++value)
+    text += ">A" + std::to_string(value % 6) + ":" + std::to_string(value) + "\n";
+  const HandDescription hand = padHand({{2, 3}});
+  const FormReading reading = readForm(text, hand, withLabels(hand));
+  EXPECT_EQ(reading.frames, (std::vector<Values>{{6, 7, 8, 9, 10, 11}, {12, 13, 14, 15, 16, 17}}));
+  EXPECT_EQ(reading.stats.refused, 1u);
+  EXPECT_EQ(reading.fault, "line 7: a frame of 3 values with labels instead of 6");
+}
+
+TEST(StreamLineForms, ALineOfNamesSaysTheOrder) {
+  const HandDescription hand = padHand({{2, 3}});
+  const auto read = [&](const std::string& text) { return readForm(text, hand, withLabels(hand)); };
+  const FormReading reversed =
+      read("p5,p4,p3,p2,p1,p0\n5,4,3,2,1,0\np0,p1,p2,p3,p4,p5\n10,11,12,13,14,15\n");
+  EXPECT_EQ(reversed.frames, kTwoFrames);
+  EXPECT_EQ(reversed.stats.refused, 0u) << reversed.fault;
+  EXPECT_EQ(reversed.labelNotes,
+            (std::vector<std::string>{
+                "the values behind line 1 are in the order of its names (\"p5\" to \"p0\")"}));
+  const FormReading timed = read("ms,p1,p0,p2,p3,p4,p5\n7,1,0,2,3,4,5\n");
+  EXPECT_EQ(timed.frames, std::vector<Values>{kTwoFrames[0]});
+  EXPECT_EQ(timed.timesUs, (std::vector<std::optional<std::int64_t>>{7'000}));
+  // Names that don't say the taxels: the first ones are the order.
+  const FormReading words = read("a,b,c,d,e,f\n0,1,2,3,4,5\nf,e,d,c,b,a\n15,14,13,12,11,10\n");
+  EXPECT_EQ(words.frames, kTwoFrames);
+  EXPECT_EQ(words.stats.refused, 1u);
+  EXPECT_EQ(words.fault, "line 1: value 1 is \"b\", not a number");
+}
+
+TEST(StreamLineForms, TextInUtf16IsNamed) {
+  const std::string ascii = "0,1,2,3,4,5\n0,1,2,3,4,5\n";
+  std::string wide = "\xFF\xFE";
+  for (const char c : ascii) wide += {c, '\0'};
+  const FormReading reading = readForm(wide, padHand({{2, 3}}), {}, SIZE_MAX, true);
+  EXPECT_EQ(reading.frames.size(), 0u);
+  EXPECT_EQ(
+      reading.fault,
+      "line 3: it has bytes of 0, as UTF-16 and packets have: send ASCII or UTF-8, and packets "
+      "only from the beginning on");
 }
 
 // --- Values and times

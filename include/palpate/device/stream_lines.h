@@ -5,6 +5,7 @@
 // The numbers of a line are read without an allocation; JSON objects take several.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -76,6 +77,8 @@ class StreamLineParser {
   // The same where more may have followed, at the end of a connection: a line of numbers without
   // its end is refused, since the last one may lack digits.
   void cutOff(const Sink& sink);
+  // Takes labels that come in another order than in an earlier connection by their names.
+  void knowLabelsOf(const StreamLineParser& earlier) { knownLabels_ = earlier.knownLabels_; }
   const StreamLineStats& stats() const noexcept { return stats_; }
   std::size_t pendingBytes() const noexcept { return pending_.size(); }
   // What is wrong with the last refused line, and which it is: "line 812: 255 numbers instead of
@@ -85,8 +88,8 @@ class StreamLineParser {
   const std::string& lastOutOfRange() const noexcept { return lastOutOfRange_; }
   // What the first number of a line was taken for with StreamTime::kAuto; empty: nothing yet.
   const std::string& guess() const noexcept { return guess_; }
-  // What was guessed of the places of labels; empty: nothing yet.
-  const std::vector<std::string>& labelNotes() const noexcept { return labelNotes_; }
+  // What else was guessed: which lines are frames, and which taxel each value is.
+  const std::vector<std::string>& notes() const noexcept { return notes_; }
   // Longest line that is read [bytes], enough for the hand's values with 25 characters each.
   std::size_t longestLine() const noexcept { return longestLine_; }
 
@@ -98,6 +101,31 @@ class StreamLineParser {
     bool hasColon = false;
     std::optional<std::uint32_t> sequence;
     const char* values = nullptr;  // where the numbers begin
+  };
+  // What the first lines have and the later ones must have, too. Something else takes its place
+  // when it comes more often in a row than the first did: that was cut off, or a greeting.
+  template <typename T>
+  struct Usual {
+    T value{};
+    T other{};
+    int times = 0;
+    int otherTimes = 0;
+    bool accepts(const T& seen) {
+      constexpr int kMany = 20;
+      if (times == 0) value = seen;
+      if (seen == value) {
+        times = times < kMany ? times + 1 : kMany;
+        otherTimes = 0;
+        return true;
+      }
+      otherTimes = otherTimes > 0 && seen == other ? otherTimes + 1 : 1;
+      other = seen;
+      if (otherTimes <= times) return false;
+      value = seen;
+      times = otherTimes;
+      otherTimes = 0;
+      return true;
+    }
   };
   bool continuesEnd(char c, const Sink& sink);
   void takePiece(std::string_view piece, bool ended, const Sink& sink);
@@ -111,6 +139,19 @@ class StreamLineParser {
   std::size_t readValues(const char* at, const char* end, bool& failed);
   void deliver(const Head& head, std::size_t count, const Sink& sink);
   std::string countFault(const Head& head, std::size_t count) const;
+  void note(const std::string& text);
+
+  // Which lines are those of frames.
+  bool hasUsualLength(Usual<std::size_t>& usual, std::size_t count);
+  bool isOfFrames(std::string_view name, bool isOwn, bool mayWait, const Sink& sink);
+  void noteOwnFrames();
+  void releaseHeld(const Sink& sink);
+
+  // The order of the values, where it is not that of the hand.
+  bool takeHeader(std::string_view line, const Head& head);
+  void measureLists(std::string_view line);
+  bool orderLists(std::size_t matrix, std::size_t numMatrices, std::vector<std::size_t>& order);
+
   void endParts();
   void deliverFrame(StreamItem& item, std::size_t count, const Sink& sink);
 
@@ -139,7 +180,9 @@ class StreamLineParser {
   void readLabelled(std::string_view line, const Sink& sink);
   bool readPairs(std::string_view line);
   bool learnLabels(bool mayBeInside);
-  bool findPlacesOfLabels();
+  bool findPlacesOfLabels(const std::vector<std::string>& labels, std::vector<std::size_t>& places);
+  void orderByNumbers();
+  bool beginsInside();
   void takeLabelled(std::size_t from, StreamItem& item, const Sink& sink);
   void takeLabel(std::string_view label, double value, const Sink& sink);
   bool endsFirstLabels(std::string_view label, const Sink& sink);
@@ -157,6 +200,7 @@ class StreamLineParser {
   std::string lastFault_;
   std::string lastOutOfRange_;
   std::string guess_;
+  std::vector<std::string> notes_;
   std::string pending_;           // a line without its end yet; never longer than longestLine_
   bool skipping_ = false;         // until the end of a line that is not used
   char lastEnd_ = '\0';           // '\n' or '\r' directly before, of which no pair was made yet
@@ -199,12 +243,27 @@ class StreamLineParser {
   // the present line.
   std::vector<std::string> labels_;
   std::vector<std::size_t> valueOf_;
-  std::vector<std::string> labelNotes_;
   std::map<std::string, std::size_t, std::less<>> placeOf_;
   bool labelsLearned_ = false;
+  bool labelsNamed_ = false;  // they say themselves which values they are
+  // The values of the labels that were learned last, here or in an earlier connection.
+  std::map<std::string, std::size_t, std::less<>> knownLabels_;
   std::vector<std::string_view> lineLabels_;
   std::vector<bool> labelSeen_;  // of a frame with a line per label
   std::size_t numLabelsSeen_ = 0;
+  // Which lines are frames, by their number of numbers and by their names.
+  std::array<Usual<std::size_t>, 3> lengths_;   // per kind of item
+  std::vector<Usual<std::size_t>> padLengths_;  // per matrix
+  Usual<std::size_t> labelledLength_;
+  bool hasOwnFrames_ = false;  // frames came without a name, or with one of the hand
+  Usual<std::string> otherName_;
+  std::string_view text_;  // the present line as it came
+  // The first line with another name, until the next line says whether it is a frame.
+  std::optional<std::pair<std::uint64_t, std::string>> heldLine_;
+  // The value of a frame that each value of a line is; empty: in the order of the hand.
+  std::vector<std::size_t> headerOrder_;
+  std::vector<std::size_t> listOrder_;
+  std::vector<std::size_t> listLengths_;  // numbers in each of the innermost lists of a line
   // Whether signals of a frame were read: further parts of them hold nothing to show.
   bool readsSignals_ = false;
 };

@@ -66,6 +66,9 @@ class StreamShape {
   std::string arrange(std::span<float> values, std::size_t count) const;
   // The matrix of this name or short name, in letters of either case.
   std::optional<std::size_t> matrixNamed(std::string_view name) const noexcept;
+  // Whether a line with this name is a frame by it: "frame", or the name of the hand or a matrix,
+  // whatever stands in place of its blanks.
+  bool isOwnName(std::string_view name) const noexcept;
   // Returns what is wrong with angles or temperatures: a value that is not finite.
   std::string check(std::span<const double> numbers) const;
 
@@ -77,6 +80,7 @@ class StreamShape {
   std::size_t numTemperatures_ = 0;
   std::vector<float> fullScales_;  // per matrix
   std::string unit_;
+  std::string handName_;
   std::vector<std::pair<std::string, std::string>> names_;  // per matrix: name, short name
   std::vector<std::uint8_t> exists_;  // per place; empty when no place is masked
 };
