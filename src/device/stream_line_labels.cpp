@@ -17,6 +17,13 @@ namespace {
 using namespace line_tokens;
 
 constexpr std::size_t kLongestLabel = 64;
+// Of other values between those of a frame with a line for each.
+constexpr std::size_t kMostOtherLabels = 16;
+
+// "A" of "A12".
+std::string_view wordOfLabel(std::string_view label) {
+  return label.substr(0, label.find_last_not_of("0123456789") + 1);
+}
 
 // The unit that the label of a time names; empty: it is no time.
 std::optional<StreamTime> timeOfLabel(std::string_view label) {
@@ -199,14 +206,15 @@ void StreamLineParser::takeLabelled(std::size_t from, StreamItem& item, const Si
 // Takes one of the values of a frame with a line for each.
 void StreamLineParser::takeLabel(std::string_view label, double value, const Sink& sink) {
   if (label.size() > kLongestLabel) return refuse("a label is longer than 64 bytes");
-  partValues_.resize(shape_.numPlaces());
   if (!labelsLearned_ && !endsFirstLabels(label, sink)) {
-    if (labels_.size() == shape_.numPlaces()) return dropLabels();
+    if (labels_.size() == shape_.numPlaces() + kMostOtherLabels) return dropLabels();
+    partValues_.resize(shape_.numPlaces() + kMostOtherLabels);
     partValues_[labels_.size()] = static_cast<float>(value);
     placeOf_.emplace(label, labels_.size());
     labels_.emplace_back(label);
     return;
   }
+  partValues_.resize(shape_.numPlaces());
   const std::optional<std::size_t> place = placeOfLabel(label, numLabelsSeen_);
   if (!place) return refuse("the label " + inQuotes(label) + " was not in the first frame");
   if (numLabelsSeen_ > 0 && (*place == 0 || labelSeen_[*place])) {
@@ -234,7 +242,7 @@ void StreamLineParser::takeLabel(std::string_view label, double value, const Sin
 // first frame is delivered.
 bool StreamLineParser::endsFirstLabels(std::string_view label, const Sink& sink) {
   if (!placeOfLabel(label, 0)) return false;
-  if (!shape_.fits(StreamItemKind::kFrame, labels_.size())) {
+  if (!shape_.fits(StreamItemKind::kFrame, labels_.size()) && !leaveOutOtherLabels()) {
     dropLabels();
     return false;
   }
@@ -244,6 +252,29 @@ bool StreamLineParser::endsFirstLabels(std::string_view label, const Sink& sink)
   for (std::size_t i = 0; i < labels_.size(); ++i) values_[valueOf_[i]] = partValues_[i];
   StreamItem item;
   deliverFrame(item, labels_.size(), sink);
+  return true;
+}
+
+// Leaves out the labels that stand alone, as "temp" does among "A0" to "A5", if the others are as
+// many as a frame has values.
+bool StreamLineParser::leaveOutOtherLabels() {
+  std::map<std::string_view, std::size_t> numOfWord;
+  for (const std::string& label : labels_) ++numOfWord[wordOfLabel(label)];
+  const auto isAlone = [&](const std::string& label) { return numOfWord[wordOfLabel(label)] == 1; };
+  const auto numAlone = static_cast<std::size_t>(std::ranges::count_if(labels_, isAlone));
+  if (!shape_.fits(StreamItemKind::kFrame, labels_.size() - numAlone)) return false;
+  std::vector<std::string> kept;
+  placeOf_.clear();
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    if (isAlone(labels_[i])) {
+      refuse("the label " + inQuotes(labels_[i]) + " is none of those of the frame");
+      continue;
+    }
+    partValues_[kept.size()] = partValues_[i];
+    placeOf_.emplace(labels_[i], kept.size());
+    kept.push_back(labels_[i]);
+  }
+  labels_ = std::move(kept);
   return true;
 }
 

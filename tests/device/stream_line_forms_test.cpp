@@ -425,6 +425,22 @@ TEST(StreamLineForms, ATemperatureIsNoForceOfAHandWithOneTaxel) {
   }
 }
 
+TEST(StreamLineForms, ALabelBetweenThoseOfAFrameIsLeftOut) {
+  std::string text;
+  for (const int first : {0, 10}) {
+    for (int k = 0; k < 6; ++k)
+      text += ">A" + std::to_string(k) + ":" + std::to_string(first + k) + "\n";
+    text += ">temp:21.5\n";
+  }
+  const HandDescription hand = onePad(2, 3);
+  for (const std::string& each : {text, ">temp:21.4\n" + text}) {
+    const FormReading reading = readForm(each, hand, withLabels(hand));
+    EXPECT_EQ(reading.frames, kTwoFrames) << each;
+    EXPECT_GE(reading.stats.refused, 2u);
+    EXPECT_NE(reading.fault.find("the label \"temp\""), std::string::npos) << reading.fault;
+  }
+}
+
 TEST(StreamLineForms, ALineWithoutItsTimeOrAValueIsRefused) {
   const FormReading less =
       readForm("100,0,1,2,3,4,5\n110,6,7,9,10,11\n120,10,11,12,13,14,15\n", padHand({{2, 3}}));

@@ -183,6 +183,7 @@ class StreamLineParser {
   bool findPlacesOfLabels(const std::vector<std::string>& labels, std::vector<std::size_t>& places);
   void orderByNumbers();
   bool beginsInside();
+  bool leaveOutOtherLabels();
   void takeLabelled(std::size_t from, StreamItem& item, const Sink& sink);
   void takeLabel(std::string_view label, double value, const Sink& sink);
   bool endsFirstLabels(std::string_view label, const Sink& sink);
