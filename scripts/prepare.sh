@@ -104,7 +104,7 @@ explainApt() {
     found=$(grep -v 'resolve host' "$aptLog" 2>/dev/null | grep -m 1 -oE "$pattern") && fail "$begin$found$remedy"
   done <<END
 ~sudo: .*~; as root: $byHand
-no space left for the packages: ~[^: ][^:]*(No space left|enough free space).*~. Make room and call again
+no space left for the packages: ~([^: ][^:]*)?(No space left|enough free space).*~. Make room and call again
 another program installs packages at the moment: ~(Could not get lock|Unable to acquire the dpkg).*~. Call again when it is done
 no network: ~(Temporary failure|Could not|Unable to|Connection|Network is|No route)( resol| connect| unreach| to host|[ :]).*~. Call again when there is one (or set apt's proxy); log: $aptLog
 END
