@@ -177,6 +177,11 @@ std::optional<bool> frameAxisByName(const std::vector<TableColumn>& columns) {
 }
 
 void addOrigins(const std::vector<TableColumn>& columns, PlannedSeries& series) {
+  // A text beside arrays is of the file, not of a row.
+  if (std::any_of(columns.begin(), columns.end(), [](const TableColumn& column) {
+        return column.numRows.has_value();
+      }))
+    return;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (!saysOrigin(columns[c]) ||
         std::find(series.columns.begin(), series.columns.end(), c) != series.columns.end())

@@ -255,6 +255,8 @@ QEvent::Type themeChange() {
 }
 
 void applyTheme(QApplication& application, Theme theme) {
+  // Reads the theme of the desktop before the palette is replaced.
+  systemTheme();
   // Setting the same style again would restyle every widget several times.
   if (application.styleSheet() == styleOf(theme)) return;
   // A widget that the style sheet gives a font (bold) gets the size back that it had before the

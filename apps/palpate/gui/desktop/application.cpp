@@ -5,7 +5,6 @@
 #include <clocale>
 #include <exception>
 
-#include "gui/appearance/theme.h"
 #include "gui/desktop/file_dialog_look.h"
 #include "gui/desktop/key_policy.h"
 
@@ -83,7 +82,6 @@ std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
     // All dialogues look like the window, and can have the button that stops the hand.
     QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
     application = std::make_unique<GuardedApplication>(argc, argv);
-    systemTheme();  // reads the theme of the desktop before its style and palette are replaced
     QApplication::setStyle("Fusion");
     KeyPolicy::ofApplication();
     new FileDialogLook(application.get());

@@ -40,7 +40,7 @@ bool passField(QObject& watched, QEvent& event) {
   return true;
 }
 
-bool pressButton(QObject& watched, const QEvent& event) {
+bool pressFocusedButton(QObject& watched, const QEvent& event) {
   if (event.type() != QEvent::KeyPress && event.type() != QEvent::KeyRelease) return false;
   auto* button = qobject_cast<QAbstractButton*>(&watched);
   if (!button) return false;
@@ -108,7 +108,7 @@ bool KeyPolicy::eventFilter(QObject* watched, QEvent* event) {
   for (const auto& [order, filter] : filters)
     if (filter && filter->eventFilter(watched, event)) return true;
   followEscape(*event);
-  return passField(*watched, *event) || pressButton(*watched, *event) ||
+  return passField(*watched, *event) || pressFocusedButton(*watched, *event) ||
          guardFromWheel(*watched, *event);
 }
 
