@@ -174,6 +174,10 @@ TEST(ImportOrigin, AHoleInTheNumbersOfTheTaxelsIsSaid) {
   EXPECT_NE(lossOf("time_s,p0,p1,p2,p3,p4,p6", pad(2, 3)).find("no p5"), std::string::npos);
   EXPECT_NE(lossOf("time_s,taxel2,taxel3,taxel4,taxel5", pad(2, 2)).find("begin at taxel2"),
             std::string::npos);
+  // Nobody counts up to that.
+  EXPECT_NE(lossOf("time_s,p900000000000,p900000000001,p900000000002,p900000000003", pad(2, 2))
+                .find("begin at p900000000000"),
+            std::string::npos);
   EXPECT_EQ(lossOf("time_s,taxel0,taxel1,taxel2,taxel3", pad(2, 2)), "");
   EXPECT_EQ(lossOf("time_s,taxel1,taxel2,taxel3,taxel4", pad(2, 2)), "");
   EXPECT_EQ(lossOf("time_s,left0,left1,left2,left3,right4,right5,right6,right7", twoPads()), "");

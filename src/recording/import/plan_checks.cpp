@@ -145,10 +145,10 @@ std::vector<std::string> numberingDoubts(const std::vector<TableColumn>& columns
     }
     // Lower numbers may be those of the time.
     bool isWhole = true;
-    for (std::int64_t i = 1; i < *numbers.begin(); ++i)
-      isWhole = isWhole && std::any_of(scalars.begin(), scalars.end(), [&](std::size_t c) {
-                  return columns[c].name == numberedName(group, position, i);
-                });
+    for (std::int64_t i = 1; i < *numbers.begin() && isWhole; ++i)
+      isWhole = std::any_of(scalars.begin(), scalars.end(), [&](std::size_t c) {
+        return columns[c].name == numberedName(group, position, i);
+      });
     if (groups.size() == 1 && *numbers.begin() > 1 && !isWhole)
       doubts.push_back("the numbers of the taxels begin at " + first +
                        ", which is taken for the first one: those before it may be missing "

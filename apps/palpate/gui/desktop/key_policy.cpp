@@ -100,6 +100,8 @@ void KeyPolicy::install(Order order, QObject& filter) {
   const auto at = std::find_if(
       filters_.begin(), filters_.end(), [order](const auto& each) { return each.first > order; });
   filters_.emplace(at, order, &filter);
+  // Qt asks the filter of the application first that was installed last.
+  qApp->installEventFilter(this);
 }
 
 bool KeyPolicy::eventFilter(QObject* watched, QEvent* event) {

@@ -7,9 +7,9 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kMostNames = 0.38;  // of the width
-constexpr double kLeastSideInPicture = 6.0;
+constexpr double kMinSideInPicture = 6.0;
 constexpr double kNameOfSide = 0.86;  // font size relative to the side of a cell
-constexpr int kLeastNamePx = 6;       // smaller names are left out
+constexpr int kMinNamePx = 6;         // smaller names are left out
 
 constexpr double kConfusionPainterAir = 4.0;
 
@@ -87,7 +87,7 @@ void paintConfusionName(QPainter& painter,
                         Qt::Alignment side,
                         const QColor& color,
                         bool marked) {
-  if (font.pixelSize() < kLeastNamePx && !marked) return;
+  if (font.pixelSize() < kMinNamePx && !marked) return;
   const double width = where.width() - 2 * kConfusionPainterAir;
   if (marked) {
     // Makes the name as large as is legible, if there is room.
@@ -111,7 +111,7 @@ void paintConfusionCell(QPainter& painter,
                         const ConfusionCell& cell,
                         const ThemeColors& colors,
                         bool highlighted,
-                        double leastSide) {
+                        double minSide) {
   double support = static_cast<double>(matrix.at(cell.first, ConfusionMatrix::kUnknown));
   for (int called = 0; called < static_cast<int>(matrix.classes().size()); ++called)
     support += static_cast<double>(matrix.at(cell.first, called));
@@ -123,7 +123,7 @@ void paintConfusionCell(QPainter& painter,
   const QColor ground = mixed(colors.taxel, right ? colors.accent : colors.warning, tone);
   painter.fillRect(where, highlighted ? mixed(ground, colors.text, 0.14) : ground);
   const double side = where.width() + 1.0;
-  if (count == 0 || side < leastSide) return;
+  if (count == 0 || side < minSide) return;
   QFont small = painter.font();
   small.setPixelSize(
       std::max(1, std::min(QFontInfo(small).pixelSize(), static_cast<int>(side * 0.6))));
@@ -169,7 +169,7 @@ void paintConfusion(QPainter& painter,
     for (int column = 0; column < grid.columns; ++column) {
       const ConfusionCell cell(row, column < grid.rows ? column : ConfusionMatrix::kUnknown);
       paintConfusionCell(
-          painter, grid.rectOf(cell), matrix, cell, colors, false, kLeastSideInPicture);
+          painter, grid.rectOf(cell), matrix, cell, colors, false, kMinSideInPicture);
     }
   }
   painter.restore();

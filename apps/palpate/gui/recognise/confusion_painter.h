@@ -58,14 +58,14 @@ void paintConfusionName(QPainter& painter,
                         Qt::Alignment side,
                         const QColor& color,
                         bool marked = false);
-// Paints a cell, whose number is left out where the cell is smaller than `leastSide` [px].
+// Paints a cell, whose number is left out where the cell is smaller than `minSide` [px].
 void paintConfusionCell(QPainter& painter,
                         const QRectF& where,
                         const ConfusionMatrix& matrix,
                         const ConfusionCell& cell,
                         const ThemeColors& colors,
                         bool highlighted = false,
-                        double leastSide = 13.0);
+                        double minSide = 13.0);
 // Paints the whole matrix as large as fits, for a picture: finer than a screen, so that numbers of
 // smaller cells are legible, too.
 void paintConfusion(QPainter& painter,

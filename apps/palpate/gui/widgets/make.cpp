@@ -132,10 +132,10 @@ QPushButton* makePrimary(QWidget* parent,
 }
 
 QPushButton* makeOk(QDialog* dialog, const QString& name, const QString& text) {
-  constexpr int kLeastWidth = 110;  // [px]
+  constexpr int kMinWidth = 110;  // [px]
   auto* button = makePrimary(dialog, name, text);
   button->setDefault(true);
-  keepWide(*button, kLeastWidth);
+  keepWide(*button, kMinWidth);
   return button;
 }
 
