@@ -97,7 +97,7 @@ bool Hdf5Process::receive(std::span<std::byte> bytes) {
   return true;
 }
 
-std::string Hdf5Process::ending(const std::string& name) {
+std::string Hdf5Process::ending(Hdf5Request wanted, const std::string& name) {
   constexpr int kKilledBy = 128;
   constexpr int kNotByItself = -1;
   int code = kNotByItself;
@@ -115,7 +115,8 @@ std::string Hdf5Process::ending(const std::string& name) {
     return "can't be read: the program that reads it was ended by the system (out of memory?); try "
            "again";
   const bool tookTooLong = isLate_ || code == kKilledBy + SIGPROF;
-  if (tookTooLong && use_ == Hdf5Use::kImport && !name.empty())
+  const bool wantedValues = wanted == Hdf5Request::kRead || wanted == Hdf5Request::kTexts;
+  if (tookTooLong && use_ == Hdf5Use::kImport && wantedValues)
     return inQuotes(name) +
            " takes too long to read: its chunks don't fit to rows; write it anew with larger "
            "chunks";
@@ -131,8 +132,8 @@ std::string Hdf5Process::ending(const std::string& name) {
          "exported from";
 }
 
-void Hdf5Process::throwEnded(const std::string& name) {
-  if (program_) fault_ = ending(name);
+void Hdf5Process::throwEnded(Hdf5Request wanted, const std::string& name) {
+  if (program_) fault_ = ending(wanted, name);
   throw FormatError(path_, fault_);
 }
 
@@ -140,7 +141,7 @@ std::vector<std::byte> Hdf5Process::ask(Hdf5Request wanted,
                                         const std::string& name,
                                         std::string_view rest) {
   const std::lock_guard lock(mutex_);
-  if (!program_) throwEnded(name);
+  if (!program_) throwEnded(wanted, name);
   std::string request(1, static_cast<char>(wanted));
   appendText(request, name);
   request += rest;
@@ -149,15 +150,15 @@ std::vector<std::byte> Hdf5Process::ask(Hdf5Request wanted,
   sized += request;
   if (sized.size() > kMaxHdf5RequestBytes) throw FormatError(path_, "has too long a name");
   deadline_ = Clock::now() + patienceFor(use_, wanted);
-  if (!send(sized)) throwEnded(name);
+  if (!send(sized)) throwEnded(wanted, name);
   std::array<std::byte, 5> head{};
-  if (!receive(head)) throwEnded(name);
+  if (!receive(head)) throwEnded(wanted, name);
   ByteReader in(head);
   const std::uint32_t size = in.u32();
   const auto answer = static_cast<Hdf5Answer>(in.u8());
-  if (size < 1 || size > kMaxHdf5AnswerBytes) throwEnded(name);
+  if (size < 1 || size > kMaxHdf5AnswerBytes) throwEnded(wanted, name);
   std::vector<std::byte> value(size - 1);
-  if (!receive(value)) throwEnded(name);
+  if (!receive(value)) throwEnded(wanted, name);
   if (answer == Hdf5Answer::kValue) return value;
   const std::string fault(reinterpret_cast<const char*>(value.data()), value.size());
   throw FormatError(path_, name.empty() ? fault : inQuotes(name) + " " + fault);

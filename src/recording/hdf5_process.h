@@ -73,9 +73,9 @@ class Hdf5Process {
   bool receive(std::span<std::byte> bytes);
   // Waits until the socket is ready for an event of poll().
   bool waitFor(short event);
-  // Ends the program, unless it has ended. `name`: of what was asked for.
-  [[noreturn]] void throwEnded(const std::string& name);
-  std::string ending(const std::string& name);
+  // Ends the program, unless it has ended. `wanted` of `name`: what was asked for.
+  [[noreturn]] void throwEnded(Hdf5Request wanted, const std::string& name);
+  std::string ending(Hdf5Request wanted, const std::string& name);
 
   std::filesystem::path path_;
   Hdf5Use use_;
