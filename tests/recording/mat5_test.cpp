@@ -120,6 +120,75 @@ for packed in [False, True]:
   }
 }
 
+// What SciPy saves, and the same arrays by h5py as MATLAB's version 7.3 lays them out.
+TEST(Mat5, BothVersionsOfAFileGiveTheSameRecording) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, h5py, numpy as np
+from scipy.io import savemat
+classes = {'f8': 'double', 'f4': 'single', 'i1': 'int8', 'u1': 'uint8', 'i2': 'int16', 'u2': 'uint16',
+           'i4': 'int32', 'u4': 'uint32', 'i8': 'int64', 'u8': 'uint64', '?': 'logical'}
+time = np.arange(8.).reshape(8, 1) * 0.01
+for kind, name in classes.items():
+  pad = (np.arange(48).reshape(8, 2, 3) % (2 if kind == '?' else 128)).astype(kind)
+  for axes, values in {'rcf': np.moveaxis(pad, 0, 2), 'frc': pad, 'fn': pad.reshape(8, 6)}.items():
+    path = f'{sys.argv[1]}/{name}_{axes}'
+    savemat(path + '.5.mat', {'pad': values, 'time_s': time}, do_compression=axes != 'fn')
+    with h5py.File(path + '.7.mat', 'w', userblock_size=512) as f:
+      for key, data, of in [('pad', values.astype('u1' if kind == '?' else kind), name), ('time_s', time, 'double')]:
+        f[key] = data.T
+        f[key].attrs['MATLAB_class'] = np.bytes_(of)
+    with open(path + '.7.mat', 'r+b') as f: f.write(b'MATLAB 7.3 MAT-file'.ljust(512))
+)");
+  for (const char* name : {"double",
+                           "single",
+                           "int8",
+                           "uint8",
+                           "int16",
+                           "uint16",
+                           "int32",
+                           "uint32",
+                           "int64",
+                           "uint64",
+                           "logical"})
+    for (const char* axes : {"rcf", "frc", "fn"}) {
+      SCOPED_TRACE(std::string(name) + " " + axes);
+      std::vector<ImportReport> reports;
+      // Of logical arrays, which may be masks, no matrix is made unless it is asked for.
+      ImportMapping mapping;
+      if (*name == 'l') mapping.matrices.emplace_back().columns = "pad";
+      for (const char* version : {"5", "7"}) {
+        reports.push_back(
+            importRecording(folder / (std::string(name) + "_" + axes + "." + version + ".mat"),
+                            pad(2, 3),
+                            mapping,
+                            folder / "o.palpate",
+                            {.overwrite = Overwrite::kReplace}));
+        const Profile made = openRecording(folder / "o.palpate");
+        ASSERT_EQ(made.numFrames(), 8u);
+        for (std::size_t i = 0; i < 8; ++i) {
+          EXPECT_EQ(made.frameTimeUs(i), static_cast<std::int64_t>(i) * 10'000);
+          for (std::size_t k = 0; k < 6; ++k)
+            EXPECT_EQ(made.frame(i).values[k],
+                      static_cast<float>((6 * i + k) % (*name == 'l' ? 2 : 128)))
+                << version << " " << i << " " << k;
+        }
+      }
+      EXPECT_EQ(reports[0].notes, reports[1].notes);
+      EXPECT_EQ(reports[0].lossText(), reports[1].lossText());
+    }
+  for (const char* version : {"5", "7"})
+    EXPECT_NE(testing::errorOf([&] {
+                importRecording(folder / ("logical_rcf." + std::string(version) + ".mat"),
+                                pad(2, 3),
+                                {},
+                                folder / "o.palpate",
+                                {.overwrite = Overwrite::kReplace});
+              }).find("no numbers: pad (bool)"),
+              std::string::npos)
+        << version;
+}
+
 TEST(Mat5, FilesThatAreCutOffOrDamagedAreRefused) {
   const TemporaryFolder folder;
   makeMatFiles(folder, R"(
@@ -131,6 +200,12 @@ write(folder + 'short.mat', short, array('t', [1., 2.]))
 write(folder + 'packed_short.mat', packed(short))
 write(folder + 'long.mat', matrix(6, (2, 3), 'pad', element(9, bytes(72))))
 write(folder + 'huge.mat', matrix(6, (2000000000,) * 7, 'pad', element(9, bytes(24))))
+write(folder + 'packed_huge.mat', packed(matrix(6, (1000000, 1000000), 'pad', element(9, bytes(24)))))
+write(folder + 'none.mat')
+np.random.seed(7)
+write(folder + 'noise.mat', np.random.bytes(3000))
+write(folder + 'packed_noise.mat', pack('II', 15, 3000) + np.random.bytes(3000))
+open(folder + 'zero.mat', 'wb')
 write(folder + 'negative.mat', matrix(6, (-2, 3), 'pad', element(9, bytes(48))))
 write(folder + 'text.mat', matrix(6, (2, 3), 'pad', element(16, bytes(6))))
 write(folder + 'nested.mat', structure('s', [{'f': pack('II', 14, 0xFFFFFFF0)}]))
@@ -148,10 +223,17 @@ write(folder + 'more.mat', pack('II', 15, len(data)) + data)
   };
   EXPECT_EQ(refusal("plain.mat"), "");
   EXPECT_EQ(refusal("packed.mat"), "");
-  for (const char* name : {"short.mat", "packed_short.mat", "long.mat", "huge.mat", "text.mat"})
+  for (const char* name :
+       {"short.mat", "packed_short.mat", "long.mat", "huge.mat", "packed_huge.mat", "text.mat"})
     EXPECT_NE(refusal(name).find("\"pad\" declares another number of numbers than it holds"),
               std::string::npos)
         << name << refusal(name);
+  for (const auto& [name, words] :
+       std::map<std::string, std::string>{{"none.mat", "is a MAT file without arrays"},
+                                          {"noise.mat", "is damaged: no array at byte 128"},
+                                          {"packed_noise.mat", "can't be decompressed"},
+                                          {"zero.mat", "holds no row"}})
+    EXPECT_NE(refusal(name).find(words), std::string::npos) << name << refusal(name);
   for (const char* name : {"negative.mat", "nested.mat"})
     EXPECT_NE(refusal(name).find("is damaged"), std::string::npos) << name << refusal(name);
   EXPECT_NE(refusal("checksum.mat").find("can't be decompressed"), std::string::npos)

@@ -48,6 +48,7 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
     const std::string matlabClass =
         hasUserBlock ? file_->textAttribute(name, "MATLAB_class", kMostUnitBytes).value_or("") : "";
     isMatlab_ = isMatlab_ || !matlabClass.empty();
+    if (matlabClass == "logical") column.type = "bool";
     if (matlabClass == "char") {
       column.type = "text";
       column.isNumeric = false;
