@@ -763,5 +763,95 @@ TEST(ImportForms, AFileThatIsMissingShiftsNoTime) {
   EXPECT_EQ(report.missingFrames, 1u);
 }
 
+// Issue 52: text was NaN, and with that 0; the first file alone said what a frame is; other files
+// of frames were a note.
+TEST(ImportForms, FilesThatDontFitAreNamedAndCounted) {
+  const TemporaryFolder folder;
+  ImportMapping mapping;
+  mapping.time.rateHz = 10.0;
+  const std::string good = "1,2,3\n4,5,6\n";
+  const auto made = [&](const std::string& third, const std::string& first = "") {
+    return importFolder(folder,
+                        {{"f_1.csv", first.empty() ? good : first},
+                         {"f_2.csv", good},
+                         {"f_3.csv", third},
+                         {"f_4.csv", good}},
+                        pad(2, 3),
+                        mapping);
+  };
+  for (const auto& [bad, words] : std::map<std::string, std::string>{
+           {"1,ERR,3\n4,5,6\n", "file 3, number 2: ERR is not a number"},
+           {"1,,3\n4,5,6\n", "file 3, number 2: nan"},
+           {"1,2,3\n4,5\n", "f_3.csv: line 2"},
+           {"1,2,3\n", "(f_3.csv) has 3 numbers instead of 2 x 3"},
+           {"", "f_3.csv: holds no row"},
+           {std::string("\x93NUMPY\x01\0v\0", 10), "f_3.csv"},
+           {good + std::string(8, '\0'), "f_3.csv: holds bytes 0"}}) {
+    SCOPED_TRACE(words);
+    const ImportReport report = made(bad);
+    EXPECT_EQ(report.frames, 3u);
+    EXPECT_EQ(report.refused.total(), 1u);
+    EXPECT_EQ(report.outside.total(), 0u);
+    EXPECT_NE(report.refused.first.find(words), std::string::npos) << report.refused.first;
+    EXPECT_EQ(openRecording(folder / "o.palpate").frameTimeUs(2), 300'000);
+  }
+  // The first one may be it.
+  const ImportReport first = made(good, "1,2,3\n");
+  EXPECT_EQ(first.frames, 3u);
+  EXPECT_EQ(first.refused.first, "file 1 (f_1.csv) has 3 numbers instead of 2 x 3");
+  EXPECT_NE(testing::errorOf([&] {
+              importFolder(folder, {{"f_1.csv", "?"}, {"f_2.csv", "?"}}, pad(2, 3), mapping);
+            }).find("f_1.csv: "),
+            std::string::npos);
+  const ImportReport other = importFolder(
+      folder,
+      {{"f_1.csv", good}, {"f_2.csv", good}, {"f_3.csv", "1,2,3\n4,5,6"}, {"f_4 (1).csv", good}},
+      pad(2, 3),
+      mapping);
+  EXPECT_EQ(other.frames, 3u);
+  EXPECT_EQ(other.doubts,
+            (std::vector<std::string>{
+                "1 file of another name left out, which may be a frame: f_4 (1).csv"}));
+  EXPECT_EQ(other.notes.back(),
+            "1 file has no line end at the end, first f_3.csv: a last number may be cut off");
+  // Names of files of SD cards, and a line of names that is told.
+  mapping.text.header = HeaderChoice::kPresent;
+  EXPECT_EQ(importFolder(folder,
+                         {{"LOG1.CSV", "a,b,c\n" + good}, {"LOG2.CSV", "a,b,c\n" + good}},
+                         pad(2, 3),
+                         mapping)
+                .frames,
+            2u);
+}
+
+TEST(ImportForms, HolesInTheNumbersOfFilesAreSaid) {
+  const TemporaryFolder folder;
+  const auto report = [&](const std::vector<std::string>& numbers, const std::string& time) {
+    std::map<std::string, std::string> files;
+    for (const std::string& number : numbers) files["f_" + number + ".csv"] = "1,2\n";
+    ImportMapping mapping;
+    mapping.time.column = time;
+    if (time.empty())
+      mapping.time.rateHz = 10.0;
+    else
+      mapping.time.unit = "ms";
+    return importFolder(folder, files, pad(1, 2), mapping);
+  };
+  using Texts = std::vector<std::string>;
+  const std::vector<std::string> tens = {"0", "10", "20", "40", "50", "80"};
+  EXPECT_EQ(report(tens, "").doubts,
+            (Texts{"the numbers in the names ascend by 10, but 2 times by more, first by 20 before "
+                   "f_40.csv: files may be missing, and the times don't know it"}));
+  EXPECT_EQ(report(tens, "file").doubts, Texts());  // the times have it
+  EXPECT_EQ(report({"0", "33", "67", "100", "133"}, "").doubts, Texts());
+  // Numbers that count the frames are counted already, unless they leap by more than any loss.
+  EXPECT_EQ(report({"1", "2", "4", "5", "6"}, "").doubts, Texts());
+  EXPECT_EQ(report({"1", "2", "4", "5", "6"}, "").missingFrames, 1u);
+  EXPECT_EQ(report({"1", "2", "3", "2000", "2001"}, "").doubts.size(), 1u);
+  const auto several = report({"1-00", "1-30", "2-00"}, "");
+  EXPECT_EQ(several.notes.front(),
+            "several numbers in the names differ: missing files can't be told from them");
+}
+
 }  // namespace
 }  // namespace palpate::import_forms_test

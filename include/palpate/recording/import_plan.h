@@ -29,6 +29,9 @@ struct PlannedValue {
   double offset = 0.0;
 };
 
+// A number of a frame that is so much further on than that before is another numbering.
+constexpr double kMostMissingFrames = 1000.0;
+
 // One time series of the recording.
 struct PlannedSeries {
   enum class Kind { kFrames, kAngles, kTemperatures };
@@ -59,7 +62,7 @@ struct ImportPlan {
   std::optional<double> rateHz;  // of rows without a time: the mapping's, or that of the file
   std::string timeDescription;
   std::vector<std::string> notes;   // what was not imported, or was guessed
-  std::vector<std::string> doubts;  // why values may belong to other taxels
+  std::vector<std::string> doubts;  // why values may belong to other taxels, or some are missing
 };
 
 // Throws Error: no column fits, with the shapes that the hand expects and what the file has; a

@@ -141,6 +141,9 @@ class TableSource {
   virtual bool hasNamedParts() const noexcept { return false; }
   // What a message that no column fits should add: "; its head says 3 rows x 2 columns".
   virtual std::string advice() const { return {}; }
+  // What is left out, or may be missing, besides refused rows. Rows missing by their numbers are
+  // counted elsewhere up to `mostCounted` at once.
+  virtual std::vector<std::string> doubts(double /*mostCounted*/) const { return {}; }
   // The rate that a file gives.
   virtual std::optional<double> rateHz() const { return std::nullopt; }
   // Whether the writer keeps arrays column by column (MATLAB): the axes in the file are reversed.

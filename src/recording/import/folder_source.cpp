@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
 #include <system_error>
@@ -25,6 +26,25 @@ std::string fileShapeText(const std::vector<std::size_t>& shape) {
   std::string text;
   for (const std::size_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
   return text.empty() ? "1" : text;
+}
+
+// "FRAME_1.CSV" of an SD card is a .csv.
+std::string endingOf(const fs::path& file) {
+  std::string ending = file.extension().string();
+  for (char& letter : ending)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return ending;
+}
+
+// The first names of some files.
+std::string firstOf(std::vector<std::string> files) {
+  std::sort(files.begin(), files.end());
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kShownFiles, files.size()); ++i)
+    names += (i > 0 ? ", " : "") + shortened(files[i]);
+  if (files.size() > kShownFiles)
+    names += " and " + std::to_string(files.size() - kShownFiles) + " more";
+  return names;
 }
 
 bool isDigitAt(const std::string& text, std::size_t at) {
@@ -76,7 +96,7 @@ void FolderSource::findFiles() {
   std::map<std::string, std::vector<FrameFile>> byPattern;
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, failure)) {
-    const std::string ending = entry.path().extension().string();
+    const std::string ending = endingOf(entry.path());
     if (std::find(std::begin(kEndings), std::end(kEndings), ending) == std::end(kEndings)) continue;
     FrameFile file{entry.path(), {}};
     const std::string pattern = patternOf(entry.path().stem().string(), file.numbers);
@@ -93,22 +113,23 @@ void FolderSource::findFiles() {
   files_ = std::move(best->second);
   std::sort(files_.begin(), files_.end());
   std::vector<std::string> others;
+  std::vector<std::string> numbered;
   for (const auto& [pattern, files] : byPattern)
     for (const FrameFile& file : files)
-      if (pattern != best->first) others.push_back(file.path.filename().string());
-  std::sort(others.begin(), others.end());
-  std::string names;
-  for (std::size_t i = 0; i < std::min(kShownFiles, others.size()); ++i)
-    names += (i > 0 ? ", " : "") + shortened(others[i]);
-  if (others.size() > kShownFiles)
-    names += " and " + std::to_string(others.size() - kShownFiles) + " more";
-  if (others.size() >= files_.size())
+      if (pattern != best->first)
+        (file.numbers.empty() ? others : numbered).push_back(file.path.filename().string());
+  if (others.size() + numbered.size() >= files_.size()) {
+    others.insert(others.end(), numbered.begin(), numbered.end());
     throw FormatError(path_,
                       "is a folder with " + counted(files_.size(), "file") + " " +
                           shortened(best->first) + " and " + counted(others.size(), "other") +
-                          " (" + names +
+                          " (" + firstOf(others) +
                           "): which ones are the frames can't be told; leave only these in it");
-  if (!others.empty()) note_ = "files that are not used: " + names;
+  }
+  if (!others.empty()) note_ = "files that are not used: " + firstOf(others);
+  if (!numbered.empty())
+    leftOut_ = counted(numbered.size(), "file") + " of another name left out, which may be " +
+               (numbered.size() == 1 ? "a frame" : "frames") + ": " + firstOf(numbered);
   const auto same = std::adjacent_find(
       files_.begin(), files_.end(), [](const FrameFile& first, const FrameFile& second) {
         return first.numbers == second.numbers;
@@ -127,19 +148,78 @@ void FolderSource::findVarying() {
     const bool differs = std::any_of(files_.begin(), files_.end(), [&](const FrameFile& file) {
       return file.numbers[n] != first[n];
     });
-    if (differs && varying_) return varying_.reset();
+    if (differs && varying_) {
+      note_ += std::string(note_.empty() ? "" : "; ") +
+               "several numbers in the names differ: missing files can't be told from them";
+      return varying_.reset();
+    }
     if (differs) varying_ = n;
   }
 }
 
 FolderSource::FolderSource(const fs::path& path, const TableOptions& options)
     : path_(path), options_(options) {
-  options_.header = HeaderChoice::kAbsent;
+  if (options_.header == HeaderChoice::kDetect) options_.header = HeaderChoice::kAbsent;
   findFiles();
   findVarying();
   columns_.push_back({.name = "file", .type = "number"});
-  columns_.push_back(
-      {.name = "numbers", .shape = numbersOf(files_.front().path).shape, .type = "number"});
+  columns_.push_back({.name = "numbers", .shape = usualShape(), .type = "number"});
+}
+
+// The first file may be the one that is cut off: the shape that most of the first ones have.
+std::vector<std::size_t> FolderSource::usualShape() const {
+  constexpr std::size_t kTried = 8;
+  std::vector<std::vector<std::size_t>> shapes;
+  std::exception_ptr fault;
+  for (std::size_t i = 0; i < std::min(kTried, files_.size()); ++i) {
+    try {
+      shapes.push_back(numbersOf(files_[i].path).shape);
+    } catch (const FormatError&) {
+      if (!fault) fault = std::current_exception();
+    }
+  }
+  if (shapes.empty()) std::rethrow_exception(fault);
+  return *std::max_element(
+      shapes.begin(), shapes.end(), [&](const auto& first, const auto& second) {
+        return std::count(shapes.begin(), shapes.end(), first) <
+               std::count(shapes.begin(), shapes.end(), second);
+      });
+}
+
+// Holes in the numbers of the names, where times don't show them.
+std::vector<std::string> FolderSource::doubts(double mostCounted) const {
+  std::vector<std::string> doubts;
+  if (!leftOut_.empty()) doubts.push_back(leftOut_);
+  if (!varying_) return doubts;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < files_.size(); ++i) {
+    const NameNumber& before = files_[i - 1].numbers[*varying_];
+    const NameNumber& number = files_[i].numbers[*varying_];
+    steps.push_back(static_cast<double>(number.first) - static_cast<double>(before.first) +
+                    number.second - before.second);
+  }
+  std::vector<double> sorted = steps;
+  std::nth_element(sorted.begin(), sorted.begin() + (sorted.size() - 1) / 2, sorted.end());
+  const double usual = sorted[(sorted.size() - 1) / 2];
+  constexpr double kHole = 1.5;  // usual steps; times jitter
+  const auto isHole = [&](double step) { return step > kHole * usual && step > mostCounted; };
+  const auto first = std::find_if(steps.begin(), steps.end(), isHole);
+  if (first != steps.end())
+    doubts.push_back(
+        "the numbers in the names ascend by " + numberText(usual) + ", but " +
+        counted(static_cast<std::size_t>(std::count_if(first, steps.end(), isHole)), "time") +
+        " by more, first by " + numberText(*first) + " before " +
+        shortened(
+            files_[static_cast<std::size_t>(first - steps.begin()) + 1].path.filename().string()) +
+        ": files may be missing, and the times don't know it");
+  return doubts;
+}
+
+std::string FolderSource::endNote() const {
+  if (numOpenEnded_ == 0) return {};
+  return counted(numOpenEnded_, "file") +
+         (numOpenEnded_ == 1 ? " has no line end" : " have no line end") + " at the end, first " +
+         firstOpenEnded_ + ": a last number may be cut off";
 }
 
 std::string FolderSource::form() const {
@@ -158,13 +238,19 @@ FolderSource::FileNumbers FolderSource::numbersOf(const fs::path& file) const {
     ++numRows;
     if (!row.complete)
       throw FormatError(file, source->rowWord() + (" " + std::to_string(row.line)) + row.fault);
-    for (std::size_t i = 0; i < row.values.size(); ++i)
+    for (std::size_t i = 0; i < row.values.size(); ++i) {
+      if (row.states[i] == CellState::kText)
+        numbers.texts[numbers.values.size()] = shortened(source->textOf(i));
+      numbers.states.push_back(row.states[i]);
       numbers.values.push_back(row.states[i] == CellState::kNumber
                                    ? row.values[i]
                                    : std::numeric_limits<double>::quiet_NaN());
+    }
     if (numbers.values.size() > kMaxNumbersPerRow)
       throw FormatError(file, "has more than " + std::to_string(kMaxNumbersPerRow) + " numbers");
   }
+  if (source->nulBytes().count > 0) throw FormatError(file, "holds bytes 0 (a power cut?)");
+  numbers.isOpenEnded = !source->endNote().empty();
   numbers.shape = {numRows};
   if (all.size() == 1) {
     const auto& shape = source->columns().front().shape;
@@ -180,6 +266,7 @@ void FolderSource::start(std::span<const std::size_t> columns, std::optional<std
   selected_.assign(columns.begin(), columns.end());
   time_ = time;
   next_ = 0;
+  numOpenEnded_ = 0;
   if (time_ == 0u && !varying_)
     throw FormatError(
         path_,
@@ -204,17 +291,26 @@ bool FolderSource::next(TableRow& row) {
     row.fault = std::string(": ") + error.what();
   }
   if (!row.complete) return true;
+  if (numbers.isOpenEnded && numOpenEnded_++ == 0)
+    firstOpenEnded_ = shortened(file.path.filename().string());
   const NameNumber number = file.numbers[varying_.value_or(0)];
   lastValues_.clear();
-  for (const std::size_t column : selected_)
-    if (column == 0)
-      lastValues_.push_back(static_cast<double>(number.first) + number.second);
-    else
-      lastValues_.insert(lastValues_.end(), numbers.values.begin(), numbers.values.end());
-  row.values = lastValues_;
+  lastTexts_.clear();
   row.states.clear();
-  for (const double value : lastValues_)
-    row.states.push_back(fitsFloat(value) ? CellState::kNumber : CellState::kNotFinite);
+  for (const std::size_t column : selected_) {
+    if (column == 0) {
+      lastValues_.push_back(static_cast<double>(number.first) + number.second);
+      row.states.push_back(CellState::kNumber);
+      continue;
+    }
+    for (const auto& [place, text] : numbers.texts) lastTexts_[lastValues_.size() + place] = text;
+    lastValues_.insert(lastValues_.end(), numbers.values.begin(), numbers.values.end());
+    row.states.insert(row.states.end(), numbers.states.begin(), numbers.states.end());
+  }
+  for (std::size_t i = 0; i < lastValues_.size(); ++i)
+    if (row.states[i] == CellState::kNumber && !fitsFloat(lastValues_[i]))
+      row.states[i] = CellState::kNotFinite;
+  row.values = lastValues_;
   row.time = {};
   if (time_ == 0u) {
     row.time = {.state = CellState::kNumber,
@@ -229,7 +325,8 @@ double FolderSource::fraction() const noexcept {
 }
 
 std::string FolderSource::textOf(std::size_t index) const {
-  return numberText(lastValues_.at(index));
+  const auto text = lastTexts_.find(index);
+  return text != lastTexts_.end() ? text->second : numberText(lastValues_.at(index));
 }
 
 // The values of the array are numbered as in the file, from 1.
@@ -249,7 +346,7 @@ std::vector<fs::path> filesPerMatrix(const fs::path& folder) {
     std::vector<fs::path> files;
     std::size_t numNumbered = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
-      if (entry.path().extension() != ending) continue;
+      if (endingOf(entry.path()) != ending) continue;
       files.push_back(entry.path());
       const std::string stem = entry.path().stem().string();
       numNumbered += stem.find_first_of("0123456789") != std::string::npos ? 1 : 0;

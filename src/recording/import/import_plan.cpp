@@ -1,6 +1,7 @@
 #include "palpate/recording/import_plan.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <string_view>
@@ -885,6 +886,12 @@ ImportPlan Planner::plan() {
     plan_.timeDescription = "rows at equal intervals, " + numberText(*mapping_.time.rateHz) + " Hz";
   if (mapping_.matrices.empty())
     plan_.doubts = numberingDoubts(columns_, plan_.series.front(), *hand_.layout);
+  const PlannedSeries& planned = plan_.series.front();
+  const bool hasOwnTimes = planned.time && planned.timeFile.empty();
+  for (std::string& doubt : source_.doubts(hasOwnTimes ? std::numeric_limits<double>::infinity()
+                                           : planned.number ? kMostMissingFrames
+                                                            : 0.0))
+    plan_.doubts.push_back(std::move(doubt));
   for (PlannedSeries& series : plan_.series) addOrigins(columns_, series);
   noteUnused();
   return std::move(plan_);

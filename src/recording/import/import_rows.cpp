@@ -330,7 +330,6 @@ void ImportRows::finishWaiting(const TableSource& source, const Pass& pass, cons
 // Counts the frames that are missing before this row, by its number. A number that goes back, or
 // further on than any loss, is another numbering.
 void ImportRows::countMissing(const TableSource& source, const Pass& pass, const TableRow& row) {
-  constexpr double kMostMissing = 1000.0;
   if (!pass.first().number) return;
   ++rowsSinceCount_;
   const std::size_t at = *pass.first().number;
@@ -338,7 +337,7 @@ void ImportRows::countMissing(const TableSource& source, const Pass& pass, const
   const double number = row.values[at];
   const double before = std::exchange(lastCount_, number).value_or(number);
   const double missing = number - before - static_cast<double>(std::exchange(rowsSinceCount_, 0));
-  if (before == number || !(missing >= 1.0 && missing < kMostMissing)) return;
+  if (before == number || !(missing >= 1.0 && missing < kMostMissingFrames)) return;
   const auto count = static_cast<std::uint64_t>(missing);
   skipped_ += count;
   report_.missingFrames += count;
