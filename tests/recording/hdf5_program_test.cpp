@@ -7,16 +7,19 @@
 #include <random>
 #include <sstream>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_descriptor.h"
 #include "palpate/core/hash.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_import.h"
 #include "palpate/recording/table_source.h"
 
+#include "recording/hdf5_process.h"
 #include "recording/import_samples.h"
 #include "recording/palpate_samples.h"
 #include "testing/process_facts.h"
@@ -179,6 +182,22 @@ with h5py.File(sys.argv[1] + '/table.h5', 'w') as f: f['x'] = [1, 2, 3]
             (folder / "table.h5").string() +
                 ": \"x\" takes too long to read: its chunks don't fit to rows; write it anew with "
                 "larger chunks");
+}
+
+// Chunks have nothing to do with it: a damaged netCDF kept the library busy with its names of axes.
+TEST(Hdf5Program, namesOfAxesThatTakeTooLongAreNotBlamedOnChunks) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, h5py
+with h5py.File(sys.argv[1] + '/table.h5', 'w') as f: f['x'] = [1, 2, 3]
+)");
+  const FileDescriptor file(::open((folder / "table.h5").c_str(), O_RDONLY | O_CLOEXEC));
+  Hdf5Process reading(folder / "table.h5", file.get(), Hdf5Use::kImport);
+  ASSERT_EQ(::kill(childOfThis(), SIGPROF), 0);
+  EXPECT_EQ(testing::errorOf([&] { reading.axisNames("x"); }),
+            (folder / "table.h5").string() +
+                ": libhdf5 could not read it (took too long): it is damaged, or was made to do "
+                "that; use the recording or the data that it was exported from");
 }
 
 TEST(Hdf5Program, aMissingProgramIsOneLineThatNamesIt) {
