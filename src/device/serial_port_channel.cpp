@@ -67,7 +67,16 @@ std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
   int exclusive = 0;
   if (::ioctl(lock.get(), TIOCGEXCL, &exclusive) == 0 && exclusive != 0)
     throwOpenError(EBUSY, name);  // root could open it nevertheless
-  require(sp_open(port.get(), SP_MODE_READ_WRITE), name, "");
+  // libserialport 0.1.2 locks the port itself, before it changes anything: not beside our lock.
+  sp_return opened = sp_open(port.get(), SP_MODE_READ_WRITE);
+  if (opened == SP_ERR_FAIL && sp_last_error_code() == EWOULDBLOCK) {
+    sp_close(port.get());  // it leaves the descriptor open
+    lock = FileDescriptor();
+    opened = sp_open(port.get(), SP_MODE_READ_WRITE);
+    // Another program was faster.
+    if (opened == SP_ERR_FAIL && sp_last_error_code() == EWOULDBLOCK) throwOpenError(EBUSY, name);
+  }
+  require(opened, name, "");
   int fd = -1;
   require(sp_get_port_handle(port.get(), &fd), name, "be waited for");
   ::fcntl(fd, F_SETFD, FD_CLOEXEC);

@@ -27,7 +27,8 @@ class SerialPortChannel final : public DescriptorChannel {
   };
   using Port = std::unique_ptr<sp_port, Closer>;
   SerialPortChannel(std::string name, int fd, Port port, FileDescriptor lock);
-  // Lock on the port, taken before any setting is changed and released after port_.
+  // Lock on the port, taken before any setting is changed and released after port_; empty where
+  // libserialport holds one.
   FileDescriptor lock_;
   Port port_;
 };
