@@ -79,7 +79,7 @@ void readSettings(const std::string& text) {
     loadRecordingSettings(settings);
     loadConnection(settings);
     require(loadSession(settings).files.size() <= Session::kMaxFiles);
-    const QByteArray layout = settings.value("window/layout").toByteArray();
+    const QByteArray layout = settings.value("window/layouts_recording/Watch").toByteArray();
     if (isDockLayout(layout)) restore(layout);
     QTableWidget table(2, 3);
     restoreColumns(*table.horizontalHeader(), settings, "library/columns");

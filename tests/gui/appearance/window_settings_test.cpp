@@ -50,7 +50,7 @@ TEST_F(WindowSettingsTest, NonsenseReadsAsTheDefaults) {
   EXPECT_EQ(view.range, RangeMode::kRecording);
   EXPECT_EQ(view.manualMin, 0.0);
   EXPECT_EQ(view.manualMax, 1000.0);
-  EXPECT_EQ(view.signal, PlottedSignal::kMean);
+  EXPECT_EQ(view.signal, PlottedSignal::kSum);
   EXPECT_EQ(view.speed, 1.0);
 }
 

@@ -133,7 +133,7 @@ TEST_F(PressuresWindowTest, ALiveHandHasForcesToo) {
   saveCalibration(calibration(), folder_ / "hand.json", Overwrite::kReplace);
   apply("hand.json");
   start();
-  window().state().connectTo(emulatedBallConnection(true));
+  window().state().connectTo(emulatedBallConnection());
   ASSERT_TRUE(await([&] { return window().state().displayed.isLive() && force(6) != "–"; }));
   EXPECT_TRUE(await([&] { return force(6).remove("≤ ").toDouble() > 0.5; }))
       << "the ball is grasped";

@@ -86,6 +86,8 @@ class CompareWindowFixture : public WindowTest {
       if (name == "empty") return profileWithStamps({});
       return twentyFrames();
     };
+    // The figures below are of means.
+    WindowTest::choose("signalsPlotted", 0);
   }
   ComparePanel& compare() { return window().feature<CompareFeature>().panel(); }
   void compareNow() {

@@ -183,14 +183,14 @@ TEST_F(ComparePanelTest, RangesAreSharedAndSymmetric) {
   EXPECT_EQ(whole.look.rangeMin, 0.0);
   EXPECT_EQ(whole.look.rangeMax, 549.0);  // A's last frame: 500 + 49
   EXPECT_EQ(whole.largestDifference, 200.0);
-  press(Qt::Key_R);
+  WindowTest::choose("ranges", 1);
   EXPECT_EQ(compare().view().options().look.rangeMax, 500.0);
-  press(Qt::Key_R);
+  WindowTest::choose("ranges", 2);
   EXPECT_EQ(compare().view().options().look.rangeMax, 4095.0);
   EXPECT_EQ(compare().view().options().largestDifference, 4095.0);
-  press(Qt::Key_V);
+  trigger("values");
   EXPECT_TRUE(compare().view().options().look.values);
-  press(Qt::Key_I);
+  trigger("interpolated");
   EXPECT_TRUE(compare().view().options().look.interpolated);
 }
 

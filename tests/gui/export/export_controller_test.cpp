@@ -147,7 +147,7 @@ TEST_F(ExportControllerTest, TheSeenRangeOfTheTimelineAsNumbers) {
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(
       rows[0],
-      (std::vector<std::string>{"frame", "time_ms", "time_s", "finger 0 distal mean [counts]"}));
+      (std::vector<std::string>{"frame", "time_ms", "time_s", "finger 0 distal sum [counts]"}));
   EXPECT_EQ(rows[1], (std::vector<std::string>{"4", "1400000000200", "0.2", "50"}));
   EXPECT_EQ(rows[3], (std::vector<std::string>{"6", "1400000000300", "0.3", "70"}));
   asked.table = "the whole recording";
@@ -324,7 +324,7 @@ TEST_F(ExportControllerTest, CopyTakesTheViewThatWasClickedInto) {
 
 TEST_F(ExportControllerTest, CopyTableTakesTheRowsAlone) {
   playback().seekFrame(7);
-  press(Qt::Key_C, Qt::ControlModifier | Qt::AltModifier);
+  trigger("copyTable");
   exportController().settle();
   const QMimeData* data = QApplication::clipboard()->mimeData();
   EXPECT_FALSE(data->hasImage());

@@ -62,7 +62,7 @@ TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
                             .values;
   setRecipe("gaussian:size=5");
   EXPECT_EQ(seen(), raw);  // the switch is off
-  press(Qt::Key_A);
+  trigger("filtered");
   window().settle();
   EXPECT_EQ(seen(), filtered);
   EXPECT_TRUE(window().state().activeFilters.applied());
@@ -70,10 +70,10 @@ TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
   // All that is shown is the same recording, filtered.
   EXPECT_EQ(window().state().displayed.filteredRecording()->table.at(frame, 1).maximum,
             *std::max_element(filtered.begin() + 84, filtered.begin() + 162));
-  press(Qt::Key_A);
+  trigger("filtered");
   EXPECT_EQ(seen(), raw);
   EXPECT_FALSE(window().state().activeFilters.applied());
-  press(Qt::Key_A);
+  trigger("filtered");
   EXPECT_EQ(seen(), filtered);  // at once: it was made before
   EXPECT_EQ(playback().frame(), frame);
 }
@@ -83,7 +83,7 @@ TEST_F(FilterWindowTest, TheMomentAndThePartOfTheTimelineStay) {
   playback().seekFrame(77);
   chart.setVisibleRange(1.0, 4.0);
   chart.setSelection(TimeSpan{1.5, 2.0});
-  press(Qt::Key_A);
+  trigger("filtered");
   setRecipe("median | running-mean:centred=1");
   EXPECT_EQ(playback().frame(), 77u);
   EXPECT_NEAR(chart.seen().lower, 1.0, 1e-9);
@@ -93,7 +93,7 @@ TEST_F(FilterWindowTest, TheMomentAndThePartOfTheTimelineStay) {
 }
 
 TEST_F(FilterWindowTest, ChangesAreSeenAtOnce) {
-  press(Qt::Key_A);
+  trigger("filtered");
   const std::size_t frame = loudest();
   playback().seekFrame(frame);
   for (const char* text : {"box", "box:size=5", "kalman", "median | (box)", "rts"}) {
@@ -114,7 +114,7 @@ TEST_F(FilterWindowTest, TheFactsOfTheRecordingStayThoseOfTheFile) {
   const auto& facts = find<FactsView>("recordingFacts")->facts();
   const std::vector<Fact> before = facts;
   ASSERT_FALSE(before.empty());
-  press(Qt::Key_A);
+  trigger("filtered");
   setRecipe("gaussian:size=5");
   ASSERT_TRUE(window().state().activeFilters.applied());
   const std::vector<Fact> after = facts;
@@ -132,14 +132,14 @@ TEST_F(FilterWindowTest, SaturationIsLookedForInWhatWasRecorded) {
   saveRecording(builder.finish({}), {}, folder_ / "saturated.palpate");
   window().state().open({folder_ / "saturated.palpate"});
   waitUntilOpened();
-  press(Qt::Key_A);
+  trigger("filtered");
   setRecipe("median");
   EXPECT_EQ(seen(), std::vector<float>(seen().size(), 0.0F));
   EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().figures.contains("saturated 1"));
 }
 
 TEST_F(FilterWindowTest, AChainForAnotherHandIsRefusedWithAWord) {
-  press(Qt::Key_A);
+  trigger("filtered");
   setRecipe("median:matrices=9");
   EXPECT_TRUE(find<QLabel>("filterTotals")->text().contains("no matrix 9"));
   EXPECT_EQ(window().state().displayed.filteredRecording(),
@@ -170,7 +170,7 @@ TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {
 
 TEST_F(FilterWindowTest, TheChainAndItsSwitchAreRemembered) {
   setRecipe("bilateral:sigma_value=99");
-  press(Qt::Key_A);
+  trigger("filtered");
   reopen();
   EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()),
             "bilateral:sigma_value=99");
@@ -194,7 +194,7 @@ TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
     const auto touched = frame.matrix(1);
     return touched(12, 0) > 0.0F && touched(12, 5) > 0.0F && touched(5, 0) > 0.0F;
   };
-  press(Qt::Key_A);
+  trigger("filtered");
   EXPECT_TRUE(QTest::qWaitFor(alike, 20'000));
   EXPECT_TRUE(window().state().activeFilters.applied());
   window().state().live.end();

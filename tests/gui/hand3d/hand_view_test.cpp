@@ -335,7 +335,7 @@ TEST_F(HandWindowTest, FollowsTheCursorTheSelectionAndTheColours) {
   actions().group("maps")->actions().at(1)->trigger();
   EXPECT_EQ(look().map, kAllColorMaps[1]);
   EXPECT_EQ(look().range, window().feature<MatricesFeature>().panel().view().look().range);
-  press(Qt::Key_R);
+  choose("ranges", 1);
   EXPECT_EQ(look().range, window().feature<MatricesFeature>().panel().view().look().range);
 }
 
@@ -353,40 +353,40 @@ TEST_F(HandWindowTest, TheFirstViewHasRoomForTheLargestGrasp) {
 
 TEST_F(HandWindowTest, EverythingByKeyboard) {
   open({"rich.dsa"});
-  press(Qt::Key_T);
+  choose("taxelShapes", 1);
   EXPECT_EQ(look().taxels, TaxelShape::kBars);
-  press(Qt::Key_B);
+  choose("spheres", 1);
   EXPECT_EQ(look().sphere, SphereLook::kOpaque);
-  press(Qt::Key_B, Qt::ShiftModifier);
+  trigger("sphereOfCentroids");
   EXPECT_EQ(look().sphereOf, SphereOf::kCentroids);
-  press(Qt::Key_U);
+  trigger("normals");
   EXPECT_TRUE(look().normals);
-  press(Qt::Key_K);
+  trigger("contacts");
   EXPECT_FALSE(look().contacts);
-  press(Qt::Key_W);
+  trigger("wire");
   EXPECT_TRUE(look().wire);
-  press(Qt::Key_X);
+  trigger("axes");
   EXPECT_TRUE(look().axes);
-  press(Qt::Key_2, Qt::AltModifier);
+  actions().all("onlys")[2]->trigger();
   EXPECT_EQ(look().only, 1u);
-  press(Qt::Key_0, Qt::AltModifier);
+  actions().all("onlys")[0]->trigger();
   EXPECT_FALSE(look().only);
   const HandCamera before = panel().view().camera();
-  press(Qt::Key_PageUp);
+  trigger("nearer");
   EXPECT_LT(panel().view().camera().distanceMm, before.distanceMm);
   press(Qt::Key_Left, Qt::ControlModifier);
   EXPECT_NE(panel().view().camera().azimuthDeg, before.azimuthDeg);
-  press(Qt::Key_E, Qt::ShiftModifier);
+  trigger("resetHand");
   EXPECT_EQ(panel().view().camera(), before);
 }
 
 TEST_F(HandWindowTest, OneOfTheViewsIsAlwaysThereAndTheLookIsRemembered) {
   open({"rich.dsa"});
-  press(Qt::Key_H);
+  trigger("handShown");
   EXPECT_TRUE(panel().isHidden());
-  press(Qt::Key_H, Qt::ShiftModifier);
+  trigger("matricesShown");
   EXPECT_FALSE(panel().isHidden());
-  press(Qt::Key_T);
+  choose("taxelShapes", 1);
   window().close();
   start();
   EXPECT_EQ(look().taxels, TaxelShape::kBars);

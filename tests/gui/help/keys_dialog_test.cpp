@@ -24,7 +24,7 @@ TEST_F(KeysDialogTest, ListsEveryKeyOfEveryAction) {
   int withKeys = 0;
   std::set<QString> kinds;
   for (const QAction* action : window().actions()) {
-    if (action->shortcuts().isEmpty() || !action->isVisible()) continue;
+    if (action->shortcuts().isEmpty()) continue;
     if (const auto kind = kindOf(*action)) {
       const auto line = std::count_if(entries.begin(), entries.end(), [&](const KeyEntry& each) {
         return each.what == kind->what && each.keys == kind->keys;
@@ -43,7 +43,7 @@ TEST_F(KeysDialogTest, ListsEveryKeyOfEveryAction) {
           << action->text().toStdString();
   }
   EXPECT_EQ(entries.size(), static_cast<std::size_t>(withKeys) + kinds.size());
-  EXPECT_EQ(kinds.size(), 3u);
+  EXPECT_EQ(kinds.size(), 1u);
   EXPECT_GT(withKeys, 35);
 }
 

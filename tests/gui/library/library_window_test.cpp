@@ -130,7 +130,7 @@ TEST_F(LibraryWindowTest, ResettingTheLayoutHidesIt) {
   open({"good.dsa"});
   toggle();
   EXPECT_TRUE(library().isVisible());
-  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  trigger("resetLayout");
   EXPECT_FALSE(library().isVisible());
 }
 

@@ -33,7 +33,7 @@ const Fact& fact(const std::vector<Fact>& facts, const QString& name) {
 TEST(LinkPanel, SaysHowTheLinkDoesInUnits) {
   const auto facts = factsOf(goodHealth());
   EXPECT_EQ(fact(facts, "tactile").value, "streaming · /dev/ttyUSB0");
-  EXPECT_EQ(fact(facts, "rate").value, "31.7 fps (mean 31.7)");
+  EXPECT_EQ(fact(facts, "rate").value, "31.7 frames/s (mean 31.7)");
   EXPECT_EQ(fact(facts, "frame age").value, "18 ms");
   EXPECT_EQ(fact(facts, "queue").value, "3 of 8192, most 17");
   EXPECT_EQ(fact(facts, "disk").value, "118.0 GB free, 76 days");

@@ -119,6 +119,23 @@ TEST_F(OpeningTest, AFolderOpensTheLibraryOnIt) {
   EXPECT_EQ(currentName(), "good.dsa");
 }
 
+TEST_F(OpeningTest, TheStartPageOffersTheLastConnection) {
+  const auto* again = find<QPushButton>("startAgain");
+  EXPECT_FALSE(again->isVisible()) << "there was none";
+  window().close();
+  QSettings settings(settingsFile(), QSettings::IniFormat);
+  Connection connection;
+  connection.kind = Connection::Kind::kPorts;
+  connection.dsaPort = "/dev/ttyUSB0";
+  connection.sdhPort = "/dev/ttyUSB1";
+  saveConnection(connection, settings);
+  settings.sync();
+  start();
+  again = find<QPushButton>("startAgain");
+  EXPECT_TRUE(again->isVisible());
+  EXPECT_EQ(again->text(), "Connect again: hand on ttyUSB0 and ttyUSB1, today");
+}
+
 TEST_F(OpeningTest, TheStartPageShowsTheLibrary) {
   LibraryPanel& library = window().feature<LibraryFeature>().panel();
   ASSERT_FALSE(library.isVisible());

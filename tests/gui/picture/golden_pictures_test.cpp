@@ -77,7 +77,7 @@ class GoldenPicturesTest : public WindowTest {
 
 TEST_F(GoldenPicturesTest, HeatMapsDark) {
   show({1440, 900}, ThemeChoice::kDark);
-  press(Qt::Key_H);  // the hand in 3-D stands beside them
+  trigger("handShown");  // the hand in 3-D stands beside them
   window().feature<MatricesFeature>().panel().view().setFixedSize(945, 525);
   QCoreApplication::processEvents();
   compare(window().feature<MatricesFeature>().panel().view().grab().toImage(), "matrices_dark.png");
@@ -98,8 +98,8 @@ TEST_F(GoldenPicturesTest, HandDark) {
 
 TEST_F(GoldenPicturesTest, HandAsBarsLight) {
   show({1440, 900}, ThemeChoice::kLight);
-  press(Qt::Key_T);
-  press(Qt::Key_X);
+  choose("taxelShapes", 1);
+  trigger("axes");
   window().feature<Hand3dFeature>().panel().view().setFixedSize(600, 600);
   compare(window().feature<Hand3dFeature>().panel().view().grab().toImage(), "hand_bars_light.png");
 }

@@ -13,12 +13,17 @@
 #include <palpate/control/grasp_control.h>
 
 #include "gui/appearance/text_size.h"
+#include "gui/hand3d/hand_view.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
+#include "gui/matrices/matrices_view.h"
 #include "gui/recognise/answer_view.h"
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
 #include "gui/recognise/grasps_page.h"
 #include "gui/recognise/presentation_window.h"
 #include "gui/recognise/recognise_fixture.h"
+#include "gui/shell/show_scene.h"
 #include "gui/testing/layout_faults.h"
 #include "gui/testing/make_active.h"
 #include "gui/timeline/event_rows.h"
@@ -61,7 +66,7 @@ TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   window().docks().show("Recognise");
   panel().controller().useEmulatedModel();
   settle();
-  press(Qt::Key_Q, Qt::ShiftModifier);
+  trigger("showMode");
   auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   EXPECT_TRUE(full->isFullScreen());
@@ -69,6 +74,15 @@ TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   QTest::keyClick(full, Qt::Key_Q);
   settle();
   EXPECT_EQ(full->view().answer().name(), "pen");
+  EXPECT_TRUE(full->view().answer().offset.isEmpty()) << "no words for experts";
+  // The hand and its heat maps stand beside it.
+  auto* scene = full->findChild<ShowScene*>();
+  ASSERT_NE(scene, nullptr);
+  EXPECT_TRUE(scene->hand().isVisible() && scene->matrices().isVisible());
+  ASSERT_TRUE(scene->hand().drawing().handState().frame);
+  EXPECT_EQ(scene->hand().drawing().handState().frame->values,
+            window().state().currentFrame.frame().values);
+  EXPECT_EQ(scene->matrices().look(), window().feature<MatricesFeature>().panel().view().look());
   QTest::keyClick(full, Qt::Key_Escape);
   EXPECT_TRUE(QTest::qWaitFor(
       [&] { return window().findChild<PresentationWindow*>("showWindow") == nullptr; }, 5'000));
@@ -77,7 +91,7 @@ TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
 TEST_F(RecogniseWindowTest, WithoutAModelTheDockOpensInsteadOfTheWholeScreen) {
   openIt(record("pen"));
   EXPECT_FALSE(dock()->isVisible());
-  press(Qt::Key_Q, Qt::ShiftModifier);
+  trigger("showMode");
   EXPECT_EQ(window().findChild<PresentationWindow*>("showWindow"), nullptr);
   EXPECT_TRUE(dock()->isVisible());
   EXPECT_TRUE(window().state().messages.flashed().startsWith("No model is chosen"));
@@ -219,7 +233,7 @@ TEST_F(RecogniseLiveTest, WhatWasLetGoWhileTheWindowWasBusyIsNotHeldNow) {
 // L-B1, L-M16.
 TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
   moveTo(1.0);
-  press(Qt::Key_Q, Qt::ShiftModifier);
+  trigger("showMode");
   auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   ASSERT_TRUE(await([&] { return full->view().answer().name() == "pen"; }));
@@ -236,7 +250,7 @@ TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
   QTest::keyClick(full, Qt::Key_Escape);
   ASSERT_TRUE(
       await([&] { return window().findChild<PresentationWindow*>("showWindow") == nullptr; }));
-  press(Qt::Key_Q, Qt::ShiftModifier);
+  trigger("showMode");
   full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   EXPECT_EQ(full->view().answer().name(), "");
@@ -246,7 +260,7 @@ TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
 TEST_F(RecogniseLiveTest, WithoutFramesNothingIsNamedAsHeldNow) {
   window().docks().show("Recognise");
   moveTo(1.0);
-  press(Qt::Key_Q, Qt::ShiftModifier);
+  trigger("showMode");
   auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   const auto& dockView = panel().ask().view();
@@ -292,7 +306,7 @@ TEST_F(RecogniseWindowTest, TheButtonIsCalledAsInTheTextsAboutIt) {
 }
 
 TEST_F(RecogniseLiveTest, TheShowHasAStopThatStopsTheHandAndSaysWhatItDoes) {
-  press(Qt::Key_Q, Qt::ShiftModifier);
+  trigger("showMode");
   auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   makeActive(*full);
@@ -323,7 +337,7 @@ TEST_F(RecogniseWindowTest, WithoutAHandTheShowHasNoStop) {
   window().docks().show("Recognise");
   panel().controller().useEmulatedModel();
   settle();
-  press(Qt::Key_Q, Qt::ShiftModifier);
+  trigger("showMode");
   const auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   EXPECT_FALSE(full->findChild<QPushButton*>("showStop")->isVisible());
@@ -343,7 +357,7 @@ int pixelsLike(const QImage& picture, const QColor& color) {
 }
 
 TEST_F(RecogniseLiveTest, NoTextOfTheShowIsCut) {
-  press(Qt::Key_Q, Qt::ShiftModifier);
+  trigger("showMode");
   auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   full->showNormal();

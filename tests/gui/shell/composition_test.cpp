@@ -75,5 +75,20 @@ TEST_F(CompositionTest, OfARecordingTheDataHaveTheLargestPart) {
   }
 }
 
+TEST_F(CompositionTest, InEachPresetTheDataHaveTheLargestPart) {
+  open({"rich.dsa"});
+  const auto check = [this](const char* of) {
+    for (const Preset preset : kAllPresets)
+      for (const QSize& size : kWindows) {
+        trigger(("preset" + nameOf(preset)).toStdString().c_str());
+        setSize(size);
+        EXPECT_GE(views(), 0.40) << of << qPrintable(nameOf(preset)) << size.width();
+      }
+  };
+  check("a recording: ");
+  connectEmulated();
+  check("live: ");
+}
+
 }  // namespace
 }  // namespace palpate::gui::composition_test

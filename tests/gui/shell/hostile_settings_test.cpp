@@ -34,6 +34,10 @@ const QStringList kNamedKeys = {"session/files/size",
                                 "calibrate/noise_seconds",
                                 "calibrate/applied/sdh2",
                                 "calibrate/noise/sdh2",
+                                "window/layouts_recording/Watch",
+                                "window/layouts_live/own one",
+                                "window/preset_recording",
+                                "window/preset_live",
                                 "library/columns/widths",
                                 "library/columns/order",
                                 "library/columns/sorted"};
@@ -118,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(AllValues,
 TEST(HostileSettingsKeys, AreFound) {
   const std::set<QString> found = keys();
   EXPECT_GT(found.size(), 100u);
-  EXPECT_TRUE(found.contains("window/layout"));
+  EXPECT_TRUE(found.contains("window/layouts_recording/Watch"));
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ TEST_F(LiveWindowTest, ShowsWhatIsConnected) {
   EXPECT_TRUE(chart().isVisible());
   EXPECT_FALSE(window().findChild<TimelineChart*>()->isVisible());
   EXPECT_TRUE(await([&] { return find<StatusStrip>("statusStrip")->status().state == "live"; }));
-  EXPECT_TRUE(await([&] { return find<QLabel>("LinkPill")->text().contains("fps"); }));
+  EXPECT_TRUE(await([&] { return find<QLabel>("LinkPill")->text() == "emulated hand · ball"; }));
   EXPECT_TRUE(view().notice().isEmpty());
   EXPECT_TRUE(actions().at("record")->isEnabled());
   EXPECT_FALSE(actions().at("play")->isEnabled());
@@ -609,7 +609,7 @@ TEST_F(LiveWindowTest, TheHandIsMovedByKeysOfItsMenu) {
   press(Qt::Key_Escape);
   ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
   const std::vector<QString> texts{"Grasp", "Reactive grasp", "Slip-aware grasp", "Open the hand"};
-  press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
+  trigger("disconnectHand");
   ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
   for (const QString& text : texts) EXPECT_FALSE(action(text)->isEnabled()) << text.toStdString();
 }
@@ -700,7 +700,7 @@ TEST_F(LiveWindowTest, DisconnectingComesBackToWhatWasOpen) {
   open({"good.dsa"});
   connectEmulated();
   EXPECT_TRUE(window().state().displayed.isLive());
-  press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
+  trigger("disconnectHand");
   ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
   EXPECT_FALSE(window().state().displayed.isLive());
   ASSERT_NE(window().state().displayed.unfilteredRecording(), nullptr);
@@ -754,7 +754,7 @@ TEST_F(LiveWindowTest, AReplayThatEndsIsNoAlarm) {
 }
 
 TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
-  window().state().connectTo(emulatedBallConnection(true));
+  window().state().connectTo(emulatedBallConnection());
   auto* table = window().findChild<MatrixTableModel*>();
   ASSERT_TRUE(await([&] {
     return table->numMatrices() > 0 &&

@@ -1,5 +1,7 @@
 // What the window remembers, and how it is put back.
 #include <QDockWidget>
+#include <QMenu>
+#include <QMenuBar>
 #include <QSplitter>
 #include <QToolButton>
 #include <cstdlib>
@@ -20,9 +22,9 @@ class WindowLayoutTest : public WindowTest {
 TEST_F(WindowLayoutTest, LookSpeedAndLoopAreRemembered) {
   open({"good.dsa"});
   window().state().appearance.setTheme(ThemeChoice::kLight);
-  for (const Qt::Key key :
-       {Qt::Key_M, Qt::Key_R, Qt::Key_V, Qt::Key_I, Qt::Key_S, Qt::Key_L, Qt::Key_G, Qt::Key_Up})
-    press(key);
+  for (const char* group : {"maps", "ranges", "signalsPlotted"}) choose(group, 1);
+  for (const char* action : {"values", "interpolated", "loop", "skipGaps", "faster"})
+    trigger(action);
   window().close();
   start();
   const ViewSettings& view = window().state().appearance.view();
@@ -103,7 +105,7 @@ TEST_F(WindowLayoutTest, ResetPutsEverythingBack) {
   open({"good.dsa"});
   press(Qt::Key_I, Qt::ControlModifier);
   window().addDockWidget(Qt::TopDockWidgetArea, dock("Timeline"));
-  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  trigger("resetLayout");
   EXPECT_FALSE(dock("Inspect")->isVisible());
   EXPECT_EQ(window().dockWidgetArea(dock("Inspect")), Qt::RightDockWidgetArea);
   EXPECT_EQ(window().dockWidgetArea(dock("Timeline")), Qt::BottomDockWidgetArea);
@@ -116,9 +118,89 @@ TEST_F(WindowLayoutTest, ResetGivesTheLibraryItsWidthBack) {
   window().resizeDocks({dock("Library")}, {usual + 250}, Qt::Horizontal);
   QCoreApplication::processEvents();
   ASSERT_EQ(dock("Library")->width(), usual + 250);
-  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  trigger("resetLayout");
   QCoreApplication::processEvents();
   EXPECT_EQ(dock("Library")->width(), usual);
+}
+
+TEST_F(WindowLayoutTest, EachPresetIsRestoredAsItWasLeft) {
+  open({"good.dsa"});
+  EXPECT_EQ(window().docks().preset(), "Watch");
+  EXPECT_FALSE(dock("Inspect")->isVisible());
+  press(Qt::Key_4, Qt::ControlModifier);
+  EXPECT_EQ(window().docks().preset(), "Analyse");
+  EXPECT_TRUE(dock("Inspect")->isVisible() && dock("Timeline")->isVisible());
+  dock("Timeline")->close();
+  press(Qt::Key_1, Qt::ControlModifier);
+  EXPECT_TRUE(dock("Timeline")->isVisible());
+  EXPECT_FALSE(dock("Inspect")->isVisible());
+  press(Qt::Key_4, Qt::ControlModifier);
+  window().close();
+  start();
+  open({"good.dsa"});
+  EXPECT_EQ(window().docks().preset(), "Analyse");
+  EXPECT_TRUE(dock("Inspect")->isVisible());
+  EXPECT_FALSE(dock("Timeline")->isVisible()) << "as it was left";
+  trigger("resetLayout");
+  EXPECT_TRUE(dock("Timeline")->isVisible());
+  press(Qt::Key_1, Qt::ControlModifier);
+  EXPECT_FALSE(dock("Inspect")->isVisible());
+}
+
+TEST_F(WindowLayoutTest, OwnPresetsHaveNames) {
+  open({"good.dsa"});
+  const auto* button = find<QToolButton>("layoutButton");
+  EXPECT_EQ(button->text(), "Watch");
+  press(Qt::Key_I, Qt::ControlModifier);
+  ask_.texts = {"two sensors"};
+  trigger("keepLayout");
+  EXPECT_EQ(button->text(), "two sensors");
+  press(Qt::Key_I, Qt::ControlModifier);
+  press(Qt::Key_1, Qt::ControlModifier);
+  EXPECT_EQ(window().docks().ownPresets(), QStringList("two sensors"));
+  window().close();
+  start();
+  open({"good.dsa"});
+  const auto own = [this] {
+    for (QAction* action : window().state().menus.layout->actions())
+      if (action->text() == "two sensors") return action;
+    return static_cast<QAction*>(nullptr);
+  };
+  ASSERT_TRUE(own());
+  own()->trigger();
+  QCoreApplication::processEvents();
+  EXPECT_FALSE(dock("Inspect")->isVisible()) << "as it was left";
+  EXPECT_TRUE(own()->isChecked());
+  trigger("removeLayout");
+  EXPECT_FALSE(own());
+  EXPECT_EQ(window().docks().preset(), "Watch");
+  EXPECT_FALSE(actions().at("removeLayout")->isVisible());
+  for (const char* name : {"watch", "a/b", "", " x", "0123456789012345678901234567890"})
+    EXPECT_FALSE(window().docks().keepAs(name).isEmpty()) << name;
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(window().docks().keepAs("own " + QString::number(i)), "");
+  EXPECT_TRUE(window().docks().keepAs("one more").startsWith("There are 10"));
+}
+
+TEST_F(WindowLayoutTest, WithoutAHandItsPresetsAndMenusAreNotOffered) {
+  EXPECT_FALSE(actions().at("presetWatch")->isEnabled()) << "on the start page";
+  EXPECT_FALSE(actions().at("play")->isEnabled());
+  open({"good.dsa"});
+  EXPECT_FALSE(actions().at("presetGrasp")->isEnabled());
+  EXPECT_EQ(whyGreyed(*actions().at("presetRecord")),
+            "No hand is connected: connect one first (Ctrl+K)");
+  const auto shown = [this](const QString& title) {
+    for (const QAction* menu : window().menuBar()->actions())
+      if (menu->text().remove('&') == title) return menu->isVisible();
+    ADD_FAILURE() << title.toStdString();
+    return false;
+  };
+  EXPECT_TRUE(shown("Playback"));
+  EXPECT_FALSE(shown("Record") || actions().at("record")->isVisible());
+  for (const QAction* menu : window().menuBar()->actions()) {
+    qsizetype entries = 0;
+    for (const QAction* each : menu->menu()->actions()) entries += !each->isSeparator();
+    EXPECT_LE(entries, 15) << menu->text().toStdString();
+  }
 }
 
 TEST_F(WindowLayoutTest, ABrokenSettingsFileDoesNotStopTheProgram) {
@@ -136,7 +218,7 @@ TEST_F(WindowLayoutTest, ANarrowWindowKeepsEveryControl) {
   open({"good.dsa"});
   for (const QSize size : {QSize(900, 600), QSize(1600, 1000)}) {
     window().resize(size);
-    press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+    trigger("resetLayout");
     QCoreApplication::processEvents();
     EXPECT_EQ(window().size(), size);
     for (const char* name : {"speedBox", "recordingsBox", "mapBox", "rangeBox", "frameField"}) {

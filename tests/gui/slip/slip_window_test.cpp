@@ -72,7 +72,7 @@ TEST_F(SlipWindowTest, FollowsThePlaybackAndTheKeyOfTheReference) {
   showIt();
   playback().seekFrame(kRests + 3);
   EXPECT_EQ(panel().frame(), kRests + 3);
-  press(Qt::Key_O);
+  trigger("slipReference");
   settle();
   ASSERT_TRUE(panel().found());
   EXPECT_EQ(panel().found()->options.referenceFrame, std::optional<std::size_t>(kRests + 3));
@@ -81,7 +81,7 @@ TEST_F(SlipWindowTest, FollowsThePlaybackAndTheKeyOfTheReference) {
 }
 
 TEST_F(SlipWindowTest, TheKeyOfTheReferenceBringsTheDock) {
-  press(Qt::Key_O);
+  trigger("slipReference");
   settle();
   EXPECT_TRUE(dock()->isVisible());
   EXPECT_TRUE(panel().found()->options.referenceFrame);
@@ -118,7 +118,7 @@ TEST_F(SlipWindowTest, ArrowsAreOnTheHandWhileItSlips) {
     }
   }
   EXPECT_GT(invalid, 0u);
-  press(Qt::Key_K, Qt::ShiftModifier);
+  trigger("slipArrows");
   EXPECT_FALSE(hand.look().slip);
   EXPECT_FALSE(actions().at("slipArrows")->isChecked());
 }
@@ -174,7 +174,7 @@ TEST_F(SlipWindowTest, OfAConnectedHandItTellsWhenItSlips) {
   std::size_t touched = 0;
   for (std::size_t m = 0; m < panel().found()->matrices.size(); ++m)
     if (newest(m)) touched = m;
-  press(Qt::Key_O);
+  trigger("slipReference");
   EXPECT_TRUE(await([&] {
     const SlipSample* sample = newest(touched);
     return sample && sample->refValid && sample->shiftTaxels() < 0.05;

@@ -40,6 +40,11 @@ class WindowTest : public ::testing::Test {
   void open(const std::vector<std::string>& names);
   void waitUntilOpened();
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier);
+  // As from the menu.
+  void trigger(const char* action) { actions().at(action)->trigger(); }
+  void choose(const char* group, int index) {
+    actions().group(group)->actions().at(index)->trigger();
+  }
   template <class Widget>
   Widget* find(const char* name) {
     return window().findChild<Widget*>(name);

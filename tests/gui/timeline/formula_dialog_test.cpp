@@ -24,6 +24,7 @@ class FormulaDialogTest : public WindowStateTest {
   void makeFeature() {
     feature_.reset();
     feature_ = std::make_unique<TimelineFeature>(*windowState_, &actionsOf_);
+    windowState_->appearance.change([](ViewSettings& view) { view.signal = PlottedSignal::kMean; });
   }
   FormulaDialog& open() {
     windowState_->actions.at("newFormula")->trigger();

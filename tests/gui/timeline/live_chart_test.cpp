@@ -272,6 +272,23 @@ TEST_F(LiveChartTest, MarksAndGraspsAreLinesAtTheirMoment) {
   EXPECT_LE(chart_.numEvents(), 1u);
 }
 
+TEST_F(LiveChartTest, SlipIsALineThenASpan) {
+  frame(0.0, 1.0);
+  frame(1.0, 1.0);
+  chart_.refresh(0.0);
+  chart_.addEvent({kStartUs + 400'000, kStartUs + 400'000, "slip", 1, "slip begins", ""});
+  EXPECT_EQ(chart_.numEvents(), 1u);
+  chart_.addEvent({kStartUs + 400'000, kStartUs + 900'000, "slip", 1, "slip: 2.10 taxels", ""});
+  EXPECT_EQ(chart_.numEvents(), 2u);
+  EXPECT_TRUE(chart_.valuesAt(0.4).contains("slip: 2.10 taxels"));
+  int spans = 0;
+  for (int i = 0; i < chart_.itemCount(); ++i)
+    if (const auto* span = qobject_cast<QCPItemRect*>(chart_.item(i)))
+      spans += std::abs(span->topLeft->coords().x() - 0.4) < 1e-9 &&
+               std::abs(span->bottomRight->coords().x() - 0.9) < 1e-9;
+  EXPECT_EQ(spans, 1);
+}
+
 TEST_F(LiveChartTest, ARecordingIsMarkedWhereItBeganAndEnded) {
   framesTo(10.0);
   chart_.showRecording(kStartUs + 4'000'000, kStartUs + 9'900'000, true);

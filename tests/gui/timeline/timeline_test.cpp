@@ -132,11 +132,11 @@ TEST_F(TimelineTest, TheSelectionByKeys) {
   playback().seekSeconds(0.5);
   press(Qt::Key_BracketRight);
   EXPECT_EQ(chart().selection(), (TimeSpan{0.2, 0.5}));
-  press(Qt::Key_Z);
+  trigger("zoomSelection");
   EXPECT_NEAR(chart().seen().size(), 0.35, 0.03);
   press(Qt::Key_A, Qt::ControlModifier);
   EXPECT_EQ(chart().selection(), (TimeSpan{0.0, 0.95}));
-  press(Qt::Key_Space, Qt::ControlModifier | Qt::ShiftModifier);
+  trigger("dropSelection");
   EXPECT_FALSE(chart().selection());
 }
 
@@ -231,7 +231,7 @@ TEST_F(TimelineTest, TheLegendNamesWhatIsPlotted) {
   ASSERT_EQ(legend->entries().size(), 1u);
   EXPECT_EQ(legend->entries()[0].name, "finger 0 distal");
   EXPECT_EQ(legend->entries()[0].pen, chart().graph(0)->pen());
-  press(Qt::Key_0, Qt::ControlModifier);
+  actions().all("plots").last()->trigger();
   ASSERT_EQ(legend->entries().size(), 2u);
   EXPECT_EQ(legend->entries()[1].name, "all");
 }

@@ -75,6 +75,26 @@ TEST_F(OfferStripTest, ALongNameIsBrokenAndSeenWhole) {
   EXPECT_TRUE(inked);
 }
 
+// Below it in a narrow window, which would have to grow otherwise.
+TEST_F(OfferStripTest, FurtherButtonsStandBesideTheTextWhereThereIsRoom) {
+  offer("Recorded run_003.palpate: 412 frames");
+  for (const char* also : {"Repeat", "Discard"}) strip_->offerAlso(also, {}, [] {});
+  const auto top = [this](const char* name) {
+    const auto* button = strip_->findChild<QPushButton*>(name);
+    return button->mapTo(strip_, QPoint()).y();
+  };
+  for (const int width : {1000, 300, 1000}) {
+    strip_->resize(width, strip_->sizeHint().height());
+    strip_->show();
+    QCoreApplication::processEvents();
+    QCoreApplication::processEvents();
+    if (width == 1000)
+      EXPECT_EQ(top("offerOther"), top("offerAccept"));
+    else
+      EXPECT_GT(top("offerOther"), top("offerAccept"));
+  }
+}
+
 TEST_F(OfferStripTest, MayOfferAgainWhileItIsAccepted) {
   strip_->offer("first", "Recover", [this] { strip_->say("working"); });
   accept()->click();

@@ -56,7 +56,7 @@ ShownUnit shownUnit(PlottedSignal signal, const QString& handUnit, const Display
 PlottedSignal plottedSignalFrom(const QString& name) {
   for (const PlottedSignal signal : kAllPlottedSignals)
     if (name == nameOf(signal)) return signal;
-  return PlottedSignal::kMean;
+  return PlottedSignal::kSum;
 }
 
 }  // namespace palpate::gui

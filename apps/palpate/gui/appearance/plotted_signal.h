@@ -20,7 +20,7 @@ QString meaningOf(PlottedSignal signal);
 QString unitOf(PlottedSignal signal, const QString& handUnit);
 // The same as it is shown: an area in the unit that the user chose.
 ShownUnit shownUnit(PlottedSignal signal, const QString& handUnit, const DisplayUnits& units);
-// The signal of this name; kMean for an unknown name.
+// The signal of this name; kSum for an unknown name.
 PlottedSignal plottedSignalFrom(const QString& name);
 
 }  // namespace palpate::gui

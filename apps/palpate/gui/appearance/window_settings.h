@@ -36,7 +36,7 @@ struct ViewSettings {
   RangeMode range = RangeMode::kRecording;
   double manualMin = 0.0;  // [counts]
   double manualMax = 1000.0;
-  PlottedSignal signal = PlottedSignal::kMean;
+  PlottedSignal signal = PlottedSignal::kSum;  // steady when a taxel is at the threshold
   DisplayUnits units = {};
   double speed = 1.0;
   bool loop = false;

@@ -14,7 +14,7 @@ constexpr const char* kBatchFailures = "batch failures";
 
 BatchFeature::BatchFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
-      batch_(windowState.actions.make("batch", "File", "&Batch…", {key("Ctrl+Alt+B")})),
+      batch_(windowState.actions.make("batch", "Analysis", "&Batch…")),
       strip_(new OpeningStrip(window, "Running a", "batch")) {
   batch_->setToolTip("Make a file of each of many recordings: convert, signals, slip, features");
   on(batch_, [this] { showDialog(); });
@@ -76,7 +76,7 @@ void BatchFeature::report() {
   // What failed stays in the banner until it is closed, unless the dialog shows it.
   const bool bad = report.status.failed + report.status.inPart > 0;
   if (bad && !(dialog_ && dialog_->isVisible()))
-    state().messages.failAbout(kBatchFailures, text + "; File > Batch has what failed and why");
+    state().messages.failAbout(kBatchFailures, text + "; Analysis > Batch has what failed and why");
   else
     state().messages.flash(text);
 }

@@ -228,6 +228,7 @@ void CalibrateFeature::settle() { panel_->settle(); }
 std::vector<DockSpec> CalibrateFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+Shift+N"),  // N for newtons
+           .menu = "Analysis",
            .tab = 6,
            .preferredWidthPx = kCalibrateUsualWidth}};
 }

@@ -17,7 +17,7 @@ constexpr const char* kBandKey = "compare/band";
 CompareFeature::CompareFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       action_(windowState.actions.make(
-          "compare", "View", "Compare two recordin&gs…", {key("Ctrl+Shift+C")}, true)),
+          "compare", "Analysis", "Compare two recordin&gs…", {key("Ctrl+Shift+C")}, true)),
       panel_(new ComparePanel(action_,
                               windowState.actions.at("interpolated"),
                               windowState.actions.at("values"),

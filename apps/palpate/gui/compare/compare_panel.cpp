@@ -106,7 +106,7 @@ QWidget* ComparePanel::makeCurveHeader() {
     made->setFocusPolicy(Qt::TabFocus);
     return made;
   };
-  signal_ = box("compareSignal", "Plotted signal (S)");
+  signal_ = box("compareSignal", "Plotted signal");
   for (const PlottedSignal signal : kAllPlottedSignals) signal_->addItem(gui::nameOf(signal));
   matrix_ = box("compareMatrix", "Plotted matrix");
   overlayBox_ = box("compareOverlay", "Which curves the chart shows, all aligned with A");

@@ -20,8 +20,8 @@ namespace palpate::gui {
 
 ConnectActions::ConnectActions(ActionRegistry& book) {
   connectHand = book.make("connectHand", "Hand", "&Connect…", {key("Ctrl+K")});
-  tryEmulated = book.make("tryEmulated", "Hand", "Try the &emulated hand", {key("Ctrl+Shift+D")});
-  disconnectHand = book.make("disconnectHand", "Hand", "&Disconnect", {key("Ctrl+Shift+K")});
+  tryEmulated = book.make("tryEmulated", "Hand", "Try the &emulated hand");
+  disconnectHand = book.make("disconnectHand", "Hand", "&Disconnect");
   live = book.make("live", "Hand", "Show &live", {key("F6")}, true);
   live->setToolTip("Show the connected hand (F6)");
   hold = book.make("hold", "Hand", "&Hold the live picture", {key("P")}, true);
@@ -31,11 +31,11 @@ ConnectActions::ConnectActions(ActionRegistry& book) {
   live->setIcon(makeIcon(IconShape::kLive));
 }
 
-Connection emulatedBallConnection(bool runsScript) {
+Connection emulatedBallConnection() {
   Connection ball;
   ball.kind = Connection::Kind::kEmulated;
   ball.scene = "ball";
-  ball.sceneScriptRuns = runsScript;
+  ball.sceneScriptRuns = true;
   return ball;
 }
 
@@ -161,7 +161,11 @@ void ConnectFeature::connectActions() {
     if (const auto wanted = windowState.prompts.connection(loadConnection(windowState.settings)))
       windowState.connectTo(*wanted);
   });
-  on(actions.tryEmulated, [&windowState] { windowState.connectTo(emulatedBallConnection(false)); });
+  on(actions.tryEmulated, [&windowState] {
+    windowState.connectTo(emulatedBallConnection());
+    windowState.messages.flash(
+        "An emulated hand grasps a ball by itself. Press Grasp, Open or Stop to take over.");
+  });
   on(actions.disconnectHand, [&windowState] {
     if (!windowState.live.recording() ||
         windowState.prompts.endRecording(UserPrompts::Ending::kDisconnect))

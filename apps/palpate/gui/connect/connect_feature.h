@@ -39,7 +39,7 @@ class ConnectFeature : public Feature {
   ConnectActions actions_;
 };
 
-// A connection to an emulated hand in front of a ball; `runsScript`: it grasps by itself.
-Connection emulatedBallConnection(bool runsScript);
+// A connection to an emulated hand that grasps a ball by itself.
+Connection emulatedBallConnection();
 
 }  // namespace palpate::gui

@@ -10,7 +10,7 @@ ExportActions::ExportActions(ActionRegistry& book) {
   exportAgain = book.make("exportAgain", "File", "Export as &last time", {key("Ctrl+Shift+E")});
   copyPicture = book.make("copyPicture", "File", "Cop&y", {key("Ctrl+C")});
   copyPicture->setToolTip("Copy the view that was clicked last (Ctrl+C)");
-  copyTable = book.make("copyTable", "File", "Copy &table", {key("Ctrl+Alt+C")});
+  copyTable = book.make("copyTable", "File", "Copy &table");
   exportPicture->setIconText(" Export");
   exportPicture->setIcon(makeIcon(IconShape::kExport));
 }

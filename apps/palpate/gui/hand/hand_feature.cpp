@@ -134,7 +134,7 @@ std::vector<DockSpec> HandFeature::docks() {
            .key = QKeySequence("Ctrl+H"),
            .liveArea = Qt::LeftDockWidgetArea,
            .tab = 3,
-           .shownLive = true}};
+           .shownIn = {Preset::kGrasp}}};
 }
 
 }  // namespace palpate::gui

@@ -3,7 +3,6 @@
 #include <QMenu>
 #include <utility>
 
-#include "gui/appearance/next_choice.h"
 #include "gui/hand3d/hand_frame_painter.h"
 #include "gui/hand3d/hand_panel.h"
 #include "gui/matrices/matrices_feature.h"
@@ -14,42 +13,34 @@ namespace palpate::gui {
 
 Hand3dActions::Hand3dActions(ActionRegistry& book) {
   const char* space = "Hand in 3-D";
-  matricesShown = book.make("matricesShown", "View", "Show the &matrices", {key("Shift+H")}, true);
-  handShown = book.make("handShown", "View", "Show the &hand in 3-D", {key("H")}, true);
-  nextTaxelShape = book.make(
-      "nextTaxelShape", space, "Next style of the taxels: cells, bars, points, flat", {key("T")});
-  nextSphere = book.make("nextSphere", space, "Next style of the enclosing &sphere", {key("B")});
+  matricesShown = book.make("matricesShown", "View", "Show the &matrices", {}, true);
+  handShown = book.make("handShown", "View", "Show the &hand in 3-D", {}, true);
+  QStringList names;
+  for (const TaxelShape shape : kAllTaxelShapes) names.append(nameOf(shape));
+  taxelShapes = book.choices("taxelShapes", names);
+  names.clear();
+  for (const SphereLook look : kAllSphereLooks) names.append(nameOf(look));
+  spheres = book.choices("spheres", names);
   sphereOfCentroids =
-      book.make("sphereOfCentroids", space, "Sphere around the c&entroids", {key("Shift+B")}, true);
-  normals = book.make("normals", space, "&Normals of the taxels", {key("U")}, true);
-  contacts =
-      book.make("contacts", space, "&Contacts: centroids, axes, directions", {key("K")}, true);
-  wire = book.make("wire", space, "&Wire frame", {key("W")}, true);
-  axes = book.make("axes", space, "&Axes of the hand's base", {key("X")}, true);
-  slipArrows =
-      book.make("slipArrows", space, "S&lip: how contacts and object move", {key("Shift+K")}, true);
-  fitHand = book.make("fitHand", space, "Fit it into the &picture", {key("E")});
-  resetHand = book.make("resetHand", space, "&Back to the default view", {key("Shift+E")});
-  nearer = book.make("nearer", space, "Nea&rer", {key("PgUp")});
-  further = book.make("further", space, "&Further", {key("PgDown")});
+      book.make("sphereOfCentroids", space, "Sphere around the c&entroids", {}, true);
+  normals = book.make("normals", space, "&Normals of the taxels", {}, true);
+  contacts = book.make("contacts", space, "&Contacts: centroids, axes, directions", {}, true);
+  wire = book.make("wire", space, "&Wire frame", {}, true);
+  axes = book.make("axes", space, "&Axes of the hand's base", {}, true);
+  slipArrows = book.make("slipArrows", space, "S&lip: how contacts and object move", {}, true);
+  fitHand = book.make("fitHand", space, "Fit it into the &picture");
+  resetHand = book.make("resetHand", space, "&Back to the default view");
+  nearer = book.make("nearer", space, "Nea&rer");
+  further = book.make("further", space, "&Further");
   for (const char* way : {"Left", "Right", "Up", "Down"})
     orbits.append(book.add(
         "orbits", space, "Turn " + QString(way).toLower(), {QKeySequence("Ctrl+" + QString(way))}));
   for (const char* way : {"Left", "Right", "Up", "Down"})
-    pans.append(book.add("pans",
-                         space,
-                         "Move " + QString(way).toLower(),
-                         {QKeySequence("Ctrl+Shift+" + QString(way))}));
-  onlys.append(book.add("onlys", space, "The whole hand", {key("Alt+0")}, true));
-  for (int i = 0; i < ActionRegistry::kMatricesWithKeys; ++i)
-    onlys.append(book.add("onlys",
-                          space,
-                          "Matrix " + QString::number(i) + " alone",
-                          {QKeySequence("Alt+" + QString::number(i + 1))},
-                          true));
+    pans.append(book.add("pans", space, "Move " + QString(way).toLower()));
+  onlys.append(book.add("onlys", space, "The whole hand", {}, true));
+  for (int i = 0; i < ActionRegistry::kListedMatrices; ++i)
+    onlys.append(book.add("onlys", space, "Matrix " + QString::number(i) + " alone", {}, true));
   setKind(orbits, "Ctrl+arrows", "Turn it");
-  setKind(pans, "Ctrl+Shift+arrows", "Move it");
-  setKind(onlys.mid(1), "Alt+1 .. Alt+9", "One matrix alone");
 }
 
 namespace {
@@ -162,11 +153,11 @@ void Hand3dFeature::connectLook() {
     changeLook(
         [=](HandLook& look) { look.sphereOf = yes ? SphereOf::kCentroids : SphereOf::kTaxels; });
   });
-  on(actions.nextTaxelShape, [this] {
-    changeLook([](HandLook& look) { look.taxels = after(kAllTaxelShapes, look.taxels); });
+  connect(actions.taxelShapes, &QActionGroup::triggered, this, [this](const QAction* chosen) {
+    changeLook([=](HandLook& look) { look.taxels = kAllTaxelShapes.at(chosen->data().toUInt()); });
   });
-  on(actions.nextSphere, [this] {
-    changeLook([](HandLook& look) { look.sphere = after(kAllSphereLooks, look.sphere); });
+  connect(actions.spheres, &QActionGroup::triggered, this, [this](const QAction* chosen) {
+    changeLook([=](HandLook& look) { look.sphere = kAllSphereLooks.at(chosen->data().toUInt()); });
   });
   for (qsizetype i = 0; i < actions.onlys.size(); ++i)
     on(actions.onlys[i], [this, i] {
@@ -224,6 +215,8 @@ void Hand3dFeature::changeLook(const std::function<void(HandLook&)>& change) {
 void Hand3dFeature::showLook() {
   Hand3dActions& actions = actions_;
   const HandLook& look = panel_->look();
+  checkChoice(actions.taxelShapes, kAllTaxelShapes, look.taxels);
+  checkChoice(actions.spheres, kAllSphereLooks, look.sphere);
   actions.sphereOfCentroids->setChecked(look.sphereOf == SphereOf::kCentroids);
   actions.normals->setChecked(look.normals);
   actions.contacts->setChecked(look.contacts);

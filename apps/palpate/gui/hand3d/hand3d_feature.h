@@ -20,8 +20,8 @@ struct Hand3dActions {
   // Checked: the view is visible; one of the two always is.
   QAction* matricesShown = nullptr;
   QAction* handShown = nullptr;
-  QAction* nextTaxelShape = nullptr;
-  QAction* nextSphere = nullptr;
+  QActionGroup* taxelShapes = nullptr;
+  QActionGroup* spheres = nullptr;
   QAction* sphereOfCentroids = nullptr;
   QAction* normals = nullptr;
   QAction* contacts = nullptr;

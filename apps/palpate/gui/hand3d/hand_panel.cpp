@@ -62,9 +62,9 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
     made->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     return made;
   };
-  taxels_ = box("taxelShapeBox", "How taxels are drawn (T)");
+  taxels_ = box("taxelShapeBox", "How taxels are drawn");
   for (const TaxelShape shape : kAllTaxelShapes) taxels_->addItem(nameOf(shape));
-  spheres_ = box("sphereBox", "The enclosing sphere (B)");
+  spheres_ = box("sphereBox", "The enclosing sphere");
   for (const SphereLook look : kAllSphereLooks) spheres_->addItem(nameOf(look));
   matrix_ = box("onlyMatrixBox", "One matrix alone (Alt+1, Alt+2, ..; Alt+0: the whole hand)");
   auto* more = makeToolButton(header, "handShowButton", "Show", "What else is shown");

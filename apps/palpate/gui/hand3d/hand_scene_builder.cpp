@@ -321,7 +321,7 @@ void HandSceneBuilder::addTaxels(HandScene& scene, const HandLook& look) const {
   const TaxelPatches& places = patches(look);
   const ColorTable& table = colorTable(look.map);
   const ThemeColors& colors = colorsOf(look.theme);
-  QColor resting = colors.taxel;
+  QColor resting = colorsOf(Theme::kDark).taxel;  // as in the heat maps
   if (!posed() && !isFlat(look.taxels)) resting = mixed(resting, colors.window, kBodyVeil);
   const bool bars = look.taxels == TaxelShape::kBars || look.taxels == TaxelShape::kFlatBars;
   const double span = std::max(1e-9, look.range.maximum - look.range.minimum);

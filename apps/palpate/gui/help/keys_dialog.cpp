@@ -77,9 +77,10 @@ void setWidestWords(const std::vector<QLabel*>& words, int widest) {
 
 std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
   std::vector<KeyEntry> entries;
-  for (const char* section : {"File", "Edit", "Hand", "Playback", "View", "Hand in 3-D", "Help"}) {
+  for (const char* section :
+       {"File", "Edit", "View", "Hand in 3-D", "Analysis", "Hand", "Playback", "Help"}) {
     for (const QAction* action : actions) {
-      if (sectionOf(*action) != section || !action->isVisible()) continue;
+      if (sectionOf(*action) != section) continue;
       if (const auto kind = kindOf(*action)) {
         if (entries.back().what != kind->what) entries.push_back({section, kind->keys, kind->what});
         continue;
@@ -98,10 +99,10 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   // Distributes the sections so that the columns are about equally long.
   std::vector<KeyEntry> left, middle, right, space;
   for (const KeyEntry& entry : keysOf(actions))
-    (entry.section == "File" || entry.section == "Hand"   ? left
-     : entry.section == "View" || entry.section == "Help" ? middle
-     : entry.section == "Hand in 3-D"                     ? space
-                                                          : right)
+    (entry.section == "File" || entry.section == "Hand"                                  ? left
+     : entry.section == "View" || entry.section == "Analysis" || entry.section == "Help" ? middle
+     : entry.section == "Hand in 3-D"                                                    ? space
+                                                                                         : right)
         .push_back(entry);
   space.insert(space.end(), mouseEntries().begin(), mouseEntries().end());
   auto* content = new QWidget(this);

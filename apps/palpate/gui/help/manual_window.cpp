@@ -63,6 +63,8 @@ QToolButton* arrowButton(Qt::ArrowType arrow, const QString& what, QWidget* pare
 ManualBrowser::ManualBrowser(const ManualPages& pages, QWidget* parent)
     : QTextBrowser(parent), pages_(pages) {
   setOpenLinks(false);
+  // A bar that comes and goes would change the width of the page, and move what it was scrolled to.
+  setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
   setFrameShape(QFrame::NoFrame);
   setAccessibleName("Page of the manual");
   document()->setDocumentMargin(kPageMargin);

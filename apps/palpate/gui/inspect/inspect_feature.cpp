@@ -99,13 +99,9 @@ InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
 
 void InspectFeature::makeActions() {
   ActionRegistry& book = state().actions;
-  for (int i = 0; i < ActionRegistry::kMatricesWithKeys; ++i)
-    plots_.append(book.add("plots",
-                           "View",
-                           "Plot matrix " + QString::number(i),
-                           {QKeySequence("Ctrl+" + QString::number(i + 1))},
-                           true));
-  plots_.append(book.add("plots", "View", "Plot all matrices together", {key("Ctrl+0")}, true));
+  for (int i = 0; i < ActionRegistry::kListedMatrices; ++i)
+    plots_.append(book.add("plots", "View", "Plot matrix " + QString::number(i), {}, true));
+  plots_.append(book.add("plots", "View", "Plot all matrices together", {}, true));
 }
 
 void InspectFeature::takeSource() {
@@ -167,7 +163,7 @@ void InspectFeature::showPlotted() {
 }
 
 std::vector<DockSpec> InspectFeature::docks() {
-  return {{.dock = dock_, .key = QKeySequence("Ctrl+I"), .tab = 0}};
+  return {{.dock = dock_, .key = QKeySequence("Ctrl+I"), .tab = 0, .shownIn = {Preset::kAnalyse}}};
 }
 
 std::vector<ExportedView> InspectFeature::views() {

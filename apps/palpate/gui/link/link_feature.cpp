@@ -155,7 +155,7 @@ void LinkFeature::look() {
 }
 
 std::vector<DockSpec> LinkFeature::docks() {
-  return {{.dock = dock_, .key = QKeySequence("Ctrl+J"), .tab = 1}};
+  return {{.dock = dock_, .key = QKeySequence("Ctrl+J"), .tab = 1, .shownIn = {Preset::kRecord}}};
 }
 
 std::vector<BannerSpec> LinkFeature::strips() { return {{BannerSpec::Order::kAlarm, alarms_}}; }

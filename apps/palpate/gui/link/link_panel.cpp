@@ -63,10 +63,10 @@ std::vector<Fact> factsOf(const LinkHealth& health) {
   facts.push_back({"tactile", portText(tactile), tactile.state != PortState::kStreaming});
   if (const auto& motion = health.device.motion)
     facts.push_back({"motion", portText(*motion), motion->state != PortState::kStreaming});
-  facts.push_back(
-      {"rate",
-       figure(health.frames.rateHz, 1) + " fps (mean " + figure(health.frames.meanRateHz, 1) + ")",
-       health.frames.lowRateS > 0.0});
+  facts.push_back({"rate",
+                   figure(health.frames.rateHz, 1) + " frames/s (mean " +
+                       figure(health.frames.meanRateHz, 1) + ")",
+                   health.frames.lowRateS > 0.0});
   constexpr double kOldMs = 500.0;
   const auto age = health.frames.ageMs;
   const QString ageText = !age              ? QString("no frame yet")

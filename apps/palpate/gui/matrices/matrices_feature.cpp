@@ -1,13 +1,13 @@
 #include "gui/matrices/matrices_feature.h"
 
 #include <QMenu>
+#include <set>
 #include <utility>
 
 #include <palpate/recording/table_export.h>
 
 #include "gui/appearance/color_map.h"
 #include "gui/appearance/icons.h"
-#include "gui/appearance/next_choice.h"
 #include "gui/appearance/window_settings.h"
 #include "gui/matrices/matrices_frame_painter.h"
 #include "gui/matrices/matrices_painter.h"
@@ -16,21 +16,19 @@
 namespace palpate::gui {
 
 MatricesActions::MatricesActions(ActionRegistry& book) {
-  interpolated = book.make("interpolated", "View", "&Smooth", {key("I")}, true);
-  interpolated->setToolTip("Smooth between taxels (I)");
-  values = book.make("values", "View", "&Values", {key("V")}, true);
-  values->setToolTip("Print the value of each active taxel (V)");
-  nextMap = book.make("nextMap", "View", "Next colour map", {key("M")});
-  nextRange = book.make("nextRange", "View", "Next colour ra&nge", {key("R")});
-  scanOnly = book.make("scanOnly", "Hand", "Scan &only the chosen taxels", {});
+  interpolated = book.make("interpolated", "View", "&Smooth", {}, true);
+  interpolated->setToolTip("Smooth between taxels");
+  values = book.make("values", "View", "&Values", {}, true);
+  values->setToolTip("Print the value of each active taxel");
+  scanOnly = book.make("scanOnly", "Hand", "Scan &only the chosen taxels");
   scanOnly->setToolTip("No taxel of the other matrices is scanned: the most frames per second");
   scanOnlyInTheirMatrices = book.make(
       "scanOnlyInTheirMatrices", "Hand", "Scan only the chosen taxels of these &matrices", {});
   scanOnlyInTheirMatrices->setToolTip("The other matrices stay as they are");
-  scanWithout = book.make("scanWithout", "Hand", "&Leave the chosen taxels out", {});
-  scanAlso = book.make("scanAlso", "Hand", "Scan the chosen taxels, &too", {});
-  scanAll = book.make("scanAll", "Hand", "Scan &all taxels", {});
-  chooseNone = book.make("chooseNone", "Hand", "Choose no ta&xel", {key("Ctrl+Shift+A")});
+  scanWithout = book.make("scanWithout", "Hand", "&Leave the chosen taxels out");
+  scanAlso = book.make("scanAlso", "Hand", "Scan the chosen taxels, &too");
+  scanAll = book.make("scanAll", "Hand", "Scan &all taxels");
+  chooseNone = book.make("chooseNone", "Hand", "Choose no ta&xel");
   QStringList names;
   for (const ColorMapName map : kAllColorMaps) names.append(nameOf(map));
   maps = book.choices("maps", names);
@@ -66,6 +64,12 @@ MatricesFeature::MatricesFeature(WindowState& windowState, QWidget* window)
   DerivedResults& derivedResults = windowState.derivedResults;
   connect(&derivedResults, &DerivedResults::pressureChanged, this, [this, &derivedResults] {
     panel_->view().setPressure(derivedResults.pressure());
+  });
+  connect(&derivedResults, &DerivedResults::slipsChanged, this, [this, &derivedResults] {
+    std::set<std::size_t> slipping;
+    for (const HandSlip& slip : derivedResults.slips())
+      if (slip.slipping) slipping.insert(slip.matrix);
+    panel_->view().setSlipping(slipping);
   });
   followUnits(&panel_->view());
   connect(&derivedResults, &DerivedResults::unmeasurableChanged, this, [this, &derivedResults] {
@@ -103,12 +107,6 @@ void MatricesFeature::connectLook() {
   });
   on(actions.values,
      [&look](bool checked) { look.change([&](ViewSettings& view) { view.values = checked; }); });
-  on(actions.nextMap, [&look] {
-    look.change([](ViewSettings& view) { view.map = after(kAllColorMaps, view.map); });
-  });
-  on(actions.nextRange, [&look] {
-    look.change([](ViewSettings& view) { view.range = after(kAllRangeModes, view.range); });
-  });
   const auto useMap = [&look](ColorMapName map) {
     look.change([&](ViewSettings& view) { view.map = map; });
   };

@@ -19,8 +19,6 @@ struct MatricesActions {
 
   QAction* interpolated = nullptr;
   QAction* values = nullptr;
-  QAction* nextMap = nullptr;
-  QAction* nextRange = nullptr;
   // Set the mask of scanned taxels from the selected taxels.
   QAction* scanOnly = nullptr;
   QAction* scanOnlyInTheirMatrices = nullptr;

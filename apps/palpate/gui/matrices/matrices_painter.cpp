@@ -36,6 +36,12 @@ double niceStep(double span, double parts) {
 
 QString tickText(double value) { return QString::number(value, 'g', 6); }
 
+// Taxels at rest are dark in both themes: on a light ground the weakest touch would be the darkest
+// place, and look like the strongest. Differences have a map for each theme.
+const ThemeColors& cellColors(const MatricesPictureOptions& options) {
+  return colorsOf(options.difference ? options.theme : Theme::kDark);
+}
+
 const ColorTable& tableOf(const MatricesPictureOptions& options) {
   return options.difference ? differenceTable(options.theme) : colorTable(options.map);
 }
@@ -182,7 +188,7 @@ void paintColorBar(QPainter& painter,
   painter.drawRect(bar);
   if (!options.difference) {
     constexpr double kRestGapPx = 3.0, kRestHeightPx = 5.0;
-    painter.setBrush(colorsOf(options.theme).taxel);
+    painter.setBrush(cellColors(options).taxel);
     painter.drawRect(QRectF(bar.left(), bar.bottom() + kRestGapPx, bar.width(), kRestHeightPx));
     painter.setBrush(Qt::NoBrush);
   }
@@ -237,7 +243,7 @@ void paintMatricesBackground(QPainter& painter,
         if (!layout.exists(y, x)) continue;
         const QRectF square = squareOf(geometry.taxelRect(m, y, x));
         if (layout.enabled(y, x))
-          painter.fillRect(square, colors.taxel);
+          painter.fillRect(square, cellColors(options).taxel);
         else
           paintMasked(painter, square, colors);
       }

@@ -57,7 +57,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   auto* title = new QLabel("<b>Matrices</b>", header);
   map_ = named(new QComboBox(header), "mapBox");
   map_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
-  map_->setToolTip("Colour map (M)");
+  map_->setToolTip("Colour map");
   for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
   range_ = named(new QComboBox(header), "rangeBox");
   range_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
@@ -65,7 +65,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
     box->setMinimumHeight(kMatricesPanelControlHeight);
     box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   }
-  range_->setToolTip("Upper end of the colour range (R)");
+  range_->setToolTip("Upper end of the colour range");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour");
   maximum_ = rangeField(header, "rangeMaximum", "Value of the highest colour");

@@ -139,6 +139,7 @@ void MatricesView::paintEvent(QPaintEvent* event) {
     painter.drawRect(geometry_.taxelRect(hover_->matrix, hover_->y, hover_->x));
   }
   paintUnmeasurable(painter);
+  for (const std::size_t m : slipping_) paintFrame(painter, m, "slip");
   paintSelection(painter);
   paintStaleNotice(painter, rect(), stale_, look_.theme);
   if (!frame_ || frame_->hostUs == paintedUs_) return;
@@ -174,23 +175,31 @@ void MatricesView::setUnmeasurable(const std::vector<QString>& why) {
   update();
 }
 
-// Paints a frame around a matrix that can't measure the limit, and a text in its middle: its dark
-// taxels don't mean that there is no contact.
+void MatricesView::setSlipping(const std::set<std::size_t>& matrices) {
+  if (matrices == slipping_) return;
+  slipping_ = matrices;
+  update();
+}
+
+// Dark taxels of a matrix that can't measure the limit don't mean that there is no contact.
 void MatricesView::paintUnmeasurable(QPainter& painter) const {
+  for (std::size_t m = 0; m < unmeasurable_.size(); ++m)
+    if (!unmeasurable_[m].isEmpty()) paintFrame(painter, m, kBlind);
+}
+
+void MatricesView::paintFrame(QPainter& painter, std::size_t matrix, const QString& word) const {
+  if (matrix >= geometry_.numMatrices()) return;
   const QColor& color = colorsOf(look_.theme).danger;
-  for (std::size_t m = 0; m < std::min(unmeasurable_.size(), geometry_.numMatrices()); ++m) {
-    if (unmeasurable_[m].isEmpty()) continue;
-    const QRectF rect = geometry_.matrixRect(m);
-    painter.setPen(QPen(color, 3.0));
-    painter.setBrush(Qt::NoBrush);
-    painter.drawRect(rect.adjusted(1.5, 1.5, -1.5, -1.5));
-    const QRectF word = QFontMetricsF(font())
-                            .boundingRect(rect, Qt::AlignHCenter | Qt::AlignBottom, kBlind)
-                            .adjusted(-6.0, -6.0, 6.0, -3.0);
-    painter.fillRect(word, color);
-    painter.setPen(colorsOf(look_.theme).window);
-    painter.drawText(word, Qt::AlignCenter, kBlind);
-  }
+  const QRectF rect = geometry_.matrixRect(matrix);
+  painter.setPen(QPen(color, 3.0));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(rect.adjusted(1.5, 1.5, -1.5, -1.5));
+  const QRectF place = QFontMetricsF(font())
+                           .boundingRect(rect, Qt::AlignHCenter | Qt::AlignBottom, word)
+                           .adjusted(-6.0, -6.0, 6.0, -3.0);
+  painter.fillRect(place, color);
+  painter.setPen(colorsOf(look_.theme).window);
+  painter.drawText(place, Qt::AlignCenter, word);
 }
 
 void MatricesView::setStale(const StaleNotice& old) {

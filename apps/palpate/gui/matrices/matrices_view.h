@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <palpate/model/taxel_selection.h>
@@ -64,6 +65,9 @@ class MatricesView : public QWidget {
   // connected.
   void setUnmeasurable(const std::vector<QString>& why);
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
+  // Marks matrices whose contact slips.
+  void setSlipping(const std::set<std::size_t>& matrices);
+  const std::set<std::size_t>& slipping() const noexcept { return slipping_; }
   // Shows the notice over a stale or held picture.
   void setStale(const StaleNotice& old);
   const QString& notice() const noexcept { return stale_.notice; }
@@ -105,6 +109,8 @@ class MatricesView : public QWidget {
   void choose(const TaxelPlace& from, const TaxelPlace& to);
   void paintSelection(QPainter& painter) const;
   void paintUnmeasurable(QPainter& painter) const;
+  // A frame around a matrix, with a word at its lower end.
+  void paintFrame(QPainter& painter, std::size_t matrix, const QString& word) const;
 
   std::optional<HandDescription> hand_;
   std::optional<TactileFrame> frame_;
@@ -124,6 +130,7 @@ class MatricesView : public QWidget {
   std::optional<TaxelPlace> pressed_;
   StaleNotice stale_;
   std::vector<QString> unmeasurable_;
+  std::set<std::size_t> slipping_;
   std::int64_t paintedUs_ = 0;
 };
 

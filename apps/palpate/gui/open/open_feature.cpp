@@ -1,8 +1,10 @@
 #include "gui/open/open_feature.h"
 
 #include <QComboBox>
+#include <QDate>
 #include <QDragEnterEvent>
 #include <QFileInfo>
+#include <QLocale>
 #include <QMenu>
 #include <QMimeData>
 #include <algorithm>
@@ -17,7 +19,7 @@ namespace palpate::gui {
 
 OpenActions::OpenActions(ActionRegistry& book) {
   open = book.make("open", "File", "&Open…", {key("Ctrl+O")});
-  openDemo = book.make("openDemo", "File", "Open the &demo recording", {key("Ctrl+D")});
+  openDemo = book.make("openDemo", "File", "Open the &demo recording");
   nextRecording = book.make("nextRecording", "File", "&Next open recording", {key("Ctrl+Tab")});
   previousRecording =
       book.make("previousRecording", "File", "&Previous open recording", {key("Ctrl+Shift+Tab")});
@@ -92,6 +94,7 @@ void OpenFeature::connectOpener() {
           });
   connect(&windowState.displayed, &DisplayedSource::changed, this, [this, &windowState] {
     listRecordings();
+    showLastConnection();
     const OpenedRecordingPtr recording = windowState.displayed.recorded();
     if (recording && recording->profile.numFrames() == 0)
       windowState.messages.fail(fileNameOf(*recording) +
@@ -143,13 +146,32 @@ void OpenFeature::connectStartPage() {
           &StartPage::emulatedRequested,
           windowState.actions.at("tryEmulated"),
           &QAction::trigger);
+  connect(startPage_, &StartPage::againRequested, this, [&windowState] {
+    windowState.connectTo(loadConnection(windowState.settings));
+  });
   connect(startPage_, &StartPage::fileChosen, this, [&windowState](const QString& path) {
     windowState.open({path.toStdString()});
   });
 }
 
+// The emulated hand has a button of its own.
+void OpenFeature::showLastConnection() {
+  QSettings& settings = state().settings;
+  const Connection last = loadConnection(settings);
+  if (!hasLastConnection(settings) || !problemOf(last).isEmpty() ||
+      last.kind == Connection::Kind::kEmulated)
+    return startPage_->setLastConnection({});
+  const QDate day = QDate::fromString(settings.value(kLastConnectionDay).toString(), Qt::ISODate);
+  const qint64 ago = day.isValid() ? day.daysTo(QDate::currentDate()) : -1;
+  startPage_->setLastConnection(describe(last) + (ago == 0   ? ", today"
+                                                  : ago == 1 ? ", yesterday"
+                                                  : ago > 1 ? QLocale::c().toString(day, ", d MMMM")
+                                                            : ""));
+}
+
 void OpenFeature::start() {
   connectStartPage();
+  showLastConnection();
   fillRecentMenu();
   listRecordings();
 }

@@ -43,6 +43,7 @@ class OpenFeature : public Feature {
   void connectOpener();
   void connectActions();
   void connectStartPage();
+  void showLastConnection();
   void openDemoRecording();
   void take(const OpenedRecordingPtr& recording, const OpenArrival& arrival);
   void listRecordings();

@@ -75,9 +75,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
       button("Connect a hand…", "startConnect", "Ports, emulated hand, replay (Ctrl+K)");
   connectHand->setProperty("primary", true);
   connect(connectHand, &QPushButton::clicked, this, &StartPage::connectRequested);
-  connect(button("Try the emulated hand",
-                 "startEmulated",
-                 "A simulated hand that grasps a ball (Ctrl+Shift+D)"),
+  connect(button("Try the emulated hand", "startEmulated", "A simulated hand that grasps a ball"),
           &QPushButton::clicked,
           this,
           &StartPage::emulatedRequested);
@@ -92,10 +90,14 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
           this,
           &StartPage::libraryRequested);
   if (withDemo)
-    connect(button("Try the demo recording", "startDemo", "(Ctrl+D)"),
+    connect(button("Try the demo recording", "startDemo", ""),
             &QPushButton::clicked,
             this,
             &StartPage::demoRequested);
+  again_ = makeButton(this, "startAgain", "");
+  again_->setMinimumHeight(38);
+  again_->hide();
+  connect(again_, &QPushButton::clicked, this, &StartPage::againRequested);
   dropHint_ = makeLines(this, "DropHint", {}, kDropText);
   dropHint_->setAlignment(Qt::AlignCenter);
   dropHint_->setMinimumHeight(64);
@@ -111,6 +113,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   column_->addWidget(title);
   column_->addWidget(subtitle);
   column_->addSpacing(16);
+  column_->addWidget(again_);
   column_->addLayout(buttons);
   column_->addSpacing(4);
   column_->addWidget(dropHint_);
@@ -124,6 +127,16 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   scroll->setWidget(content);
   setLayout(inColumn({scroll}));
   connect(&recent_, &RecentFiles::changed, this, &StartPage::listRecent);
+}
+
+void StartPage::setScene(QWidget* scene) {
+  column_->insertWidget(2, scene);  // below the words
+}
+
+void StartPage::setLastConnection(const QString& text) {
+  again_->setText("Connect again: " + QString(text).replace('&', "&&"));
+  again_->setToolTip(text);
+  again_->setVisible(!text.isEmpty());
 }
 
 void StartPage::setDragging(bool on) {

@@ -8,6 +8,7 @@
 #include "gui/source/recent_files.h"
 
 class QLabel;
+class QPushButton;
 class QVBoxLayout;
 
 namespace palpate::gui {
@@ -17,6 +18,10 @@ class StartPage : public QWidget {
  public:
   // `recent` must outlive this. `withDemo`: whether the demo recording exists.
   StartPage(RecentFiles& recent, bool withDemo, QWidget* parent = nullptr);
+  // Puts a picture above the buttons.
+  void setScene(QWidget* scene);
+  // What the last connection was, and when; empty: there was none.
+  void setLastConnection(const QString& text);
   // A file is being dragged over the window.
   void setDragging(bool on);
 
@@ -26,6 +31,8 @@ class StartPage : public QWidget {
   // The user wants the demo recording.
   void demoRequested();
   void connectRequested();
+  // The user wants the last connection.
+  void againRequested();
   void emulatedRequested();
   void fileChosen(const QString& path);
 
@@ -38,6 +45,7 @@ class StartPage : public QWidget {
   RecentFiles& recent_;
   QWidget* list_ = nullptr;
   QVBoxLayout* column_;
+  QPushButton* again_;
   QLabel* recentHeading_;
   QLabel* dropHint_;
 };

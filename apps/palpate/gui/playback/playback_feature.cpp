@@ -21,9 +21,9 @@ PlaybackActions::PlaybackActions(ActionRegistry& book) {
   goToFrame = book.make("goToFrame", "Playback", "&Go to frame…", {key("Ctrl+G")});
   faster = book.make("faster", "Playback", "F&aster", {key("Up"), key("+"), key("=")});
   slower = book.make("slower", "Playback", "&Slower", {key("Down"), key("-")});
-  loop = book.make("loop", "Playback", "&Loop", {key("L")}, true);
-  skipGaps = book.make("skipGaps", "Playback", "S&kip gaps", {key("G")}, true);
-  skipGaps->setToolTip("Jump over the gaps of a recording while playing (G)");
+  loop = book.make("loop", "Playback", "&Loop", {}, true);
+  skipGaps = book.make("skipGaps", "Playback", "S&kip gaps", {}, true);
+  skipGaps->setToolTip("Jump over the gaps of a recording while playing");
   QStringList names;
   for (const double speed : PlaybackController::kSpeeds) names.append(QString::number(speed) + "×");
   speeds = book.choices("speeds", names);

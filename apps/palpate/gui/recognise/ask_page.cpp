@@ -50,7 +50,7 @@ AskPage::AskPage(RecognitionController& controller, Ask& ask, QWidget* parent)
   });
   byItself_ = named(
       new QCheckBox("Automatic", this), "recogniseByItself", "Repeats while something is held");
-  auto* show = makeButton(this, "showMode", "Show", "Full screen, for an audience (Shift+Q)");
+  auto* show = makeButton(this, "showMode", "Show", "Full screen, for an audience (Ctrl+5)");
   view_ = named(new AnswerView(controller.photos(), 1.0, this), "answerView");
   classes_ = named(new QComboBox(this), "tellClass", {}, "What it is");
   classes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);

@@ -18,6 +18,8 @@ constexpr int kShowStateLines = 2;        // reserved, so that the answer seldom
 constexpr double kShowLargerText = 1.25;  // than in the window: it is read from further away
 constexpr int kShowStopLetters = 24;      // a large button is hit at once
 constexpr int kShowRowMargin = 16;
+constexpr int kSceneShare = 3, kAnswerShare = 2;  // of the width
+constexpr qsizetype kMostBefore = 3;
 
 }  // namespace
 
@@ -34,9 +36,12 @@ PresentationWindow::PresentationWindow(RecognitionController& controller,
   setPalette(plain);
   setAutoFillBackground(true);
   view_ = named(new AnswerView(controller.photos(), 0.0, this), "showAnswer");
+  before_ = makeLines(this, "showBefore", "muted");
+  before_->setContentsMargins(kShowRowMargin, 0, kShowRowMargin, kShowRowMargin);
   showAnswer();
   connect(&controller, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
-  setLayout(inColumn({{view_, 1}, makeHandRow()}, Space::kNone));
+  row_ = inRow({{inColumn({{view_, 1}, before_}, Space::kNone), kAnswerShare}}, Space::kNone);
+  setLayout(inColumn({{row_, 1}, makeHandRow()}, Space::kNone));
   refusedTimer_.setSingleShot(true);
   refusedTimer_.setInterval(kShowRefusedMs);
   connect(&refusedTimer_, &QTimer::timeout, this, [this] {
@@ -58,6 +63,8 @@ PresentationWindow::PresentationWindow(RecognitionController& controller,
   showHand();
 }
 
+void PresentationWindow::setScene(QWidget* scene) { row_->insertWidget(0, scene, kSceneShare); }
+
 QWidget* PresentationWindow::makeHandRow() {
   handRow_ = named(new QWidget(this), "showHand");
   handState_ = makeLines(handRow_, "showHandState");
@@ -75,6 +82,7 @@ QWidget* PresentationWindow::makeHandRow() {
     QFont larger = font();
     larger.setPointSizeF(kShowLargerText * fontInfo().pointSizeF());
     handState_->setFont(larger);
+    before_->setFont(larger);
     larger.setBold(true);
     stop->setFont(larger);
     const QFontMetrics metrics(larger);
@@ -126,6 +134,14 @@ void PresentationWindow::showAnswer() {
   const bool ofNow = answer.of.isEmpty() || answer.of == kHeldNow;
   if (answer.of == kLastGrasp || (live_ && !ofNow)) answer = {};
   answer.of.clear();
+  answer.offset.clear();
+  if (answer.sure && answer.name() != sure_.value(0)) {
+    sure_.prepend(answer.name());
+    sure_ = sure_.mid(0, kMostBefore + 1);
+  }
+  // The name that is shown isn't one of those before.
+  const QStringList before = sure_.mid(answer.name() == sure_.value(0) ? 1 : 0, kMostBefore);
+  before_->setText(before.isEmpty() ? QString() : "before: " + before.join(", "));
   // The audience needs no hint about buttons.
   if (answer.kind == RecognitionAnswer::Kind::kNothing)
     answer.text = "Put an object into the hand.";
@@ -134,7 +150,8 @@ void PresentationWindow::showAnswer() {
 
 void PresentationWindow::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Q && event->modifiers() == Qt::NoModifier) return emit asked();
-  if (event->key() == Qt::Key_Escape || event->key() == Qt::Key_Q) {
+  if (event->key() == Qt::Key_Escape ||
+      (event->key() == Qt::Key_5 && event->modifiers() == Qt::ControlModifier)) {
     close();
     return;
   }

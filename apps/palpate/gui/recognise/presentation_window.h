@@ -1,15 +1,17 @@
-// The full-screen window that shows only the answer, for an audience. With a connected hand it
-// names only what is held now. While a hand is connected that can be moved, a row below the answer
-// has a large button Stop and what the hand does; the keys of its motions work here, too. Esc or
-// the key that opened it closes it.
+// The full-screen window for an audience: the hand with its heat maps at the left, the answer at
+// the right. With a connected hand it names only what is held now. While a hand is connected that
+// can be moved, a row below the answer has a large button Stop and what the hand does; the keys of
+// its motions work here, too. Esc or the key that opened it closes it.
 #pragma once
 
+#include <QStringList>
 #include <QTimer>
 #include <QWidget>
 
 #include "gui/recognise/recognition_controller.h"
 #include "gui/window_state/hand_commands.h"
 
+class QBoxLayout;
 class QLabel;
 class QPushButton;
 
@@ -26,6 +28,8 @@ class PresentationWindow : public QWidget {
                      bool live,
                      QWidget* parent = nullptr);
   AnswerView& view() noexcept { return *view_; }
+  // Shows this at the left of the answer.
+  void setScene(QWidget* scene);
   // `live`: a connected hand is shown, so that answers about recordings are left out.
   void setLive(bool live);
   // Why nothing arrives from the hand; the answer is greyed and stays so long. Empty: frames
@@ -49,7 +53,10 @@ class PresentationWindow : public QWidget {
   RecognitionController& controller_;
   HandCommands& hand_;
   bool live_;
+  QBoxLayout* row_;
   AnswerView* view_;
+  QLabel* before_;
+  QStringList sure_;  // the last sure answers, the newest first
   QWidget* handRow_;
   QLabel* handState_;
   QString refused_;

@@ -19,10 +19,10 @@
 namespace palpate::gui {
 
 RecogniseActions::RecogniseActions(ActionRegistry& book) {
-  whatIsIt = book.make("whatIsIt", "Hand", "&What is it?", {key("Q")});
+  whatIsIt = book.make("whatIsIt", "Analysis", "&What is it?", {key("Q")});
   whatIsIt->setToolTip("Recognises the selected grasp, or what is held (Q)");
   presentationMode =
-      book.make("showMode", "Hand", "The &answer on the whole screen", {key("Shift+Q")});
+      book.make("showMode", "View", "&Show: the answer on the whole screen", {key("Ctrl+5")});
 }
 
 namespace {
@@ -253,6 +253,7 @@ void RecogniseFeature::showFull() {
   if (!panel_->controller().whyNoModel().isEmpty()) return showWhyNoModel();
   full_ = new PresentationWindow(
       panel_->controller(), state().handCommands, state().displayed.source() != nullptr, window());
+  if (makeScene) full_->setScene(makeScene(full_));
   connect(full_, &PresentationWindow::asked, this, &RecogniseFeature::ask);
   full_->showFullScreen();
   renew();
@@ -355,6 +356,7 @@ void RecogniseFeature::settle() { panel_->settle(); }
 std::vector<DockSpec> RecogniseFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+Shift+I"),
+           .menu = "Analysis",
            .tab = 5,
            .preferredWidthPx = kRecogniseUsualWidth}};
 }

@@ -8,6 +8,7 @@
 #include <QPointer>
 #include <QTimer>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,6 +42,8 @@ class RecogniseFeature : public Feature {
   ~RecogniseFeature() override;
 
   RecognisePanel& panel() noexcept { return *panel_; }
+  // Makes what is shown beside the answer on the whole screen; may be empty.
+  std::function<QWidget*(QWidget* parent)> makeScene;
   std::vector<DockSpec> docks() override;
   std::vector<ExportedView> views() override;
   void settle() override;

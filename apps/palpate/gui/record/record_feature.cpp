@@ -30,10 +30,8 @@ RecordActions::RecordActions(ActionRegistry& book) {
   openRecorded =
       book.make("openRecorded", "Hand", "&Open the last recording", {key("Ctrl+Shift+O")});
   recordingPlan = book.make("recordingPlan", "Hand", "Plan o&f recordings…", {key("Ctrl+Alt+P")});
-  renameRecorded =
-      book.make("renameRecorded", "Hand", "Rename the last recordin&g…", {key("Ctrl+Alt+N")});
-  discardRecorded =
-      book.make("discardRecorded", "Hand", "Discard the last recording…", {key("Ctrl+Alt+D")});
+  renameRecorded = book.make("renameRecorded", "Hand", "Rename the last recordin&g…");
+  discardRecorded = book.make("discardRecorded", "Hand", "Discard the last recording…");
   mark = book.make("mark", "Hand", "&Mark the moment", {key("Space")});
   for (int digit = 0; digit < kDigits; ++digit)
     labels.append(book.add("labels",

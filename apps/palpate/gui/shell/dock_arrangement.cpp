@@ -4,9 +4,9 @@
 #include <QChildEvent>
 #include <QFontInfo>
 #include <QLayout>
+#include <QRegularExpression>
 #include <QTabBar>
 #include <algorithm>
-#include <cstdlib>
 
 #include "gui/shell/central_widget.h"
 #include "gui/shell/dock_layout.h"
@@ -20,8 +20,8 @@ namespace {
 using Kind = DisplayedSource::Kind;
 
 // Least width of the right side [px]: a table fits without eliding.
-constexpr int kNarrowestRight = 455;
-constexpr double kRightShare = 0.345;  // of the window's width
+constexpr int kNarrowestRight = 400;
+constexpr double kRightShare = 0.3;  // of the window's width
 constexpr int kNarrowestRightLive = 330;
 constexpr double kRightShareLive = 0.24;
 // Largest width of the left side: in sizes of the text, and a share of the window's width.
@@ -42,9 +42,35 @@ bool isAcross(Qt::DockWidgetArea side) {
 }
 
 // Empty: there is none that Qt can restore safely.
-QByteArray storedLayout(const QSettings& settings, const char* key) {
+QByteArray storedLayout(const QSettings& settings, const QString& key) {
   const QByteArray layout = settings.value(key).toByteArray();
   return isDockLayout(layout) ? layout : QByteArray();
+}
+
+// The kinds of source that have layouts, with their names in the settings and their first presets.
+struct PlaceOfLayouts {
+  Kind kind;
+  const char* name;
+  Preset preset;
+};
+constexpr PlaceOfLayouts kRecordingLayouts{Kind::kRecording, "recording", Preset::kWatch};
+constexpr PlaceOfLayouts kLiveLayouts{Kind::kLive, "live", Preset::kGrasp};
+constexpr PlaceOfLayouts kPlaces[] = {kRecordingLayouts, kLiveLayouts};
+
+// What a name of a preset may contain, so that it is a key of the settings.
+const QRegularExpression kPresetName("^[\\w .+()-]{1,30}$",
+                                     QRegularExpression::UseUnicodePropertiesOption);
+constexpr qsizetype kMostOwnPresets = 10;
+
+QString presetKey(const PlaceOfLayouts& place) { return QString("window/preset_") + place.name; }
+QString layoutsGroup(const PlaceOfLayouts& place) {
+  return QString("window/layouts_") + place.name;
+}
+
+QStringList presetNames() {
+  QStringList names;
+  for (const Preset preset : kAllPresets) names.append(nameOf(preset));
+  return names;
 }
 
 QString shownKey(const Dock& dock) { return dock.objectName().toLower() + "/shown"; }
@@ -55,8 +81,18 @@ DockArrangement::DockArrangement(QMainWindow& window,
                                  const CentralWidget& centre,
                                  QSettings& settings)
     : window_(window), centre_(centre), settings_(settings) {
-  layouts_[Kind::kRecording] = storedLayout(settings, "window/layout");
-  layouts_[Kind::kLive] = storedLayout(settings, "window/live_layout");
+  for (const PlaceOfLayouts& place : kPlaces) {
+    settings.beginGroup(layoutsGroup(place));
+    for (const QString& name : settings.childKeys())
+      if (const QByteArray layout = storedLayout(settings, name);
+          kPresetName.match(name).hasMatch() && !layout.isEmpty())
+        layouts_[place.kind][name] = layout;
+    settings.endGroup();
+    const QString used = settings.value(presetKey(place)).toString();
+    preset_[place.kind] =
+        presetNames().contains(used) || ownPresets().contains(used) ? used : nameOf(place.preset);
+  }
+  preset_[Kind::kNothing];
   window.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   window.installEventFilter(this);
@@ -82,7 +118,7 @@ void DockArrangement::add(const DockSpec& offer) {
     connect(
         pages, &FittingPages::currentChanged, this, [this, dock = offer.dock] { fitShown(*dock); });
   QAction* toggle = offer.dock->toggleViewAction();
-  setSection(*toggle, "View");
+  setSection(*toggle, offer.menu);
   toggle->setShortcut(offer.key);
   window_.addAction(toggle);
   // The key of a dock behind another tab brings it to the front, where Qt's own handler would close
@@ -125,17 +161,26 @@ const DockSpec* DockArrangement::leftWhileLive() const {
 // On the start page docks without content are hidden.
 void DockArrangement::setPlace(Kind place) {
   if (placed_ && place == place_) return;
-  if (placed_ && place_ != Kind::kNothing) layouts_[place_] = window_.saveState();
+  if (placed_) store();
+  placed_ = true;
+  place_ = place;
+  restore();
+}
+
+void DockArrangement::store() {
+  if (place_ != Kind::kNothing) layouts_[place_][preset()] = window_.saveState();
+}
+
+void DockArrangement::restore() {
   const QSize before = window_.size();
   std::vector<bool> shown;
   for (const DockSpec& offer : offers_) shown.push_back(!offer.dock->isHidden());
-  placed_ = true;
-  place_ = place;
-  const bool there = place != Kind::kNothing;
-  if (there) {
-    if (layouts_[place].isEmpty() || !window_.restoreState(layouts_[place])) reset();
-  } else {
+  const bool there = place_ != Kind::kNothing;
+  if (!there) {
     for (const DockSpec& offer : offers_) offer.dock->hide();
+  } else if (const QByteArray& layout = layouts_[place_][preset()];
+             layout.isEmpty() || !window_.restoreState(layout)) {
+    reset();
   }
   for (std::size_t i = 0; i < offers_.size(); ++i) {
     const DockSpec& offer = offers_[i];
@@ -143,6 +188,51 @@ void DockArrangement::setPlace(Kind place) {
     if (offer.everywhere) offer.dock->setVisible(shown[i]);
   }
   keepWindowSize(before, leftWhileLive() ? leftWhileLive()->dock : nullptr);
+  emit presetsChanged();
+}
+
+void DockArrangement::use(const QString& preset) {
+  if (place_ == Kind::kNothing) return;
+  store();
+  preset_[place_] = preset;
+  restore();
+}
+
+Preset DockArrangement::standard() const {
+  for (const Preset each : kAllPresets)
+    if (nameOf(each) == preset()) return each;
+  return (place_ == Kind::kLive ? kLiveLayouts : kRecordingLayouts).preset;
+}
+
+QStringList DockArrangement::ownPresets() const {
+  QStringList own;
+  for (const auto& [kind, layouts] : layouts_)
+    for (const auto& [name, layout] : layouts)
+      if (!presetNames().contains(name) && !own.contains(name)) own.append(name);
+  own.sort();
+  return own;
+}
+
+QString DockArrangement::keepAs(const QString& name) {
+  if (!kPresetName.match(name).hasMatch() || name.trimmed() != name)
+    return "A name has 1 to 30 letters, digits, blanks and .+-()";
+  if (presetNames().contains(name, Qt::CaseInsensitive))
+    return name + " is one of Palpate's own: choose another name";
+  if (!ownPresets().contains(name) && ownPresets().size() >= kMostOwnPresets)
+    return "There are " + QString::number(kMostOwnPresets) + " own layouts: remove one first";
+  preset_[place_] = name;
+  store();
+  emit presetsChanged();
+  return {};
+}
+
+void DockArrangement::removeOwn() {
+  const QString name = preset();
+  if (!ownPresets().contains(name)) return;
+  for (auto& [kind, layouts] : layouts_) layouts.erase(name);
+  for (const PlaceOfLayouts& place : kPlaces)
+    if (preset_[place.kind] == name) preset_[place.kind] = nameOf(place.preset);
+  restore();
 }
 
 void DockArrangement::keepWindowSize(QSize most, Dock* inFront) {
@@ -183,11 +273,12 @@ void DockArrangement::keepWindowSize(QSize most, Dock* inFront) {
 }
 
 void DockArrangement::placeDocks() {
-  const bool live = place_ == Kind::kLive;
   placeSides();
+  const Preset like = standard();
   for (const DockSpec& offer : offers_) {
     offer.dock->setFloating(false);
-    offer.dock->setVisible(!offer.everywhere && (live ? offer.shownLive : offer.shown));
+    offer.dock->setVisible(std::find(offer.shownIn.begin(), offer.shownIn.end(), like) !=
+                           offer.shownIn.end());
   }
   for (const DockSpec& offer : offers_) {
     if (!offer.above || !bottom()) continue;
@@ -225,7 +316,7 @@ void DockArrangement::reset() {
     const int usual = std::max(offer.preferredWidthPx, offer.dock->sizeHint().width());
     window_.resizeDocks({offer.dock}, {usual}, Qt::Horizontal);
   }
-  if (place_ == Kind::kNothing) return layouts_.clear();
+  if (place_ == Kind::kNothing) return;
   const bool live = place_ == Kind::kLive;
   // A window grows at once when a dock doesn't fit.
   const QSize before = window_.size();
@@ -277,9 +368,13 @@ void DockArrangement::giveSizeBack() {
 void DockArrangement::remember() {
   for (const DockSpec& offer : offers_)
     if (offer.everywhere) settings_.setValue(shownKey(*offer.dock), !offer.dock->isHidden());
-  if (place_ != Kind::kNothing) layouts_[place_] = window_.saveState();
-  settings_.setValue("window/layout", layouts_[Kind::kRecording]);
-  settings_.setValue("window/live_layout", layouts_[Kind::kLive]);
+  store();
+  for (const PlaceOfLayouts& place : kPlaces) {
+    settings_.setValue(presetKey(place), preset_[place.kind]);
+    settings_.remove(layoutsGroup(place));
+    for (const auto& [name, layout] : layouts_[place.kind])
+      settings_.setValue(layoutsGroup(place) + "/" + name, layout);
+  }
 }
 
 QStringList DockArrangement::names() const {
@@ -313,44 +408,13 @@ void DockArrangement::toggle(const DockSpec& offer) {
 }
 
 void DockArrangement::bringToFront(const DockSpec& offer) {
-  // Measured before the dock takes its place.
   const QSize windowBefore = window_.size();
-  Room before;
-  if (const Dock* beside = neighbour(*offer.dock)) before.widthBefore = beside->width();
-  if (offer.dock->isHidden()) before.opposite = opposite(*offer.dock);
-  if (offer.shareOfHeight > 0.0 && bottom()) before.bottomBefore = bottom()->dock->height();
+  const QByteArray before = offer.dock->isHidden() ? window_.saveState() : QByteArray();
   offer.dock->show();
   offer.dock->raise();
   offer.dock->toggleViewAction()->setChecked(true);
   keepWindowSize(windowBefore, offer.dock);
   makeRoomFor(offer, before);
-}
-
-std::vector<DockArrangement::Opposite> DockArrangement::opposite(const Dock& dock) const {
-  std::vector<Opposite> found;
-  const Qt::DockWidgetArea side = window_.dockWidgetArea(const_cast<Dock*>(&dock));
-  if (isAcross(side)) return found;
-  for (const DockSpec& offer : offers_) {
-    const Qt::DockWidgetArea its = window_.dockWidgetArea(offer.dock);
-    if (offer.dock->isFloating() || offer.dock->visibleRegion().isEmpty() || its == side ||
-        isAcross(its))
-      continue;
-    found.push_back({offer.dock, offer.dock->width(), 0});
-  }
-  return found;
-}
-
-Dock* DockArrangement::neighbour(const Dock& dock) const {
-  Dock* found = nullptr;
-  for (const DockSpec& offer : offers_) {
-    if (offer.dock == &dock || offer.dock->isHidden() || offer.dock->isFloating() ||
-        window_.dockWidgetArea(offer.dock) != window_.dockWidgetArea(const_cast<Dock*>(&dock)))
-      continue;
-    // A tab behind another has the size that it had when it was seen.
-    if (!offer.dock->visibleRegion().isEmpty()) return offer.dock;
-    if (!found) found = offer.dock;
-  }
-  return found;
 }
 
 void DockArrangement::widen(Dock& dock, int widthPx) {
@@ -360,63 +424,48 @@ void DockArrangement::widen(Dock& dock, int widthPx) {
   if (dock.width() < wanted) window_.resizeDocks({&dock}, {wanted}, Qt::Horizontal);
 }
 
-// Enlarges a dock that the user asked for, so that its content can be read.
-void DockArrangement::makeRoomFor(const DockSpec& offer, const Room& before) {
+void DockArrangement::makeRoomFor(const DockSpec& offer, const QByteArray& before) {
   Dock* dock = offer.dock;
   Dock* below = bottom() ? bottom()->dock : nullptr;
   if (dock->isFloating()) return;
-  if (offer.above && below && window_.height() < kLowWindow) {
-    // Without room for both, they become tabs.
+  const bool asTabs = offer.above && below && window_.height() < kLowWindow;
+  if (asTabs) {
+    // There is no room for both.
     window_.tabifyDockWidget(below, dock);
     dock->raise();
-    QTimer::singleShot(0, this, [this, dock, room = before]() mutable {
-      if (dock->isFloating() || dock->isHidden()) return;
-      room.bottom = heightOfBottom(*dock);
-      rooms_.try_emplace(dock, room);
-    });
-    return;
   }
   // Runs after the dock has got its place.
-  QTimer::singleShot(0, this, [this, offer, dock, below, before] {
+  QTimer::singleShot(0, this, [this, offer, dock, below, before, asTabs] {
     if (dock->isFloating() || dock->isHidden()) return;
     if (!isAcross(window_.dockWidgetArea(dock)))
       widen(*dock, std::max(offer.preferredWidthPx, dock->contentWidth()));
     const int wanted = static_cast<int>(window_.height() * offer.shareOfHeight);
-    if (wanted > 0 && dock->height() < wanted && below) {
+    if (!asTabs && dock->height() < wanted && below)
       window_.resizeDocks(
           {dock, below}, {wanted, static_cast<int>(window_.height() * kBottomBelow)}, Qt::Vertical);
-    }
     // The sizes hold after the layout has been applied.
-    QTimer::singleShot(0, this, [this, dock, below, room = before]() mutable {
-      if (dock->isFloating() || dock->isHidden()) return;
-      room.width = dock->width();
-      for (Opposite& other : room.opposite) other.after = other.dock->width();
-      if (room.bottomBefore > 0) room.bottom = heightOfBottom(*dock);
-      rooms_.try_emplace(dock, room);
+    QTimer::singleShot(0, this, [this, dock, before] {
+      if (!before.isEmpty() && !dock->isFloating() && !dock->isHidden())
+        opened_.try_emplace(dock, Change{before, window_.saveState()});
     });
   });
 }
 
-void DockArrangement::noteTextChange() {
-  // While it changes step by step, the widths before the first step count.
-  if (!textChange_.isActive())
-    for (const DockSpec& offer : offers_) {
-      Dock* dock = offer.dock;
-      if (dock->isFloating() || dock->visibleRegion().isEmpty() ||
-          isAcross(window_.dockWidgetArea(dock)))
-        continue;
-      TextWidth& width = textWidths_[dock];
-      if (width.after != dock->width()) width.before = dock->width();
-    }
-  textChange_.start();
+void DockArrangement::giveRoomBack(const Dock& dock) {
+  giveSizeBack();
+  const auto at = opened_.find(&dock);
+  if (at == opened_.end()) return;
+  const Change change = std::move(at->second);
+  opened_.erase(at);
+  if (window_.saveState() != change.after) return;
+  QTimer::singleShot(0, this, [this, closed = &dock, before = change.before] {
+    if (closed->isHidden()) window_.restoreState(before);
+  });
 }
 
 void DockArrangement::fitToNewText() {
-  for (auto& [dock, width] : textWidths_) {
-    if (dock->isFloating() || dock->visibleRegion().isEmpty()) continue;
-    if (dock->width() > width.before) window_.resizeDocks({dock}, {width.before}, Qt::Horizontal);
-    width.after = dock->width();
-  }
+  window_.restoreState(text_.before);
+  text_.after = window_.saveState();
 }
 
 bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
@@ -424,7 +473,10 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
     QObject* child = static_cast<QChildEvent*>(event)->child();
     if (child->isWidgetType()) child->installEventFilter(this);
   } else if (event->type() == QEvent::FontChange && watched == &window_) {
-    noteTextChange();
+    // While it changes step by step, the layout before the first step counts.
+    if (!textChange_.isActive())
+      if (const QByteArray now = window_.saveState(); now != text_.after) text_.before = now;
+    textChange_.start();
   } else if (event->type() == QEvent::LayoutRequest && watched == &window_ && grown_) {
     // The content may need less since the last attempt.
     giveSizeBack();
@@ -445,49 +497,9 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
       return empty;
     }
   } else if (event->type() == QEvent::Close) {
-    const auto at = rooms_.find(qobject_cast<Dock*>(watched));
-    if (at != rooms_.end()) {
-      at->second.lastWidth = at->first->width();
-      at->second.lastBottom = heightOfBottom(*at->first);
-      // Who has chosen another width meanwhile keeps it.
-      std::erase_if(at->second.opposite,
-                    [](const Opposite& other) { return other.dock->width() != other.after; });
-      giveRoomBack(*at->first);
-    }
+    if (const auto* dock = qobject_cast<Dock*>(watched)) giveRoomBack(*dock);
   }
   return QObject::eventFilter(watched, event);
-}
-
-// A tab that isn't in front keeps the height that it had when it was.
-int DockArrangement::heightOfBottom(const Dock& dock) const {
-  if (!bottom()) return 0;
-  Dock* below = bottom()->dock;
-  return window_.tabifiedDockWidgets(below).contains(const_cast<Dock*>(&dock)) ? dock.height()
-                                                                               : below->height();
-}
-
-void DockArrangement::giveRoomBack(const Dock& dock) {
-  giveSizeBack();
-  const auto at = rooms_.find(&dock);
-  if (at == rooms_.end()) return;
-  const Room room = at->second;
-  rooms_.erase(at);
-  Dock* below = bottom() ? bottom()->dock : nullptr;
-  QTimer::singleShot(0, this, [this, closed = &dock, room, below] {
-    if (!closed->isHidden()) return;
-    if (Dock* beside = neighbour(*closed); beside && room.widthBefore > 0 &&
-                                           room.lastWidth == room.width &&
-                                           room.width > room.widthBefore)
-      window_.resizeDocks({beside}, {room.widthBefore}, Qt::Horizontal);
-    for (const Opposite& other : room.opposite)
-      if (!other.dock->visibleRegion().isEmpty() && other.after < other.before)
-        window_.resizeDocks({other.dock}, {other.before}, Qt::Horizontal);
-    // A little less or more is no change by the user: rows of events come and go.
-    constexpr int kAlike = 40;  // [px]
-    if (below && room.bottomBefore > 0 && !below->isHidden() &&
-        std::abs(room.lastBottom - room.bottom) <= kAlike)
-      window_.resizeDocks({below}, {room.bottomBefore}, Qt::Vertical);
-  });
 }
 
 }  // namespace palpate::gui

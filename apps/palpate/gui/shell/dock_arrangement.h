@@ -1,5 +1,6 @@
-// Arranges the docks of the main window: their default places, one layout for each kind of source
-// (nothing, recording, live), and how layouts are stored and restored.
+// Arranges the docks of the main window: their default places in each preset, and how layouts are
+// stored and restored. Each kind of source (nothing, recording, live) has a preset of its own in
+// use, and each preset a layout for each kind.
 #pragma once
 
 #include <QByteArray>
@@ -32,10 +33,20 @@ class DockArrangement : public QObject {
   // To be called once all docks have been added.
   void begin();
 
-  // Switches to the layout of a kind of source: nothing (only docks that are shown everywhere), a
-  // recording, or live.
+  // Switches to the layout in use for a kind of source: nothing (only docks that are shown
+  // everywhere), a recording, or live.
   void setPlace(DisplayedSource::Kind place);
-  // Restores the default places.
+  // The preset in use: one of kAllPresets, or an own one.
+  const QString& preset() const { return preset_.at(place_); }
+  // Switches to the layout of a preset, as it was left.
+  void use(const QString& preset);
+  // Names of the user's own presets.
+  QStringList ownPresets() const;
+  // Makes the present layout an own preset, and uses it. Returns why it can't be; empty: it is.
+  QString keepAs(const QString& name);
+  // Removes the preset in use, which is an own one, and uses the default preset.
+  void removeOwn();
+  // Restores the default places of the preset in use.
   void reset();
   // Hides all docks, and shows them again as before.
   void hideAll();
@@ -47,30 +58,20 @@ class DockArrangement : public QObject {
   void show(const QString& name);
   QList<QAction*> toggles() const;
 
+ signals:
+  // Another preset is in use, or an own one was made or removed.
+  void presetsChanged();
+
  protected:
   // Watches docks, and the tab bars that the window makes.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  // A dock at another side that became narrower for one that was opened: its width before and
-  // after [px].
-  struct Opposite {
-    Dock* dock;
-    int before = 0, after = 0;
-  };
-
-  // Sizes before and after makeRoomFor() [px]; 0: unchanged.
-  struct Room {
-    int widthBefore = 0, width = 0;
-    int bottomBefore = 0, bottom = 0;
-    // When the dock was closed.
-    int lastWidth = 0, lastBottom = 0;
-    std::vector<Opposite> opposite;
-  };
-
-  // The width of a dock before the text became larger, and the one that it has since [px].
-  struct TextWidth {
-    int before = 0, after = 0;
+  // A change that took room from the docks around, and is taken back when its reason has gone:
+  // layouts before and after it (QMainWindow::saveState()). Whoever changed something since keeps
+  // that.
+  struct Change {
+    QByteArray before, after;
   };
 
   // The window grew because its content didn't fit [px].
@@ -78,6 +79,11 @@ class DockArrangement : public QObject {
     QSize from, to;
   };
 
+  // Restores the layout of the preset in use.
+  void restore();
+  void store();
+  // The preset whose default places the preset in use has.
+  Preset standard() const;
   void placeDocks();
   void placeSides();
   const DockSpec* leftWhileLive() const;
@@ -95,22 +101,16 @@ class DockArrangement : public QObject {
   // The window that had to grow nevertheless has its size again, as far as its content allows it.
   void giveSizeBack();
   // Docks that larger text made wider have their widths again, as far as the new text allows it.
-  void noteTextChange();
   void fitToNewText();
-  void makeRoomFor(const DockSpec& offer, const Room& before);
-  // Gives the room back that makeRoomFor() took, unless the user has changed it since.
-  // Height of the place at the bottom, whichever of its tabs is in front: that dock or `dock` [px].
-  int heightOfBottom(const Dock& dock) const;
+  // Enlarges a dock that the user asked for, so that its content can be read.
+  void makeRoomFor(const DockSpec& offer, const QByteArray& before);
+  // Gives the room back that a closed dock took.
   void giveRoomBack(const Dock& dock);
   // Widens a dock of which another tab or page is shown, so that nothing of it is cut.
   void fitShown(Dock& dock);
   // Widens a dock up to `widthPx`, as far as the views in the centre stay side by side, but at
   // least so far that its content isn't cut.
   void widen(Dock& dock, int widthPx);
-  // The docks that are seen at other sides, and their widths.
-  std::vector<Opposite> opposite(const Dock& dock) const;
-  // A visible dock at the same side; null: there is none.
-  Dock* neighbour(const Dock& dock) const;
 
   QMainWindow& window_;
   const CentralWidget& centre_;
@@ -118,9 +118,11 @@ class DockArrangement : public QObject {
   std::vector<DockSpec> offers_;
   DisplayedSource::Kind place_ = DisplayedSource::Kind::kNothing;
   bool placed_ = false;
-  std::map<DisplayedSource::Kind, QByteArray> layouts_;
-  std::map<const Dock*, Room> rooms_;
-  std::map<Dock*, TextWidth> textWidths_;
+  std::map<DisplayedSource::Kind, QString> preset_;
+  // By preset. A preset without a layout has its default places.
+  std::map<DisplayedSource::Kind, std::map<QString, QByteArray>> layouts_;
+  std::map<const Dock*, Change> opened_;
+  Change text_;
   // Ends when all parts have their sizes for another size of text.
   QTimer textChange_;
   std::optional<Growth> grown_;

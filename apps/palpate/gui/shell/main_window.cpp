@@ -9,29 +9,33 @@
 
 #include "gui/appearance/condition_color.h"
 #include "gui/appearance/settings_file.h"
-#include "gui/appearance/text_size.h"
 #include "gui/desktop/application.h"
 #include "gui/desktop/greyed_keys.h"
 #include "gui/desktop/key_policy.h"
 #include "gui/export/export_feature.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
+#include "gui/open/start_page.h"
+#include "gui/recognise/recognise_feature.h"
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/central_widget.h"
 #include "gui/shell/features.h"
 #include "gui/shell/screen_room.h"
+#include "gui/shell/show_scene.h"
+#include "gui/shell/start_scene.h"
 #include "gui/shell/status_report.h"
 #include "gui/source/file_reading.h"
 #include "gui/widgets/dock.h"
 #include "gui/widgets/message_banner.h"
 #include "gui/widgets/status_strip.h"
-#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 
 ShellActions::ShellActions(ActionRegistry& book) {
   quit = book.make("quit", "File", "&Quit", {key("Ctrl+Q")});
   nextTheme = book.make("nextTheme", "View", "Dark or light", {key("Ctrl+T")});
+  hideInMenus(*nextTheme);  // Theme has both
   fullScreen = book.make("fullScreen", "View", "F&ull screen", {key("F11")}, true);
-  resetLayout = book.make("resetLayout", "View", "Reset la&yout", {key("Ctrl+Shift+R")});
   dismiss = book.make(
       "dismiss",
       "Help",
@@ -44,11 +48,6 @@ ShellActions::ShellActions(ActionRegistry& book) {
 namespace {
 
 constexpr QSize kUsualWindow(1440, 900);
-// Below this width of the window [px] buttons have no text. Both widths are those for text of the
-// desktop's size, and grow with it.
-constexpr int kCompactBelow = 1340;
-// Below this width the tool bar has no name of the program.
-constexpr int kNarrowBelow = 1120;
 
 QSize firstSize() {
   const QSize room = roomOnScreen(nullptr);
@@ -63,6 +62,7 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
       menus_(std::make_unique<WindowMenus>(*this)),
       centre_(new CentralWidget(windowState_->settings, this)),
       docks_(std::make_unique<DockArrangement>(*this, *centre_, windowState_->settings)),
+      layoutMenu_(std::make_unique<LayoutMenu>(*windowState_, *docks_, *menus_->shared().layout)),
       banner_(new MessageBanner(centre_)) {
   setWindowTitle("Palpate");
   setAcceptDrops(true);
@@ -123,8 +123,23 @@ void MainWindow::addFeatures() {
     });
   }
   centre_->add(std::move(strips));
+  feature<RecogniseFeature>().makeScene = [this](QWidget* parent) {
+    return new ShowScene(*windowState_, feature<MatricesFeature>().panel(), parent);
+  };
+  if (windowState_->environment.playsOnStart) {
+    auto* page = findChild<StartPage*>();
+    auto* scene = new StartScene(windowState_->demoRecording(), page);
+    page->setScene(scene);
+    connect(
+        scene, &StartScene::clicked, windowState_->actions.at("tryEmulated"), &QAction::trigger);
+  }
+  layoutMenu_->begin();
   menus_->fill(windowState_->actions, docks_->toggles());
-  fitToText(*this, [this] { fitMenus(); });
+  ActionEnabler& enabler = windowState_->actionEnabler;
+  const LiveController& live = windowState_->live;
+  enabler.show(menus_->ofHand(), [&live] { return live.state() != LiveController::State::kNone; });
+  const auto& recordings = windowState_->recordings;
+  enabler.show(menus_->ofRecordings(), [&recordings] { return !recordings.all().empty(); });
   windowState_->menus = menus_->shared();
   std::vector<ExportedView> views;
   for (const auto& feature : features_)
@@ -145,8 +160,7 @@ void MainWindow::connectPlace() {
     // The centre comes first: the docks get the remaining room.
     centre_->setPlace(displayed.kind());
     docks_->setPlace(displayed.kind());
-    menus_->setPlaybackShown(!displayed.isLive());
-    fitMenus();
+    menus_->setPlaybackShown(displayed.isRecording());
   });
   connect(&displayed, &DisplayedSource::shown, this, &MainWindow::showTitle);
   connect(&windowState_->events, &EventController::changed, this, &MainWindow::showTitle);
@@ -163,7 +177,6 @@ void MainWindow::connectActions() {
   ShellActions& actions = actions_;
   ViewAppearance& look = windowState_->appearance;
   connect(actions.quit, &QAction::triggered, this, &QWidget::close);
-  connect(actions.resetLayout, &QAction::triggered, docks_.get(), &DockArrangement::reset);
   connect(actions.fullScreen, &QAction::triggered, this, &MainWindow::setFullScreen);
   connect(actions.nextTheme, &QAction::triggered, this, [&look] {
     look.setTheme(look.theme() == Theme::kDark ? ThemeChoice::kLight : ThemeChoice::kDark);
@@ -229,7 +242,6 @@ void MainWindow::showTheme() {
 }
 
 void MainWindow::showBorder() {
-  fitMenus();
   const auto& condition = windowState_->handCommands.condition();
   centre_->setBorder(condition ? conditionColor(condition->condition) : QColor());
 }
@@ -301,19 +313,6 @@ void MainWindow::settle() {
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   windowState_->actionEnabler.refresh();
-}
-
-void MainWindow::resizeEvent(QResizeEvent* event) {
-  QMainWindow::resizeEvent(event);
-  fitMenus();
-}
-
-void MainWindow::fitMenus() {
-  // Beside the buttons of a recording the chip of the hand needs its own room.
-  const bool isRecordingShown = !windowState_->displayed.isLive();
-  const int chip = isRecordingShown ? menus_->chipWidth() : 0;
-  menus_->setCompact(width() < textScale() * kCompactBelow + chip);
-  menus_->setNarrow(width() < textScale() * kNarrowBelow, isRecordingShown);
 }
 
 }  // namespace palpate::gui

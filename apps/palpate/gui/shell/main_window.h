@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gui/shell/dock_arrangement.h"
+#include "gui/shell/layout_menu.h"
 #include "gui/shell/window_menus.h"
 #include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
@@ -25,7 +26,6 @@ struct ShellActions {
   QAction* quit = nullptr;
   QAction* nextTheme = nullptr;
   QAction* fullScreen = nullptr;
-  QAction* resetLayout = nullptr;
   QAction* dismiss = nullptr;
   QActionGroup* themes = nullptr;
 };
@@ -61,11 +61,8 @@ class MainWindow : public QMainWindow {
  protected:
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
 
  private:
-  // Chooses how much text the tool bar has, for the width of the window and the size of text.
-  void fitMenus();
   void connectPlace();
   void connectActions();
   void connectMessages();
@@ -81,6 +78,7 @@ class MainWindow : public QMainWindow {
   std::unique_ptr<WindowMenus> menus_;
   CentralWidget* centre_;
   std::unique_ptr<DockArrangement> docks_;
+  std::unique_ptr<LayoutMenu> layoutMenu_;
   MessageBanner* banner_;
   std::unique_ptr<StatusReport> status_;
   std::vector<std::unique_ptr<Feature>> features_;

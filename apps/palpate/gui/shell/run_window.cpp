@@ -65,7 +65,8 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
                      .read = {},
                      .assumedAnglesDeg = options.assumedAnglesDeg,
                      .recipe = options.recipe,
-                     .offerUnfinished = true});
+                     .offerUnfinished = true,
+                     .playsOnStart = true});
   const FirstPaint firstPaint(window);
   const Termination termination;
   QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
@@ -90,7 +91,7 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
   // The window is visible before the first file is read.
   if (options.demo) {
     window.state().keepsSession = true;
-    window.state().connectTo(emulatedBallConnection(true));
+    window.state().connectTo(emulatedBallConnection());
   } else if (!options.files.empty()) {
     std::vector<std::filesystem::path> files;
     for (const std::filesystem::path& file : options.files) files.push_back(wholePath(file));

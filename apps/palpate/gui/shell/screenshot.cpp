@@ -81,7 +81,7 @@ void runDemo(MainWindow& window) {
       QObject::connect(&window.state().live, &LiveController::failed, [&](const QString& message) {
         failure = message;
       });
-  window.state().connectTo(emulatedBallConnection(true));
+  window.state().connectTo(emulatedBallConnection());
   for (double waitedS = 0.0; !window.state().live.hasReceivedFrames(); waitedS += kLookS) {
     if (failure.isEmpty() && waitedS > kPatienceS)
       failure = "no frame of the emulated hand arrived";

@@ -15,6 +15,8 @@
 #include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 
+#include "gui/window_state/action_registry.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -35,15 +37,10 @@ QString screenshotPressesWordsOf(const QAbstractButton& button) {
   return words.section("  (", 0, 0).trimmed();
 }
 
-bool pressKey(const QWidget& window, const QKeySequence& keys) {
-  for (QAction* action : window.actions()) {
-    if (keys.isEmpty() || !action->isEnabled() || !action->shortcuts().contains(keys)) continue;
-    action->trigger();
-    return true;
-  }
-  // The actions that show and hide docks belong to the docks, not to the window itself.
-  for (QAction* action : window.findChildren<QAction*>()) {
-    if (keys.isEmpty() || !action->isEnabled() || !action->shortcuts().contains(keys)) continue;
+// The first enabled action that `fits`; those that show and hide docks belong to the docks.
+bool pressAction(const QWidget& window, const std::function<bool(const QAction&)>& fits) {
+  for (QAction* action : window.actions() + window.findChildren<QAction*>()) {
+    if (!action->isEnabled() || !fits(*action)) continue;
     action->trigger();
     return true;
   }
@@ -63,7 +60,13 @@ bool pressButton(const QWidget& window, const QString& words) {
 
 bool press(const QWidget& window, const std::string& what) {
   const QString text = QString::fromStdString(what);
-  return pressKey(window, QKeySequence(text)) || pressButton(window, text);
+  const QKeySequence keys(text);
+  return pressAction(window,
+                     [&keys](const QAction& action) {
+                       return !keys.isEmpty() && action.shortcuts().contains(keys);
+                     }) ||
+         pressButton(window, text) ||
+         pressAction(window, [&text](const QAction& action) { return plainText(action) == text; });
 }
 
 }  // namespace
@@ -126,8 +129,8 @@ QImage runAndPress(QWidget& window,
   if (failure)
     throw Error(
         "--press finds no key, action or button '" + *failure +
-        "': give the key of an action that can be used now (F1 lists them), or the words on a "
-        "visible button");
+        "': give the key or the words of an action that can be used now (F1 lists keys), or the "
+        "words on a visible button");
   return dialogue;
 }
 

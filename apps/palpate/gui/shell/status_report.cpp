@@ -51,9 +51,8 @@ void StatusReport::reportLink() {
     const bool connecting = live.state() == LiveController::State::kConnecting;
     return menus_.showLink(connecting ? "connecting …" : "", false);
   }
-  const QString how = source->finished() ? " · ended"
-                      : live.stale()     ? " · no data"
-                                         : " · " + figure(live.health().frames.rateHz, 1) + " fps";
+  // The rate stands in the status line.
+  const char* how = source->finished() ? " · ended" : live.stale() ? " · no data" : "";
   menus_.showLink(describe(source->connection) + how, !live.stale());
 }
 
@@ -141,12 +140,12 @@ void StatusReport::reportLive() {
   if (outOfRange) now.state += " · values outside the range";
   if (windowState_.activeFilters.applied()) now.state += " · filtered";
   if (held) now.state = "on hold (P resumes) · " + now.state;
-  now.figures = {
-      "rate " + figure(health.frames.rateHz, 1) + " fps",
-      "age " + (live.stale() ? QString("–") : figure(health.device.tactile.ageMs, 0)) + " ms",
-      "lost " + QString::number(health.lost),
-      "bad " + QString::number(health.badChecksums + health.device.tactile.suspect),
-      "saturated " + QString::number(health.frames.saturatedFrames)};
+  now.figures = {"rate " + figure(health.frames.rateHz, 1) + " frames/s",
+                 "age " + (live.stale() ? figure(live.silentS(), 1) + " s"
+                                        : figure(health.device.tactile.ageMs, 0) + " ms"),
+                 "lost " + QString::number(health.lost),
+                 "bad " + QString::number(health.badChecksums + health.device.tactile.suspect),
+                 "saturated " + QString::number(health.frames.saturatedFrames)};
   now.notice = notice();
   // Until something is sent, where it is awaited.
   if (const StreamDevice* stream = live.source() ? live.source()->streamDevice() : nullptr;

@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLayout>
 #include <QMainWindow>
 #include <QMenuBar>
 #include <QPushButton>
@@ -54,6 +55,7 @@ WindowMenus::WindowMenus(QMainWindow& window) : window_(window) {
   menus_.only = new QMenu("&One matrix alone", &window);
   menus_.scanned = new QMenu("Scanned &taxels", &window);
   menus_.recent = new QMenu("Open &recent", &window);
+  menus_.layout = new QMenu("&Layout", &window);
   menus_.speed = new QComboBox(&window);
   menus_.recordings = new ElidingBox(&window);
 }
@@ -88,103 +90,113 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
     sections_[QString(title).remove('&')] = made;
     return made;
   };
+  // What belongs to a connected hand, or to recordings, is hidden without them.
+  const auto of = [&at](QList<QAction*>& kind, std::initializer_list<const char*> ids) {
+    QList<QAction*> actions;
+    for (const char* id : ids) actions.append(at(id));
+    kind.append(actions);
+    return actions;
+  };
   QMenu* file = menu("&File");
   file->addAction(at("open"));
   file->addMenu(menus_.recent);
   menus_.recent->setToolTipsVisible(true);
-  file->addActions({at("importTable"), at("batch"), at("recover"), at("openDemo")});
-  file->addSeparator();
-  file->addActions({at("nextRecording"), at("previousRecording"), at("closeRecording")});
+  file->addActions({at("openDemo"), at("importTable"), at("recover")});
   file->addSeparator();
   file->addActions(
-      {at("saveEvents"), at("saveAs"), at("importLabels"), at("exportLabels"), at("exportGrasps")});
+      of(ofRecordings_, {"nextRecording", "previousRecording", "closeRecording", "saveEvents"}));
+  file->addActions(of(ofRecordings_, {"saveAs"}));
+  QMenu* labels = file->addMenu("La&bels and grasps");
+  labels->addActions({at("importLabels"), at("exportLabels"), at("exportGrasps")});
+  ofRecordings_.append(labels->menuAction());
   file->addSeparator();
-  file->addActions({at("exportPicture"), at("exportAgain"), at("copyPicture"), at("copyTable")});
+  file->addActions({at("exportPicture"), at("exportAgain")});
   file->addSeparator();
   file->addActions({at("settings"), at("quit")});
 
   window_.menuBar()->addMenu(menus_.edit);
   sections_["Edit"] = menus_.edit;
-  menus_.edit->addActions({at("undo"), at("redo")});
+  menus_.edit->addActions(of(ofRecordings_, {"undo", "redo"}));
+  menus_.edit->addActions({at("copyPicture"), at("copyTable")});
   menus_.edit->addSeparator();
-  menus_.edit->addActions({at("addLabel"), at("addNote"), at("addGrasp")});
-  menus_.edit->addActions({at("renameEvent"), at("removeEvent")});
+  menus_.edit->addActions(
+      of(ofRecordings_, {"addLabel", "addNote", "addGrasp", "renameEvent", "removeEvent"}));
   menus_.edit->addSeparator();
-  menus_.edit->addActions({at("nextEvent"), at("previousEvent"), at("toEvents")});
+  menus_.edit->addActions(of(ofRecordings_, {"nextEvent", "previousEvent", "toEvents"}));
   menus_.edit->addSeparator();
-  menus_.edit->addActions({at("selectFrom"), at("selectTo"), at("selectAll"), at("dropSelection")});
-  menus_.edit->addActions({at("zoomSelection"), at("statistics"), at("differences"), at("crop")});
-  menus_.edit->addSeparator();
+  QMenu* selected = menus_.edit->addMenu("&Selection");
+  selected->addActions({at("selectFrom"), at("selectTo"), at("selectAll"), at("dropSelection")});
+  selected->addActions({at("zoomSelection"), at("crop")});
   menus_.edit->addAction(at("nameTaxels"));
 
   QMenu* view = menu("&View");
   view->addActions({at("interpolated"), at("values"), at("filtered")});
   addChoices(view, "&Colour map", book.group("maps"));
-  view->addAction(at("nextMap"));
   addChoices(view, "Colour r&ange", book.group("ranges"));
-  view->addAction(at("nextRange"));
   view->addSeparator();
   view->addActions({at("matricesShown"), at("handShown")});
   QMenu* space = view->addMenu("Hand in 3-&D");
-  space->addActions({at("nextTaxelShape"), at("nextSphere"), at("sphereOfCentroids")});
+  addChoices(space, "&Taxels", book.group("taxelShapes"));
+  addChoices(space, "Enclosin&g sphere", book.group("spheres"));
+  space->addAction(at("sphereOfCentroids"));
   space->addSeparator();
   space->addActions({at("normals"), at("contacts"), at("slipArrows"), at("wire"), at("axes")});
   space->addSeparator();
   space->addActions({at("fitHand"), at("resetHand"), at("nearer"), at("further")});
-  QMenu* turn = space->addMenu("&Turn and move");
+  QMenu* turn = space->addMenu("T&urn and move");
   turn->addActions(book.all("orbits"));
   turn->addActions(book.all("pans"));
   space->addMenu(menus_.only);
   menus_.only->addActions(book.all("onlys"));
-  view->addSeparator();
-  addChoices(view, "Signal in the &timeline", book.group("signalsPlotted"));
-  view->addAction(at("nextSignal"));
-  QMenu* plots = view->addMenu("&Plotted matrices");
+  QMenu* time = view->addMenu("&Timeline");
+  addChoices(time, "&Signal", book.group("signalsPlotted"));
+  QMenu* plots = time->addMenu("&Plotted matrices");
   plots->addActions(book.all("plots"));
-  view->addAction(at("chooseCurves"));
-  view->addActions({at("zoomIn"), at("zoomOut"), at("fit"), at("verticalAxes")});
+  time->addAction(at("chooseCurves"));
+  time->addActions({at("zoomIn"), at("zoomOut"), at("fit"), at("verticalAxes")});
   view->addSeparator();
-  view->addActions({at("slipReference"), at("compare")});
-  view->addActions(dockToggles);
-  view->addAction(at("resetLayout"));
+  view->addMenu(menus_.layout);
+  QMenu* docks = view->addMenu("D&ocks");
+  QList<QAction*> analyses;
+  for (QAction* toggle : dockToggles)
+    (sectionOf(*toggle) == "View" ? docks->addAction(toggle) : analyses.append(toggle));
   view->addSeparator();
   addChoices(view, "Th&eme", book.group("themes"));
-  view->addAction(at("nextTheme"));
   view->addAction(at("fullScreen"));
 
+  QMenu* analysis = menu("Ana&lysis");
+  analysis->addActions({at("statistics"), at("differences"), at("newFormula")});
+  analysis->addSeparator();
+  analysis->addActions(analyses);
+  analysis->addAction(at("slipReference"));
+  analysis->addSeparator();
+  analysis->addActions({at("whatIsIt"), at("compare"), at("batch")});
+
   QMenu* hand = menu("H&and");
-  hand->addActions({at("connectHand"), at("tryEmulated"), at("disconnectHand")});
+  hand->addActions({at("connectHand"), at("tryEmulated")});
+  hand->addActions(of(ofHand_, {"disconnectHand"}));
   hand->addSeparator();
-  QMenu* move = hand->addMenu("Mo&ve the hand");
-  move->setToolTipsVisible(true);
-  move->addActions({at("graspHand"),
+  const auto part = [this, hand](const QString& title) {
+    QMenu* made = hand->addMenu(title);
+    made->setToolTipsVisible(true);
+    ofHand_.append(made->menuAction());
+    return made;
+  };
+  part("Mo&ve the hand")
+      ->addActions({at("graspHand"),
                     at("reactiveGrasp"),
                     at("slipAwareGrasp"),
                     at("openHand"),
                     at("relaxHand")});
-  hand->addActions({at("stopHand"), at("acknowledgeHand")});
+  hand->addActions(of(ofHand_, {"stopHand", "acknowledgeHand"}));
   hand->addSeparator();
-  hand->addActions({at("whatIsIt"), at("showMode")});
-  hand->addSeparator();
-  hand->addActions({at("live"), at("hold")});
-  QMenu* chart = hand->addMenu("L&ive chart");
+  hand->addActions(of(ofHand_, {"live", "hold"}));
+  QMenu* chart = part("L&ive chart");
   chart->addActions({at("freezeLive"), at("liveNewest"), at("liveOldest")});
-  chart->addActions({at("liveEarlier"), at("liveLater")});
-  chart->addSeparator();
-  chart->addActions({at("selectFrom"), at("selectTo"), at("cursorBack"), at("cursorForward")});
-  chart->addActions({at("zoomSelection"), at("dropSelection")});
-  hand->addSeparator();
-  hand->addActions({at("record"),
-                    at("recordingSettings"),
-                    at("recordingPlan"),
-                    at("openRecorded"),
-                    at("renameRecorded"),
-                    at("discardRecorded")});
-  QMenu* marks = hand->addMenu("Mar&ks");
-  marks->addAction(at("mark"));
-  marks->addActions(book.all("labels"));
+  chart->addActions({at("liveEarlier"), at("liveLater"), at("cursorBack"), at("cursorForward")});
   hand->addSeparator();
   hand->addMenu(menus_.scanned);
+  ofHand_.append(menus_.scanned->menuAction());
   menus_.scanned->setToolTipsVisible(true);
   menus_.scanned->addActions({at("scanOnly"),
                               at("scanOnlyInTheirMatrices"),
@@ -193,13 +205,23 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
                               at("scanAll")});
   menus_.scanned->addSeparator();
   menus_.scanned->addAction(at("chooseNone"));
-  QMenu* others = hand->addMenu("Other &programs");
-  others->setToolTipsVisible(true);
-  others->addActions(
-      {at("streamSignals"), at("streamTactile"), at("streamFoxglove"), at("remoteControl")});
-  hand->addAction(at("muteAlarms"));
+  part("Other &programs")
+      ->addActions(
+          {at("streamSignals"), at("streamTactile"), at("streamFoxglove"), at("remoteControl")});
+  hand->addActions(of(ofHand_, {"muteAlarms"}));
+
+  QMenu* record = menu("&Record");
+  ofHand_.append(record->menuAction());
+  record->addActions(of(ofHand_, {"record"}));
+  record->addActions({at("recordingSettings"), at("recordingPlan")});
+  QMenu* marks = record->addMenu("Mar&ks");
+  marks->addAction(at("mark"));
+  marks->addActions(book.all("labels"));
+  record->addSeparator();
+  record->addActions({at("openRecorded"), at("renameRecorded"), at("discardRecorded")});
 
   QMenu* playback = menu("&Playback");
+  ofRecordings_.append(playback->menuAction());
   playback->addAction(at("play"));
   playback->addSeparator();
   playback->addActions({at("stepBack"),
@@ -219,14 +241,11 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
 
 void WindowMenus::buildToolBar(const ActionRegistry& book) {
   const auto at = [&book](const char* id) { return book.at(id); };
-  QToolBar* bar = window_.addToolBar("Toolbar");
+  QToolBar* bar = bar_ = window_.addToolBar("Toolbar");
   bar->setObjectName("Toolbar");
   bar->setMovable(false);
   bar->setContextMenuPolicy(Qt::PreventContextMenu);
   bar->setIconSize({16, 16});
-  auto* brand = new QLabel("<b>Palpate</b>", bar);
-  brand->setContentsMargins(4, 0, 10, 0);
-  brand_ = bar->addWidget(brand);
   addStop(*bar, at("stopHand"));
   chip_ = new HandChip(*at("acknowledgeHand"), bar);
   chipShown_ = bar->addWidget(chip_);
@@ -250,6 +269,7 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   for (QAction* action : {at("open"), at("exportPicture"), at("live")})
     withText_.append(qobject_cast<QToolButton*>(bar->widgetForAction(action)));
   playback_ = bar->addWidget(makePlayback(*bar, book));
+  setPlaybackShown(false);
   showLink({}, false);
   setCompact(false);
   auto* spacer = new QWidget(bar);
@@ -263,8 +283,12 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   menus_.recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   menus_.recordings->setMaximumWidth(420);
   menus_.recordingsShown = bar->addWidget(menus_.recordings);
+  bar->addAction(menus_.layout->menuAction());
+  auto* layouts = qobject_cast<QToolButton*>(bar->widgetForAction(menus_.layout->menuAction()));
+  layouts->setObjectName("layoutButton");
+  layouts->setPopupMode(QToolButton::InstantPopup);
   bar->addAction(at("keys"));
-  new SizeWatch(*bar, [this, bar] { fitRecord(*bar); });
+  new SizeWatch(*bar, [this] { fitBar(); });
 }
 
 // Stop is at the beginning of the tool bar, where nothing covers it, whatever the window shows, as
@@ -317,11 +341,6 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
 
 void WindowMenus::setPlaybackShown(bool on) { playback_->setVisible(on); }
 
-void WindowMenus::setNarrow(bool on, bool isRecordingShown) {
-  brand_->setVisible(!on);
-  chip_->setNarrow(on && isRecordingShown);
-}
-
 void WindowMenus::setCompact(bool on) {
   compact_ = on;
   styleRecord();
@@ -337,8 +356,11 @@ void WindowMenus::setPlayWidth() {
 }
 
 void WindowMenus::showLink(const QString& text, bool good) {
-  if (linkAction_->isVisible() == text.isEmpty()) linkAction_->setVisible(!text.isEmpty());
-  if (link_->text() != text) link_->setText(text);
+  if (link_->text() != text) {
+    link_->setText(text);
+    fitted_.clear();
+    fitBar();
+  }
   if (link_->property("good").toBool() == good && link_->property("good").isValid()) return;
   link_->setProperty("good", good);
   link_->style()->unpolish(link_);
@@ -352,8 +374,6 @@ void WindowMenus::showHand(const HandCommands& hand) {
     chipShown_->setVisible(condition.has_value());
 }
 
-int WindowMenus::chipWidth() const { return chipShown_->isVisible() ? chip_->width() : 0; }
-
 // While recording, the duration and size are always shown, and else what the plan says.
 void WindowMenus::styleRecord() {
   const bool text = !compact_ || record_->property("recording").toBool() ||
@@ -361,15 +381,31 @@ void WindowMenus::styleRecord() {
   record_->setToolButtonStyle(text ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
 }
 
-void WindowMenus::fitRecord(const QToolBar& bar) {
-  int room = QWIDGETSIZE_MAX;
-  if (record_->property(kPlannedProperty).toBool()) {
-    const QSize taken = record_->sizeHint().boundedTo(record_->maximumSize());
-    const int least = kIconAndPadding + record_->fontMetrics().horizontalAdvance(
-                                            " " + plainText(*record_->defaultAction()) + ": …");
-    room = std::max(least, bar.width() - (bar.sizeHint().width() - taken.width()));
-  }
-  if (record_->maximumWidth() != room) record_->setMaximumWidth(room);
+void WindowMenus::fitBar() {
+  // The planned text of Record gives way first, then the words of all buttons, then that of the
+  // chip, and at last what is connected.
+  const bool planned = record_->property(kPlannedProperty).toBool();
+  std::vector<int> now{bar_->width(), planned};
+  for (QAction* action : bar_->actions())
+    if (const QWidget* shown = bar_->widgetForAction(action); shown && action->isVisible())
+      now.push_back(shown->sizeHint().width());
+  if (std::exchange(fitted_, now) == now) return;
+  const auto taken = [this] {
+    bar_->layout()->invalidate();
+    return bar_->sizeHint().width();
+  };
+  record_->setMaximumWidth(planned ? kIconAndPadding +
+                                         record_->fontMetrics().horizontalAdvance(
+                                             " " + plainText(*record_->defaultAction()) + ": …")
+                                   : QWIDGETSIZE_MAX);
+  linkAction_->setVisible(!link_->text().isEmpty());
+  chip_->setNarrow(false);
+  setCompact(false);
+  if (taken() > bar_->width()) setCompact(true);
+  if (taken() > bar_->width()) chip_->setNarrow(chipShown_->isVisible());
+  if (taken() > bar_->width()) linkAction_->setVisible(false);
+  if (planned)
+    record_->setMaximumWidth(record_->maximumWidth() + std::max(0, bar_->width() - taken()));
 }
 
 void WindowMenus::showRecording(bool on) {

@@ -4,6 +4,7 @@
 #include <QList>
 #include <QMap>
 #include <QString>
+#include <vector>
 
 #include "gui/appearance/theme.h"
 #include "gui/window_state/menus.h"
@@ -30,17 +31,15 @@ class WindowMenus {
   // that it doesn't name come at the end of the menu of their section. `dockToggles`: actions that
   // show and hide the docks, for the menu View.
   void fill(const ActionRegistry& book, const QList<QAction*>& dockToggles);
+  // Actions and menus that are of use only while a hand is connected, and only with recordings.
+  const QList<QAction*>& ofHand() const noexcept { return ofHand_; }
+  const QList<QAction*>& ofRecordings() const noexcept { return ofRecordings_; }
   // The menus and boxes that features fill or also open elsewhere.
   Menus shared() const;
 
-  // Shows buttons without text, for a narrow window.
-  void setCompact(bool on);
-  // Leaves the name of the program out of the tool bar.
-  void setNarrow(bool on, bool isRecordingShown);
   void setPlaybackShown(bool on);
   // Shows what is connected; empty: shows nothing. `good`: data arrive.
   void showLink(const QString& text, bool good);
-  int chipWidth() const;  // [px]; 0: there is no chip of a hand
   // Shows the condition of the connected hand; nothing: no hand is connected that can be moved.
   void showHand(const HandCommands& hand);
 
@@ -49,6 +48,7 @@ class WindowMenus {
   // The menus by title.
   QMap<QString, QMenu*> sections_;
   Menus menus_;
+  QList<QAction*> ofHand_, ofRecordings_;
   // Beside Connect: what is connected, in short.
   QLabel* link_ = nullptr;
   HandChip* chip_ = nullptr;
@@ -59,12 +59,15 @@ class WindowMenus {
   QToolButton* play_ = nullptr;
   QAction* playback_ = nullptr;
   QAction* linkAction_ = nullptr;
-  QAction* brand_ = nullptr;
   bool compact_ = false;
+  QToolBar* bar_ = nullptr;
+  // What fitBar() found last: it is called again for what it changes itself.
+  std::vector<int> fitted_;
 
   void styleRecord();
-  // The text that names the plan gets the room that is free in the bar.
-  void fitRecord(const QToolBar& bar);
+  // Words give way when there is no room for them. The text that names the plan gets what is free.
+  void fitBar();
+  void setCompact(bool on);
   void setPlayWidth();
   // Turns the button red.
   void showRecording(bool on);

@@ -69,10 +69,8 @@ SlipControls::SlipControls(QSettings& settings, QWidget* parent)
   reference_->setToolTip("Where motion is measured from");
   reference_->setCurrentIndex(settings.value(kReference).toString() == "first" ? kFirstRow
                                                                                : kRestRow);
-  set_ = makeButton(this,
-                    "slipSetReference",
-                    "Set reference",
-                    "Motion is measured from the frame that is shown (O)");
+  set_ = makeButton(
+      this, "slipSetReference", "Set reference", "Motion is measured from the frame that is shown");
   set_->setFocusPolicy(Qt::TabFocus);
   const SlipSeriesOptions usual;
   step_ = field("slipStep", "Step, in taxels per frame", kStep, 2.0, 0.01, 2, usual.stepTaxels);

@@ -18,11 +18,11 @@ constexpr int kSlipUsualWidth = 620;  // [px] list and drawing fit side by side
 
 SlipFeature::SlipFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
-      reference_(windowState.actions.make(
-          "slipReference", "View", "S&lip is measured from here", {key("O")})),
+      reference_(
+          windowState.actions.make("slipReference", "Analysis", "S&lip is measured from here")),
       panel_(new SlipPanel(windowState.settings, window)) {
   dock_ = new Dock("Slip", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
-  reference_->setToolTip("The frame that is shown becomes the reference of slip (O)");
+  reference_->setToolTip("The frame that is shown becomes the reference of slip");
   connectBench();
   // The next connection may have its history at the same address.
   connect(&windowState.live, &LiveController::ended, this, [this] { liveOf_ = nullptr; });
@@ -127,6 +127,7 @@ void SlipFeature::settle() { panel_->settle(); }
 std::vector<DockSpec> SlipFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+Shift+S"),
+           .menu = "Analysis",
            .tab = 7,
            .preferredWidthPx = kSlipUsualWidth}};
 }

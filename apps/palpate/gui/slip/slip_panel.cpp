@@ -209,6 +209,22 @@ void SlipPanel::chooseBest() {
   chosen_ = static_cast<std::size_t>(std::max_element(paths.begin(), paths.end()) - paths.begin());
 }
 
+void SlipPanel::chooseBestNow(const std::vector<SlipDetection>& detections) {
+  constexpr double kSlipping = 1e12;    // more than any contact
+  constexpr double kAboutAsMuch = 1.5;  // another contact has to be so much stronger
+  double largest = 0.0;
+  std::size_t best = chosen_;
+  for (std::size_t m = 0; m < detections.size(); ++m) {
+    double strength = static_cast<double>(values_.matrix(m).sum());
+    if (detections[m].slipping) strength += kSlipping;
+    if (m == chosen_) strength *= kAboutAsMuch;
+    if (strength <= largest) continue;
+    largest = strength;
+    best = m;
+  }
+  chosen_ = best;
+}
+
 void SlipPanel::choose(std::size_t matrix) {
   chosen_ = matrix;
   showChosen();
@@ -371,6 +387,7 @@ void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipDetect
   if (!isVisible()) return;
   liveSeries_.slips = liveSlips_->segments();
   values_ = frame;
+  if (!chosenByUser_) chooseBestNow(detections);
   if (!shown()) showContent();
   positionS_ = liveSeries_.timeS.back();
   showChosen();

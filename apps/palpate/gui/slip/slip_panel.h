@@ -74,6 +74,8 @@ class SlipPanel : public ComputedPage {
   };
   void take(const Found& found);
   void chooseBest();
+  // Chooses the matrix that slips now; else the one with the strongest contact.
+  void chooseBestNow(const std::vector<SlipDetection>& detections);
   void showChosen();
   void showFrame();
   void showRows();

@@ -1,5 +1,6 @@
 #include "gui/source/connection.h"
 
+#include <QDate>
 #include <QFileInfo>
 #include <limits>
 
@@ -135,6 +136,7 @@ bool hasLastConnection(QSettings& settings) {
 
 void saveConnection(const Connection& connection, QSettings& settings) {
   saveFields(settings, connection, connectionFields, kLastConnection);
+  settings.setValue(kLastConnectionDay, QDate::currentDate().toString(Qt::ISODate));
 }
 
 QStringList connectionNames(QSettings& settings) {

@@ -67,6 +67,8 @@ Connection loadConnection(QSettings& settings);
 // A connection has been made with these settings before.
 bool hasLastConnection(QSettings& settings);
 void saveConnection(const Connection& connection, QSettings& settings);
+// The day of the last connection in the settings, as 2026-11-28.
+inline constexpr const char* kLastConnectionDay = "window/connected_on";
 
 // Connections that the user has saved under a name, in the order of the names. A name is any text
 // but an empty one.

@@ -76,6 +76,7 @@ void SpectrumFeature::settle() { panel_->settle(); }
 std::vector<DockSpec> SpectrumFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+U"),
+           .menu = "Analysis",
            .area = Qt::BottomDockWidgetArea,
            .liveArea = Qt::BottomDockWidgetArea,
            .above = true,

@@ -48,7 +48,7 @@ void AxisEditor::rebuild() {
   grid->setContentsMargins(0, 0, 0, 0);
   layout()->addWidget(rows_);
   if (axes_->units().empty())
-    grid->addWidget(new QLabel("no curve is shown: choose some (C)", rows_), 0, 0);
+    grid->addWidget(new QLabel("no curve is shown: choose some with Curves", rows_), 0, 0);
   int row = 0;
   for (const QString& unit : axes_->units()) {
     const QString name = axes_->nameOf(unit);

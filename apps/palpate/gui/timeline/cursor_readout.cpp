@@ -93,7 +93,7 @@ CursorReadout::Part CursorReadout::partFor(QSize room, qsizetype perLine) const 
   const auto textOf = [&](qsizetype count) {
     QStringList parts = lines_.first(count);
     const qsizetype missing = lines_.size() - count + more;
-    if (missing > 0) parts.append(QString::number(missing) + " more: Statistics (Ctrl+Alt+A)");
+    if (missing > 0) parts.append(QString::number(missing) + " more: Statistics");
     QStringList rows;
     for (qsizetype i = 0; i < parts.size(); i += perLine)
       rows.append(parts.sliced(i, std::min(perLine, parts.size() - i)).join("  ·  "));

@@ -492,6 +492,10 @@ void LiveChart::addEvent(const RecordingEvent& event) {
   }
   if (event.kind == "mark" || event.kind == "label")
     line(beginS, nameOfEvent(event), text.isEmpty() ? "mark" : "mark: " + text, colors.accent);
+  else if (event.kind == "slip" && event.t1Us > event.tUs)
+    shadeSlip(beginS, series_.secondsOf(event.t1Us), text);
+  else if (event.kind == "slip")
+    line(beginS, "slip", text, colors.danger);
   else if (event.kind == "grasp")
     line(event.t1Us > event.tUs ? series_.secondsOf(event.t1Us) : beginS,
          nameOfEvent(event),
@@ -571,6 +575,16 @@ void LiveChart::arrangeNames() {
     event.name->setPadding(
         QMargins(event.isGap ? 0 : 4, static_cast<int>(free - usedTo.begin()) * lineHeight, 0, 0));
   }
+}
+
+// Its line, at the begin, has its name.
+void LiveChart::shadeSlip(double beginS, double endS, const QString& text) {
+  auto* shape = shadeSpan(*this, beginS, endS);
+  QColor tone = colorsOf().danger;
+  tone.setAlphaF(0.25F);
+  shape->setBrush(tone);
+  auto* word = wordAt(*this, beginS, {}, Qt::AlignLeft, colorsOf().text);
+  events_.push_back({beginS, endS, false, shape, word, text, false});
 }
 
 void LiveChart::shadeNewGaps() {

@@ -149,6 +149,7 @@ class LiveChart : public Chart {
   void nameTime();
   void arrangeNames();
   void shadeNewGaps();
+  void shadeSlip(double beginS, double endS, const QString& text);
   void line(double atS, const QString& name, const QString& text, const QColor& color);
   void forget(double beforeS);
   void placeOverlays();

@@ -21,42 +21,36 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   selectFrom = book.make("selectFrom", "Edit", "Selection begins &here", {key("[")});
   selectTo = book.make("selectTo", "Edit", "Selection &ends here", {key("]")});
   selectAll = book.make("selectAll", "Edit", "Select &all", {key("Ctrl+A")});
-  crop = book.make("crop", "Edit", "&Crop to a new recording…", {key("Ctrl+Shift+X")});
-  saveAs = book.make("saveAs", "File", "Save &as…", {key("Ctrl+Alt+W")});
+  crop = book.make("crop", "Edit", "&Crop to a new recording…");
+  saveAs = book.make("saveAs", "File", "Save &as…");
   saveAs->setToolTip(
       "Saves the whole recording with its labels, notes and grasps: as another recording, or in a "
       "format of other programs");
-  zoomSelection = book.make("zoomSelection", "Edit", "&Zoom to the selection", {key("Z")});
-  dropSelection = book.make("dropSelection", "Edit", "Select n&othing", {key("Ctrl+Shift+Space")});
-  statistics =
-      book.make("statistics", "Edit", "Stat&istics of the selection…", {key("Ctrl+Alt+A")});
+  zoomSelection = book.make("zoomSelection", "Edit", "&Zoom to the selection", {key("Ctrl+Alt+Z")});
+  dropSelection = book.make("dropSelection", "Edit", "Select n&othing");
+  statistics = book.make("statistics", "Analysis", "Stat&istics of the selection…");
   statistics->setToolTip("Mean, deviation, extremes, slope and integral of every curve");
   statistics->setIconText("Statistics…");
-  differences = book.make("differences",
-                          "Edit",
-                          "Differences bet&ween the ends of the selection",
-                          {key("Ctrl+Alt+E")},
-                          true);
+  differences = book.make(
+      "differences", "Analysis", "&Differences between the ends of the selection", {}, true);
   differences->setToolTip(
       "Shows Δt, and of every curve its change, beside the ends of the selection");
-  nameTaxels = book.make("nameTaxels", "Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
-  newFormula = book.make("newFormula", "Edit", "Curve &by a formula or filter…");
+  nameTaxels = book.make("nameTaxels", "Edit", "Nam&e the chosen taxels…");
+  newFormula = book.make("newFormula", "Analysis", "Curve by a &formula or filter…");
   newFormula->setToolTip("A slope, a difference, a filtered curve, or any formula of signals");
-  nextSignal = book.make("nextSignal", "View", "Ne&xt signal in the timeline", {key("S")});
-  chooseCurves = book.make("chooseCurves", "View", "Cu&rves in the timeline…", {key("C")});
+  chooseCurves = book.make("chooseCurves", "View", "Cu&rves in the timeline…");
   zoomIn = book.make("zoomIn", "View", "Zoom the timeline &in", {key("Ctrl++"), key("Ctrl+=")});
   zoomOut = book.make("zoomOut", "View", "Zoom the timeline &out", {key("Ctrl+-")});
-  fit = book.make("fit", "View", "Show the &whole timeline", {key("F")});
-  axes = book.make("verticalAxes", "View", "Vertical axes &by hand…", {key("Shift+V")});
+  fit = book.make("fit", "View", "Show the &whole timeline", {key("Ctrl+0")});
+  axes = book.make("verticalAxes", "View", "Vertical axes &by hand…");
   axes->setToolTip("Ranges of the vertical axes: automatic, or by hand; linear or logarithmic");
-  freeze = book.make("freezeLive", "Hand", "&Freeze the live chart", {key("Shift+P")}, true);
+  freeze = book.make("freezeLive", "Hand", "&Freeze the live chart", {}, true);
   newest = book.make("liveNewest", "Hand", "&Newest frame in the live chart", {key("End")});
   oldest = book.make("liveOldest", "Hand", "Ol&dest frame in the live chart", {key("Home")});
   earlier = book.make("liveEarlier", "Hand", "Ea&rlier in the live chart", {key("Alt+Left")});
   later = book.make("liveLater", "Hand", "&Later in the live chart", {key("Alt+Right")});
-  cursorBack = book.make("cursorBack", "Hand", "Cursor a frame &back", {key("Alt+Shift+Left")});
-  cursorForward =
-      book.make("cursorForward", "Hand", "Cursor a frame for&ward", {key("Alt+Shift+Right")});
+  cursorBack = book.make("cursorBack", "Hand", "Cursor a frame &back");
+  cursorForward = book.make("cursorForward", "Hand", "Cursor a frame for&ward");
   cursorBack->setToolTip("Moves the cursor of the live chart that was set last");
   cursorForward->setToolTip("Moves the cursor of the live chart that was set last");
   crop->setIconText("Crop…");

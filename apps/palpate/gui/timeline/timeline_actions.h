@@ -39,7 +39,6 @@ struct TimelineActions {
   QAction* nameTaxels = nullptr;
   // Makes a curve by a formula or a filter.
   QAction* newFormula = nullptr;
-  QAction* nextSignal = nullptr;
   QAction* chooseCurves = nullptr;
   QAction* zoomIn = nullptr;
   QAction* zoomOut = nullptr;

@@ -10,7 +10,6 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
-#include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/picture/picture_export.h"
 #include "gui/timeline/axis_editor.h"
@@ -167,9 +166,6 @@ void TimelineFeature::connectSubject() {
     look.change([&](ViewSettings& view) { view.signal = signal; });
   };
   connect(header_, &TimelineHeader::signalChosen, this, useSignal);
-  on(actions_.nextSignal, [&look] {
-    look.change([](ViewSettings& view) { view.signal = after(kAllPlottedSignals, view.signal); });
-  });
   connect(
       actions_.signalsPlotted, &QActionGroup::triggered, this, [useSignal](const QAction* action) {
         useSignal(kAllPlottedSignals.at(action->data().toUInt()));
@@ -266,7 +262,7 @@ void TimelineFeature::connectLiveChart() {
     actions_.freeze->setChecked(frozen);
     actions_.freeze->setIconText(frozen ? "To the newest" : "Freeze");
     actions_.freeze->setToolTip(frozen ? "The chart follows the newest frame again (End)"
-                                       : "The chart stays as it is, data go on arriving (Shift+P)");
+                                       : "The chart stays as it is, data go on arriving");
   };
   showFrozen();
   connect(liveChart_, &LiveChart::followingChanged, this, showFrozen);
@@ -590,7 +586,7 @@ void TimelineFeature::showStatistics() {
   const std::vector<PlottedCurve> shown = curves();
   if (!recording || !frames)
     return state().messages.flash("nothing is selected: drag in the timeline, or press [ and ]");
-  if (shown.empty()) return state().messages.flash("no curve is shown: choose some (C)");
+  if (shown.empty()) return state().messages.flash("no curve is shown: choose some with Curves");
   auto selected = std::make_shared<SelectedCurves>();
   statisticsJob_.cancel();
   statisticsJob_.start(
@@ -631,8 +627,7 @@ std::vector<DockSpec> TimelineFeature::docks() {
            .key = QKeySequence("Ctrl+L"),
            .area = Qt::BottomDockWidgetArea,
            .liveArea = Qt::BottomDockWidgetArea,
-           .shown = true,
-           .shownLive = true}};
+           .shownIn = {kAllPresets.begin(), kAllPresets.end()}}};
 }
 
 std::vector<BannerSpec> TimelineFeature::strips() {

@@ -127,14 +127,14 @@ void Legend::paintEvent(QPaintEvent*) {
 TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidget(parent) {
   signal_ = named(new QComboBox(this), "signalBox");
   signal_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
-  signal_->setToolTip("What is plotted of each ticked matrix (S)");
+  signal_->setToolTip("What is plotted of each ticked matrix");
   for (const PlottedSignal signal : kAllPlottedSignals) {
     signal_->addItem(nameOf(signal));
     signal_->setItemData(signal_->count() - 1, meaningOf(signal), Qt::ToolTipRole);
   }
   curves_ = makeToolButton(this, "curvesButton", "Curves");
   curves_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
-  curves_->setToolTip("Taxels, joint angles, temperatures and forces in the timeline (C)");
+  curves_->setToolTip("Taxels, joint angles, temperatures and forces in the timeline");
   legend_ = new Legend(this);
   reading_ = makeLabel(this, "readingWords");
   reading_->hide();

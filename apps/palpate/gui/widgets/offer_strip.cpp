@@ -34,18 +34,36 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
     dismiss();
     if (decline) decline();
   });
-  auto* row = inRow({{text_, 1}, accept_}, Space::kWide);
+  row_ = inRow({{text_, 1}, accept_, close}, Space::kWide);
   others_ = new QHBoxLayout;
   others_->setSpacing(12);
-  // Below, so that the window needs no more width for them.
-  setLayout(inColumn({row, inRow({Stretch{}, others_})},
+  below_ = inRow({Stretch{}, others_});
+  setLayout(inColumn({row_, below_},
                      Space::kNarrow,
                      {.left = Space::kWide,
                       .top = Space::kUsual,
                       .right = Space::kUsual,
                       .bottom = Space::kUsual}));
-  row->addWidget(close);
   hide();
+}
+
+void OfferStrip::placeOthers() {
+  constexpr double kMostShare = 0.5;  // of the width for buttons beside the text
+  const int buttons = accept_->sizeHint().width() + others_->sizeHint().width();
+  const bool beside = buttons < kMostShare * width();
+  if (beside == (others_->parent() == row_)) return;
+  if (beside) {
+    below_->removeItem(others_);
+    row_->insertLayout(row_->indexOf(accept_), others_);
+  } else {
+    row_->removeItem(others_);
+    below_->addLayout(others_);
+  }
+}
+
+void OfferStrip::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  placeOthers();
 }
 
 void OfferStrip::offer(const QString& text,
@@ -69,6 +87,7 @@ void OfferStrip::offerAlso(const QString& button,
   made->setFocusPolicy(Qt::TabFocus);
   connect(made, &QPushButton::clicked, this, std::move(action));
   others_->addWidget(made);
+  placeOthers();
 }
 
 void OfferStrip::removeOthers() {

@@ -7,6 +7,7 @@
 
 #include "gui/appearance/theme.h"
 
+class QBoxLayout;
 class QHBoxLayout;
 class QLabel;
 class QPushButton;
@@ -34,11 +35,19 @@ class OfferStrip : public QWidget {
   void warn(bool on);
   QString text() const;
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void removeOthers();
+  // Beside the text where there is room for it, else below it, so that the window needs no more
+  // width for them.
+  void placeOthers();
 
   QLabel* text_;
   QPushButton* accept_;
+  QBoxLayout* row_;
+  QBoxLayout* below_;
   QHBoxLayout* others_;
   std::function<void()> onAccept_;
   std::function<void()> onDecline_;

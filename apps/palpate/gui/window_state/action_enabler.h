@@ -22,7 +22,14 @@ class ActionEnabler {
            const QString& whyNot = {}) {
     all_.push_back({actions, std::move(condition), whyNot});
   }
-  void clear() { all_.clear(); }
+  // Shows actions only while the condition is true; hidden ones are disabled.
+  void show(const QList<QAction*>& actions, std::function<bool()> condition) {
+    shown_.push_back({actions, std::move(condition), {}});
+  }
+  void clear() {
+    all_.clear();
+    shown_.clear();
+  }
   void refresh() const {
     for (const Conditional& each : all_) {
       const bool possible = each.condition();
@@ -30,6 +37,10 @@ class ActionEnabler {
         action->setEnabled(possible);
         if (!each.whyNot.isEmpty()) setWhyGreyed(*action, possible ? QString() : each.whyNot);
       }
+    }
+    for (const Conditional& each : shown_) {
+      const bool shown = each.condition();
+      for (QAction* action : each.actions) action->setVisible(shown);
     }
   }
 
@@ -40,6 +51,7 @@ class ActionEnabler {
     QString whyNot;
   };
   std::vector<Conditional> all_;
+  std::vector<Conditional> shown_;
 };
 
 }  // namespace palpate::gui

@@ -21,8 +21,8 @@ namespace palpate::gui {
 
 class ActionRegistry {
  public:
-  // So many matrices have an action with a key; further matrices have none.
-  static constexpr int kMatricesWithKeys = 9;
+  // So many matrices have actions of their own; further ones have none.
+  static constexpr int kListedMatrices = 9;
 
   // The actions belong to the window; their keys work wherever in the window the keyboard focus is.
   explicit ActionRegistry(QWidget* window) : window_(window) {}

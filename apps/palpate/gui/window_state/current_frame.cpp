@@ -113,7 +113,8 @@ void CurrentFrame::renewLiveNotice() {
     notice = !live_.hasReceivedFrames() ? QString("waiting for the first frame")
                                         : "no frame for " + figure(live_.silentS(), 1) + " s";
     const QString why = withoutDuration(QString::fromStdString(withoutPort(port)));
-    if (!why.isEmpty()) notice += ": " + why;
+    // Once there were frames, the alarm above the views says why.
+    if (!why.isEmpty() && !live_.hasReceivedFrames()) notice += ": " + why;
   }
   if (held_) notice = notice.isEmpty() ? QString(kHeldText) : kHeldText + ("; " + notice);
   setStale({notice, held_});

@@ -6,6 +6,7 @@
 #include <QKeySequence>
 #include <QObject>
 #include <QWidget>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -16,11 +17,22 @@ namespace palpate::gui {
 
 class Dock;
 
+// A layout of the docks for a task; the user chooses one.
+enum class Preset { kWatch, kGrasp, kRecord, kAnalyse };
+inline constexpr std::array kAllPresets{
+    Preset::kWatch, Preset::kGrasp, Preset::kRecord, Preset::kAnalyse};
+inline QString nameOf(Preset preset) {
+  constexpr std::array kNames{"Watch", "Grasp", "Record", "Analyse"};
+  return kNames[static_cast<std::size_t>(preset)];
+}
+
 // A dock and its default place, which the user can change.
 struct DockSpec {
   Dock* dock = nullptr;
   // The key that shows and hides the dock.
   QKeySequence key;
+  // The menu that shows and hides the dock.
+  const char* menu = "View";
   Qt::DockWidgetArea area = Qt::RightDockWidgetArea;
   // The place while a live source is shown.
   Qt::DockWidgetArea liveArea = Qt::RightDockWidgetArea;
@@ -28,9 +40,8 @@ struct DockSpec {
   int tab = -1;
   // Whether the dock is placed above the dock at the bottom.
   bool above = false;
-  // Whether the dock is visible by default, with a recording and with a live source.
-  bool shown = false;
-  bool shownLive = false;
+  // The presets in which the dock is visible by default.
+  std::vector<Preset> shownIn = {};
   // Whether the dock keeps its visibility whatever source is shown; the settings store it under the
   // name of the dock.
   bool everywhere = false;

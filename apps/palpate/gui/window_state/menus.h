@@ -18,6 +18,8 @@ struct Menus {
   QMenu* scanned = nullptr;
   // Files that were opened last.
   QMenu* recent = nullptr;
+  // The presets; also the menu of a button in the tool bar, which shows the one in use.
+  QMenu* layout = nullptr;
   // Speeds in the toolbar; the index is that of PlaybackController::kSpeeds.
   QComboBox* speed = nullptr;
   // The open recordings.

@@ -58,6 +58,8 @@ struct WindowEnvironment {
   // Whether the window, when it opens, offers to recover recordings that an earlier session left
   // unfinished.
   bool offerUnfinished = false;
+  // Whether a grasp is played on the start page.
+  bool playsOnStart = false;
   // Null: the user is asked by dialogues.
   Ask* ask = nullptr;
 };
