@@ -373,6 +373,23 @@ QStringList sharedAccessKeys(const QList<QAction*>& entries, const QString& menu
   return shared;
 }
 
+// No single letter moves the hand, also where a menu has the keyboard.
+TEST_F(MainWindowTest, MotionsOfTheHandHaveNoAccessKey) {
+  const QList<QAction*>& motions = window().state().handCommands.motions;
+  EXPECT_GE(motions.size(), 5);
+  for (const QAction* motion : motions)
+    EXPECT_TRUE(QKeySequence::mnemonic(motion->text()).isEmpty()) << motion->text().toStdString();
+}
+
+// Letters typed after an entry was chosen by keys don't choose further ones.
+TEST_F(MainWindowTest, AfterAnEntryOfAMenuTheKeyboardBelongsToTheWindow) {
+  QMenuBar* menus = window().menuBar();
+  menus->setFocus(Qt::MenuBarFocusReason);
+  ASSERT_TRUE(menus->hasFocus());
+  emit menus->triggered(actions().at("values"));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !menus->hasFocus(); }));
+}
+
 TEST_F(MainWindowTest, NoTwoEntriesOfAMenuShareAnAccessKey) {
   const QStringList shared = sharedAccessKeys(window().menuBar()->actions(), "menu bar");
   EXPECT_TRUE(shared.isEmpty()) << shared.join("\n").toStdString();

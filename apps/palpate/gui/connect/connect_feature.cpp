@@ -215,6 +215,7 @@ void ConnectFeature::fillMenu() {
     Connection connection;
     connection.kind = Connection::Kind::kEmulated;
     connection.scene = QString::fromStdString(name);
+    connection.sceneScriptRuns = true;  // else nothing pulls or turns the object
     add(scenes, sceneTitle(connection.scene), connection);
   }
   QMenu* replays = menu->addMenu("&Replay of a recording");

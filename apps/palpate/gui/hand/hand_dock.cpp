@@ -399,10 +399,11 @@ void HandDock::showCondition(const GraspStatus& status, const std::vector<GraspC
   // A change that lasts shorter than a refresh is told, too.
   for (const GraspChange& change : changes) tell(change.condition);
   tell(now);
-  emit conditionShown(now,
-                      sequence_->running()
-                          ? HandTask{"sequence runs", "A sequence runs: " + sequence_->stateText()}
-                          : otherTask());
+  HandTask task = otherTask();
+  if (const QString own = ownMotion(); !own.isEmpty())
+    task = {"by itself", "The emulated hand acts by itself, as its scene says: " + own};
+  if (sequence_->running()) task = {"sequence runs", "A sequence runs: " + sequence_->stateText()};
+  emit conditionShown(now, task);
 }
 
 // Judges the matrices as the offered grasps would: by the reactive grasp; where that detects

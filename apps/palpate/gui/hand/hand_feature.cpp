@@ -17,11 +17,12 @@ constexpr const char* kTouchesTopic = "touches of objects";
 }  // namespace
 
 HandActions::HandActions(ActionRegistry& book) {
-  graspHand = book.make("graspHand", "Hand", "&Grasp", {key("Ctrl+Alt+G")});
-  reactiveGrasp = book.make("reactiveGrasp", "Hand", "&Reactive grasp", {key("Ctrl+Alt+R")});
-  slipAwareGrasp = book.make("slipAwareGrasp", "Hand", "Slip-&aware grasp", {key("Ctrl+Alt+S")});
-  openHand = book.make("openHand", "Hand", "&Open the hand", {key("Ctrl+Alt+O")});
-  relaxHand = book.make("relaxHand", "Hand", "Rela&x", {key("Ctrl+Alt+X")});
+  // No access keys: a letter that is typed into a menu moves nothing.
+  graspHand = book.make("graspHand", "Hand", "Grasp", {key("Ctrl+Alt+G")});
+  reactiveGrasp = book.make("reactiveGrasp", "Hand", "Reactive grasp", {key("Ctrl+Alt+R")});
+  slipAwareGrasp = book.make("slipAwareGrasp", "Hand", "Slip-aware grasp", {key("Ctrl+Alt+S")});
+  openHand = book.make("openHand", "Hand", "Open the hand", {key("Ctrl+Alt+O")});
+  relaxHand = book.make("relaxHand", "Hand", "Relax", {key("Ctrl+Alt+X")});
   graspHand->setProperty(kRefusalProperty, "Can't grasp");
   reactiveGrasp->setProperty(kRefusalProperty, "Can't begin a reactive grasp");
   slipAwareGrasp->setProperty(kRefusalProperty, "Can't begin a slip-aware grasp");

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QChildEvent>
 #include <QFontInfo>
+#include <QGuiApplication>
 #include <QLayout>
 #include <QRegularExpression>
 #include <QTabBar>
@@ -196,6 +197,7 @@ void DockArrangement::use(const QString& preset) {
   store();
   preset_[place_] = preset;
   restore();
+  remember();
 }
 
 Preset DockArrangement::standard() const {
@@ -221,7 +223,7 @@ QString DockArrangement::keepAs(const QString& name) {
   if (!ownPresets().contains(name) && ownPresets().size() >= kMostOwnPresets)
     return "There are " + QString::number(kMostOwnPresets) + " own layouts: remove one first";
   preset_[place_] = name;
-  store();
+  remember();
   emit presetsChanged();
   return {};
 }
@@ -233,6 +235,7 @@ void DockArrangement::removeOwn() {
   for (const PlaceOfLayouts& place : kPlaces)
     if (preset_[place.kind] == name) preset_[place.kind] = nameOf(place.preset);
   restore();
+  remember();
 }
 
 void DockArrangement::keepWindowSize(QSize most, Dock* inFront) {
@@ -446,9 +449,16 @@ void DockArrangement::makeRoomFor(const DockSpec& offer, const QByteArray& befor
     // The sizes hold after the layout has been applied.
     QTimer::singleShot(0, this, [this, dock, before] {
       if (!before.isEmpty() && !dock->isFloating() && !dock->isHidden())
-        opened_.try_emplace(dock, Change{before, window_.saveState()});
+        opened_.try_emplace(dock, Change{before, seenDocks()});
     });
   });
+}
+
+std::vector<const Dock*> DockArrangement::seenDocks() const {
+  std::vector<const Dock*> seen;
+  for (const DockSpec& offer : offers_)
+    if (!offer.dock->isHidden()) seen.push_back(offer.dock);
+  return seen;
 }
 
 void DockArrangement::giveRoomBack(const Dock& dock) {
@@ -457,16 +467,13 @@ void DockArrangement::giveRoomBack(const Dock& dock) {
   if (at == opened_.end()) return;
   const Change change = std::move(at->second);
   opened_.erase(at);
-  if (window_.saveState() != change.after) return;
+  if (seenDocks() != change.seen) return;
   QTimer::singleShot(0, this, [this, closed = &dock, before = change.before] {
     if (closed->isHidden()) window_.restoreState(before);
   });
 }
 
-void DockArrangement::fitToNewText() {
-  window_.restoreState(text_.before);
-  text_.after = window_.saveState();
-}
+void DockArrangement::fitToNewText() { window_.restoreState(text_.before); }
 
 bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ChildAdded && watched == &window_) {
@@ -475,8 +482,12 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
   } else if (event->type() == QEvent::FontChange && watched == &window_) {
     // While it changes step by step, the layout before the first step counts.
     if (!textChange_.isActive())
-      if (const QByteArray now = window_.saveState(); now != text_.after) text_.before = now;
+      if (std::vector<const Dock*> now = seenDocks(); text_.before.isEmpty() || now != text_.seen)
+        text_ = {window_.saveState(), std::move(now)};
     textChange_.start();
+  } else if (event->type() == QEvent::Resize && QGuiApplication::mouseButtons() != Qt::NoButton) {
+    opened_.clear();
+    text_ = {};
   } else if (event->type() == QEvent::LayoutRequest && watched == &window_ && grown_) {
     // The content may need less since the last attempt.
     giveSizeBack();

@@ -67,11 +67,12 @@ class DockArrangement : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  // A change that took room from the docks around, and is taken back when its reason has gone:
-  // layouts before and after it (QMainWindow::saveState()). Whoever changed something since keeps
-  // that.
+  // The layout before a change that took room from the docks around, which is restored when its
+  // reason has gone; and the docks that were seen with it. Whoever gives docks other sizes with the
+  // mouse, or opens or closes further ones, keeps that.
   struct Change {
-    QByteArray before, after;
+    QByteArray before;
+    std::vector<const Dock*> seen;
   };
 
   // The window grew because its content didn't fit [px].
@@ -104,6 +105,7 @@ class DockArrangement : public QObject {
   void fitToNewText();
   // Enlarges a dock that the user asked for, so that its content can be read.
   void makeRoomFor(const DockSpec& offer, const QByteArray& before);
+  std::vector<const Dock*> seenDocks() const;
   // Gives the room back that a closed dock took.
   void giveRoomBack(const Dock& dock);
   // Widens a dock of which another tab or page is shown, so that nothing of it is cut.

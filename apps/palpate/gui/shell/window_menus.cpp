@@ -8,6 +8,7 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QStyle>
+#include <QTimer>
 #include <QToolBar>
 #include <QToolButton>
 #include <algorithm>
@@ -62,6 +63,12 @@ WindowMenus::WindowMenus(QMainWindow& window) : window_(window) {
 
 void WindowMenus::fill(const ActionRegistry& book, const QList<QAction*>& dockToggles) {
   buildMenuBar(book, dockToggles);
+  // Menus that come and go keep Qt's menu bar in its mode for keys: letters that are typed next
+  // would choose entries, those that move the hand among them.
+  QMenuBar* menus = window_.menuBar();
+  QObject::connect(menus, &QMenuBar::triggered, menus, [menus] {
+    QTimer::singleShot(0, menus, [menus] { menus->clearFocus(); });
+  });
   buildToolBar(book);
   addOthers(book);
   QAction* record = book.at("record");
