@@ -64,7 +64,7 @@ TEST_F(Installed, HasEverythingThatAPackageTakes) {
                            "libexec/palpate/palpate_stop",
                            "libexec/palpate/palpate_hdf5",
                            "share/applications/palpate.desktop",
-                           "share/metainfo/palpate.metainfo.xml",
+                           "share/metainfo/org.example.palpate.metainfo.xml",
                            "share/mime/packages/palpate.xml",
                            "share/icons/hicolor/scalable/apps/palpate.svg",
                            "share/man/man1/palpate.1.gz",
@@ -227,7 +227,7 @@ TEST_F(Installed, VersionIsTheSameEverywhere) {
   EXPECT_EQ(palpate({"--version"}).out, "palpate " + version + "\n");
   const std::string changelog = readFile(projectFolder() / "cmake/package/changelog");
   EXPECT_TRUE(changelog.starts_with("palpate (" + version + "-")) << changelog.substr(0, 40);
-  EXPECT_NE(text("share/metainfo/palpate.metainfo.xml")
+  EXPECT_NE(text("share/metainfo/org.example.palpate.metainfo.xml")
                 .find("<release version=\"" + version + "\" date=\"20"),
             std::string::npos);
 }
@@ -242,7 +242,7 @@ TEST_F(Installed, FileTypesAreTheSameEverywhere) {
   for (const std::string& each : all) {
     EXPECT_NE(text("share/applications/palpate.desktop").find(each + ";"), std::string::npos)
         << each;
-    EXPECT_NE(text("share/metainfo/palpate.metainfo.xml").find("<mediatype>" + each + "<"),
+    EXPECT_NE(text("share/metainfo/org.example.palpate.metainfo.xml").find("<mediatype>" + each + "<"),
               std::string::npos);
   }
 }
@@ -297,7 +297,7 @@ TEST_F(Installed, DesktopEntryIsValid) {
 TEST_F(Installed, AppStreamMetadataIsValid) {
   const auto result = tool(
       "appstreamcli",
-      {"validate", "--pedantic", "--no-net", path("share/metainfo/palpate.metainfo.xml").string()});
+      {"validate", "--pedantic", "--no-net", path("share/metainfo/org.example.palpate.metainfo.xml").string()});
   if (!result) PALPATE_CANNOT_SHOW("appstream isn't installed");
   EXPECT_EQ(result->exitCode, 0) << result->out;
 }

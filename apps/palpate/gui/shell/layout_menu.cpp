@@ -54,7 +54,6 @@ LayoutMenu::LayoutMenu(WindowState& windowState, DockArrangement& docks, QMenu& 
   connect(remove_, &QAction::triggered, &docks, &DockArrangement::removeOwn);
   connect(reset_, &QAction::triggered, &docks, &DockArrangement::reset);
   connect(&docks, &DockArrangement::presetsChanged, this, &LayoutMenu::renew);
-  menu.menuAction()->setToolTip("Layout of the window (Ctrl+1 .. Ctrl+5)");
 }
 
 void LayoutMenu::begin() {
@@ -91,8 +90,7 @@ void LayoutMenu::renew() {
   menu_.addSeparator();
   menu_.addActions({keep_, remove_, reset_});
   remove_->setVisible(own.contains(docks_.preset()));
-  // The button in the tool bar says which one is in use.
-  menu_.menuAction()->setIconText(docks_.preset());
+  menu_.menuAction()->setToolTip("Layout: " + docks_.preset() + " (Ctrl+1 .. Ctrl+5)");
   menu_.menuAction()->setVisible(!docks_.preset().isEmpty());
 }
 

@@ -18,7 +18,7 @@ struct Menus {
   QMenu* scanned = nullptr;
   // Files that were opened last.
   QMenu* recent = nullptr;
-  // The presets; also the menu of a button in the tool bar, which shows the one in use.
+  // The presets; also the menu of a button in the tool bar.
   QMenu* layout = nullptr;
   // Speeds in the toolbar; the index is that of PlaybackController::kSpeeds.
   QComboBox* speed = nullptr;
