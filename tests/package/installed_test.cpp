@@ -242,8 +242,9 @@ TEST_F(Installed, FileTypesAreTheSameEverywhere) {
   for (const std::string& each : all) {
     EXPECT_NE(text("share/applications/palpate.desktop").find(each + ";"), std::string::npos)
         << each;
-    EXPECT_NE(text("share/metainfo/org.example.palpate.metainfo.xml").find("<mediatype>" + each + "<"),
-              std::string::npos);
+    EXPECT_NE(
+        text("share/metainfo/org.example.palpate.metainfo.xml").find("<mediatype>" + each + "<"),
+        std::string::npos);
   }
 }
 
@@ -295,9 +296,11 @@ TEST_F(Installed, DesktopEntryIsValid) {
 }
 
 TEST_F(Installed, AppStreamMetadataIsValid) {
-  const auto result = tool(
-      "appstreamcli",
-      {"validate", "--pedantic", "--no-net", path("share/metainfo/org.example.palpate.metainfo.xml").string()});
+  const auto result = tool("appstreamcli",
+                           {"validate",
+                            "--pedantic",
+                            "--no-net",
+                            path("share/metainfo/org.example.palpate.metainfo.xml").string()});
   if (!result) PALPATE_CANNOT_SHOW("appstream isn't installed");
   EXPECT_EQ(result->exitCode, 0) << result->out;
 }

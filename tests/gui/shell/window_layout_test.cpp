@@ -147,6 +147,17 @@ TEST_F(WindowLayoutTest, EachPresetIsRestoredAsItWasLeft) {
   EXPECT_FALSE(dock("Inspect")->isVisible());
 }
 
+// The comparison hides all docks.
+TEST_F(WindowLayoutTest, ALayoutThatIsChosenWhileComparingIsWhole) {
+  open({"good.dsa"});
+  trigger("compare");
+  ASSERT_FALSE(dock("Timeline")->isVisible());
+  press(Qt::Key_4, Qt::ControlModifier);
+  EXPECT_TRUE(dock("Timeline")->isVisible() && dock("Inspect")->isVisible());
+  press(Qt::Key_1, Qt::ControlModifier);
+  EXPECT_TRUE(dock("Timeline")->isVisible());
+}
+
 TEST_F(WindowLayoutTest, OwnPresetsHaveNames) {
   open({"good.dsa"});
   const auto* button = find<QToolButton>("layoutButton");

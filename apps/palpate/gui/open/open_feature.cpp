@@ -154,7 +154,7 @@ void OpenFeature::connectStartPage() {
   });
 }
 
-// The emulated hand has a button of its own.
+// The emulated hand has its own button.
 void OpenFeature::showLastConnection() {
   QSettings& settings = state().settings;
   const Connection last = loadConnection(settings);

@@ -19,7 +19,7 @@ constexpr double kShowLargerText = 1.25;  // than in the window: it is read from
 constexpr int kShowStopLetters = 24;      // a large button is hit at once
 constexpr int kShowRowMargin = 16;
 constexpr int kSceneShare = 3, kAnswerShare = 2;  // of the width
-constexpr qsizetype kMostBefore = 3;
+constexpr qsizetype kMaxBefore = 3;
 
 }  // namespace
 
@@ -137,10 +137,10 @@ void PresentationWindow::showAnswer() {
   answer.offset.clear();
   if (answer.sure && answer.name() != sure_.value(0)) {
     sure_.prepend(answer.name());
-    sure_ = sure_.mid(0, kMostBefore + 1);
+    sure_ = sure_.mid(0, kMaxBefore + 1);
   }
   // The name that is shown isn't one of those before.
-  const QStringList before = sure_.mid(answer.name() == sure_.value(0) ? 1 : 0, kMostBefore);
+  const QStringList before = sure_.mid(answer.name() == sure_.value(0) ? 1 : 0, kMaxBefore);
   before_->setText(before.isEmpty() ? QString() : "before: " + before.join(", "));
   // The audience needs no hint about buttons.
   if (answer.kind == RecognitionAnswer::Kind::kNothing)

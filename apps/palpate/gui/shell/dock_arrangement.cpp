@@ -61,7 +61,7 @@ constexpr PlaceOfLayouts kPlaces[] = {kRecordingLayouts, kLiveLayouts};
 // What a name of a preset may contain, so that it is a key of the settings.
 const QRegularExpression kPresetName("^[\\w .+()-]{1,30}$",
                                      QRegularExpression::UseUnicodePropertiesOption);
-constexpr qsizetype kMostOwnPresets = 10;
+constexpr qsizetype kMaxOwnPresets = 10;
 
 QString presetKey(const PlaceOfLayouts& place) { return QString("window/preset_") + place.name; }
 QString layoutsGroup(const PlaceOfLayouts& place) {
@@ -220,8 +220,8 @@ QString DockArrangement::keepAs(const QString& name) {
     return "A name has 1 to 30 letters, digits, blanks and .+-()";
   if (presetNames().contains(name, Qt::CaseInsensitive))
     return name + " is one of Palpate's own: choose another name";
-  if (!ownPresets().contains(name) && ownPresets().size() >= kMostOwnPresets)
-    return "There are " + QString::number(kMostOwnPresets) + " own layouts: remove one first";
+  if (!ownPresets().contains(name) && ownPresets().size() >= kMaxOwnPresets)
+    return "There are " + QString::number(kMaxOwnPresets) + " own layouts: remove one first";
   preset_[place_] = name;
   remember();
   emit presetsChanged();

@@ -33,7 +33,6 @@ LayoutMenu::LayoutMenu(WindowState& windowState, DockArrangement& docks, QMenu& 
                                 true);
     presets_.addAction(action);
     action->setData(name);
-    connect(action, &QAction::triggered, this, [this, preset] { use(preset); });
     if (needsHand(preset))
       enabler.add(
           {action},
@@ -50,6 +49,14 @@ LayoutMenu::LayoutMenu(WindowState& windowState, DockArrangement& docks, QMenu& 
   keep_ = book.make("keepLayout", "View", "&Keep as an own layout…");
   remove_ = book.make("removeLayout", "View", "Re&move this own layout");
   reset_ = book.make("resetLayout", "View", "Rese&t this layout");
+  // The comparison hides all docks: that isn't the layout which is stored, or goes on.
+  const auto leaveComparison = [&windowState] { windowState.comparison.set(false); };
+  for (QAction* action : presets_.actions() + QList<QAction*>{keep_, remove_, reset_})
+    connect(action, &QAction::triggered, this, leaveComparison);
+  for (std::size_t i = 0; i < kAllPresets.size(); ++i)
+    connect(presets_.actions()[static_cast<qsizetype>(i)], &QAction::triggered, this, [this, i] {
+      use(kAllPresets[i]);
+    });
   connect(keep_, &QAction::triggered, this, &LayoutMenu::keep);
   connect(remove_, &QAction::triggered, &docks, &DockArrangement::removeOwn);
   connect(reset_, &QAction::triggered, &docks, &DockArrangement::reset);
@@ -79,7 +86,10 @@ void LayoutMenu::renew() {
     auto* action = new QAction(QString(name).replace('&', "&&"), &presets_);
     action->setCheckable(true);
     action->setData(name);
-    connect(action, &QAction::triggered, this, [this, name] { docks_.use(name); });
+    connect(action, &QAction::triggered, this, [this, name] {
+      windowState_.comparison.set(false);
+      docks_.use(name);
+    });
   }
   for (QAction* action : presets_.actions())
     if (action->data() == docks_.preset()) action->setChecked(true);

@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kPictureMs = 100;   // of the film and of the recording
 constexpr double kBeforeS = 1.0;  // of the recording, before the first contact
-constexpr std::size_t kMostPictures = 60;
+constexpr std::size_t kMaxPictures = 60;
 constexpr std::size_t kPausePictures = 10;  // at the end
 constexpr int kHeightLines = 15;
 constexpr double kHandShare = 0.45;   // of the width
@@ -46,7 +46,7 @@ std::vector<std::size_t> framesOf(const OpenedRecording& recording) {
   if (first == whole.end()) return frames;
   double nextS = recording.timeS[static_cast<std::size_t>(first - whole.begin())] - kBeforeS;
   for (std::size_t i = 0; i < static_cast<std::size_t>(end - whole.begin()); ++i) {
-    if (recording.timeS[i] < nextS || frames.size() == kMostPictures) continue;
+    if (recording.timeS[i] < nextS || frames.size() == kMaxPictures) continue;
     frames.push_back(i);
     nextS = std::max(nextS, recording.timeS[i] - kPictureMs / 2e3) + kPictureMs / 1e3;
   }
