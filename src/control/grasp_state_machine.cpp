@@ -369,9 +369,12 @@ void GraspStateMachine::motionEnded(const std::vector<int>& states, std::int64_t
     return pause(Next::kSettle, "closed as far as it goes", monoUs);
   // It closed again because something slipped, and touches nothing now.
   const bool lost = isSlipAware() && held_;
-  const std::string text = !axes.empty() ? "finished: held at the joints: " + axes
-                           : lost        ? std::string(kNothingHeldText)
-                                         : "finished: at its target";
+  const bool closes = !isJointMotion(report_.request) && report_.request.closeRatio > 0.0;
+  const bool touchesNothing = closes && stream_.alive(monoUs) && peak_.counts <= 0.0F;
+  const std::string text = !axes.empty()    ? "finished: held at the joints: " + axes
+                           : lost           ? std::string(kNothingHeldText)
+                           : touchesNothing ? "finished: at its target, touching nothing"
+                                            : "finished: at its target";
   // Motors of blocked axes keep pushing. After the grasp the taxels are no longer monitored, so the
   // motion must be stopped.
   if (!axes.empty() && underTactileControl())

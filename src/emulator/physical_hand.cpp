@@ -367,6 +367,7 @@ void PhysicalHand::measure(std::span<float> values) {
 std::string_view PhysicalHand::ownMotion() const { return impl_->ownMotion(); }
 std::vector<double> PhysicalHand::temperatures() { return impl_->degC; }
 std::vector<MatrixTruth> PhysicalHand::truth() const { return impl_->scanned; }
+std::vector<SceneObject> PhysicalHand::objects() const { return impl_->objects.present(); }
 const std::vector<double>& PhysicalHand::pressureKpa() const noexcept { return impl_->pressure; }
 
 }  // namespace palpate

@@ -232,6 +232,16 @@ void PhysicalObjects::advanceBody(Body& body, double dtS) {
     body.rotation = (Eigen::AngleAxisd(angle, angular.normalized()) * body.rotation).eval();
 }
 
+std::vector<SceneObject> PhysicalObjects::present() const {
+  std::vector<SceneObject> objects;
+  for (const Body& body : bodies_) {
+    objects.push_back(body.object);
+    objects.back().positionMm = body.positionMm;
+    objects.back().rotation = body.rotation;
+  }
+  return objects;
+}
+
 bool PhysicalObjects::quiet() const noexcept {
   return std::all_of(bodies_.begin(), bodies_.end(), [](const Body& body) {
     return body.moved.leftS <= 0.0 && body.turned.leftS <= 0.0 && body.loadLeftS <= 0.0 &&

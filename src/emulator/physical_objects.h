@@ -58,6 +58,8 @@ class PhysicalObjects {
     return bodies_.at(object).positionMm;
   }
   std::size_t size() const noexcept { return bodies_.size(); }
+  // The objects in their present poses.
+  std::vector<SceneObject> present() const;
 
  private:
   // A motion by the script.

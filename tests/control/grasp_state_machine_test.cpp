@@ -49,6 +49,26 @@ TEST(GraspStateMachine, PlainGraspGoesToItsTargetAndEnds) {
   EXPECT_FALSE(bench.machine.takeReport().has_value());
 }
 
+TEST(GraspStateMachine, AGraspThatTouchesNothingSaysSo) {
+  const auto textAfter = [](double closeRatio, float counts, std::int64_t silenceUs) {
+    Bench bench;
+    GraspRequest request;
+    request.closeRatio = closeRatio;
+    bench.begin(request);
+    bench.take(0.0);
+    bench.frames(20, counts);
+    bench.us += silenceUs;
+    bench.machine.onAxisStates(kIdle, bench.us);
+    const auto report = bench.machine.takeReport();
+    return report ? report->text : std::string("no report");
+  };
+  EXPECT_EQ(textAfter(0.5, 0.0F, 0), "finished: at its target, touching nothing");
+  EXPECT_EQ(textAfter(0.5, 300.0F, 0), "finished: at its target");
+  EXPECT_EQ(textAfter(0.0, 0.0F, 0), "finished: at its target");
+  // What it touches is not known.
+  EXPECT_EQ(textAfter(0.5, 0.0F, 10'000'000), "finished: at its target");
+}
+
 TEST(GraspStateMachine, PlainGraspDoesNotMindTheTaxels) {
   Bench bench;
   bench.begin({});

@@ -80,6 +80,18 @@ TEST(PhysicalHand, ClosingOnEachObjectTouchesItWithAtLeastTwoFingers) {
 }
 
 // The scripts of the scenes grasp and release by themselves.
+TEST(PhysicalHand, ObjectsAreWhereTheScriptMovedThem) {
+  Scene scene = quietScene("ball");
+  scene.script = {{1.0, MoveObject{0, {0.0, 0.0, 10.0}, 1.0}}};
+  PhysicalHand hand(scene);
+  ASSERT_EQ(hand.objects().size(), 1u);
+  EXPECT_EQ(hand.objects()[0].positionMm, scene.objects[0].positionMm);
+  EXPECT_EQ(hand.objects()[0].shape.sizeMm, scene.objects[0].shape.sizeMm);
+  hand.advanceTo(3.0);
+  const Eigen::Vector3d moved = hand.objects()[0].positionMm - scene.objects[0].positionMm;
+  EXPECT_TRUE(moved.isApprox(Eigen::Vector3d(0.0, 0.0, 10.0), 1e-6)) << moved.transpose();
+}
+
 TEST(PhysicalHand, ScriptsGraspAndRelease) {
   for (const char* name : {"ball", "foam_ball", "bottle", "pen", "box", "slipping_handle"}) {
     PhysicalHand hand(sceneOf(name));

@@ -42,6 +42,31 @@ TEST(ImportForms, BytesZeroOfAPowerCutAreLeftOutAndCounted) {
   EXPECT_NE(strict.find("5000000 bytes 0"), std::string::npos) << strict;
 }
 
+TEST(ImportForms, RowsBelowLaterNamesAreReadByThem) {
+  const TemporaryFolder folder;
+  const std::string first = "time_ms,a,b\n10,1,2\n";
+  const auto moved =
+      importText(folder, first + "b,time_ms,a\n4,20,3\n6,30,5\ntime_ms,a,b\n40,7,8\n", pad(1, 2));
+  ASSERT_EQ(moved.report.frames, 4u);
+  EXPECT_EQ(moved.profile.frameTimeUs(2), 30'000);
+  EXPECT_EQ(moved.profile.frame(1).values, (std::vector<float>{3, 4}));
+  EXPECT_EQ(moved.profile.frame(2).values, (std::vector<float>{5, 6}));
+  EXPECT_EQ(moved.profile.frame(3).values, (std::vector<float>{7, 8}));
+  EXPECT_EQ(moved.report.refused.total(), 2u);
+  EXPECT_EQ(moved.report.refused.first,
+            "line 3 has the names in another order: the rows below it are read by them");
+  // Rows of another table are none of this one.
+  const auto other =
+      importText(folder, first + "time_ms,x,y\n20,900,901\ntime_ms,a,b\n30,5,6\n", pad(1, 2));
+  ASSERT_EQ(other.report.frames, 2u);
+  EXPECT_EQ(other.profile.frame(1).values, (std::vector<float>{5, 6}));
+  EXPECT_EQ(other.report.refused.wrongCount, 1u);
+  EXPECT_EQ(other.report.refused.total(), 3u);
+  // A row of words is no line of names.
+  const auto words = importText(folder, first + "off,off,off\n20,3,4\n", pad(1, 2));
+  EXPECT_EQ(words.report.frames, 2u);
+}
+
 // imports 22.
 TEST(ImportForms, DatesAndTimesOfDayOfTheUsualForms) {
   const TemporaryFolder folder;

@@ -259,7 +259,7 @@ TEST(RecordingImport, RowsThatCanNotBeUsedAreCountedByKind) {
   EXPECT_EQ(refused.total(), 8u);
   EXPECT_EQ(refused.first, "line 3 has 4 cells instead of 5");
   EXPECT_EQ(refused.summary(),
-            "8 rows refused: 1 with a wrong number of cells, 2 with text, 1 with NaN or too large "
+            "8 rows refused: 1 of another form, 2 with text, 1 with NaN or too large "
             "values, 2 with missing values, 2 with a time that is not later");
   EXPECT_EQ(RefusedRows().summary(), "");
   EXPECT_EQ(

@@ -60,6 +60,8 @@ class PhysicalHand final : public HandModel {
   // By the script of the scene.
   std::string_view ownMotion() const override;
 
+  // The objects of the scene in their poses after the last step.
+  std::vector<SceneObject> objects() const;
   // Pressure on each place in the last step, before the effects of rubber and sensor [kPa].
   const std::vector<double>& pressureKpa() const noexcept;
 

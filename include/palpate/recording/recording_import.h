@@ -28,7 +28,7 @@ namespace palpate {
 
 // Rows that were not imported, by what is wrong with them.
 struct RefusedRows {
-  std::uint64_t wrongCount = 0;  // another number of cells than the table has columns
+  std::uint64_t wrongCount = 0;  // another number of cells than the table has columns, or names
   std::uint64_t text = 0;        // something else than a number
   std::uint64_t notFinite = 0;   // infinite, larger than a float; NaN of a joint, or of all taxels
   std::uint64_t missing = 0;     // some cells of a series are empty, or the time is

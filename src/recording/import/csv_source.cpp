@@ -65,6 +65,13 @@ CsvSource::CsvSource(const std::filesystem::path& path, const TableOptions& opti
         rateHz_ = 1.0 / *period;
   }
   reader_.restart();
+  while (reader_.number() < shape_.nameLine && reader_.next(line)) {
+  }
+  if (shape_.nameLine != 0 && !shape_.labelled && !shape_.nested && !shape_.stamped) {
+    splitCells(line, shape_.delimiter, cells_);
+    for (const std::string_view cell : cells_) laterNames_.first.emplace_back(trimmedCell(cell));
+  }
+  reader_.restart();
   for (std::size_t c = 0; (shape_.labelled || shape_.nested) && c < shape_.columns.size(); ++c)
     labelled_.try_emplace(shape_.columns[c].name, c);
 }
@@ -110,6 +117,8 @@ void CsvSource::start(std::span<const std::size_t> columns, std::optional<std::s
   frames_.isBegun = false;
   frames_.brokenAt = 0;
   heldNumber_ = 0;
+  laterNames_.columns.clear();
+  laterNames_.otherLine = 0;
   reader_.restart();
 }
 
@@ -123,7 +132,7 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
     const bool emptyEnd = cells_.size() == numColumns + 1 && trimmedCell(cells_.back()).empty();
     row.numCells = cells_.size();
     if (emptyEnd) cells_.pop_back();
-    if (cells_.size() == numColumns) return true;
+    if (cells_.size() == numColumns) return placeByNames(row);
     row.fault =
         " has " + counted(row.numCells, "cell") + " instead of " + std::to_string(numColumns);
     return false;
@@ -149,6 +158,44 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
       return false;
     }
   }
+  return true;
+}
+
+// Puts the cells of a row into the columns of the names above it; false when those are others. A
+// line of texts, none twice, is one of names.
+bool CsvSource::placeByNames(TableRow& row) {
+  LaterNames& later = laterNames_;
+  std::map<std::string_view, std::size_t> places;
+  double value = 0.0;
+  const bool areNames =
+      !later.first.empty() && std::all_of(cells_.begin(), cells_.end(), [&](std::string_view cell) {
+        return cellStateOf(cell, shape_.decimal, value) == CellState::kText &&
+               places.emplace(trimmedCell(cell), places.size()).second;
+      });
+  if (areNames) {
+    later.columns.assign(cells_.size(), 0);
+    later.otherLine = 0;
+    for (std::size_t c = 0; c < later.first.size() && c < cells_.size(); ++c) {
+      const auto at = places.find(later.first[c]);
+      if (at == places.end())
+        later.otherLine = reader_.number();
+      else
+        later.columns[at->second] = c;
+    }
+    const bool moved = !std::is_sorted(later.columns.begin(), later.columns.end());
+    if (later.otherLine != 0 || !moved) later.columns.clear();
+    if (later.otherLine == 0 && moved) {
+      row.fault = " has the names in another order: the rows below it are read by them";
+      return false;
+    }
+  } else if (later.otherLine != 0) {
+    row.fault = " stands below other names, those of line " + std::to_string(later.otherLine);
+    return false;
+  }
+  if (later.columns.empty()) return true;
+  std::vector<std::string_view> placed(cells_.size());
+  for (std::size_t i = 0; i < cells_.size(); ++i) placed[later.columns[i]] = cells_[i];
+  cells_ = std::move(placed);
   return true;
 }
 

@@ -61,12 +61,20 @@ class CsvSource final : public TableSource {
   bool readCells(std::string_view line, TableRow& row);
   bool splitNamed(std::string_view line, TableRow& row);
   void readJoinedTimes();
+  // Lines of names between the rows, as of logs that were put together.
+  struct LaterNames {
+    std::vector<std::string> first;    // the cells of the first line of names
+    std::vector<std::size_t> columns;  // of the cells below the newest line; empty: as they come
+    std::uint64_t otherLine = 0;       // the newest line, if its names are others
+  };
+  bool placeByNames(TableRow& row);
 
   std::filesystem::path path_;
   LineReader reader_;
   CsvShape shape_;
   std::vector<JoinedTime> joined_;  // the last columns
   FrameLines frames_;
+  LaterNames laterNames_;
   // Of a movie of Tekscan: what its head says.
   bool isMovie_ = false;
   bool hasBlocked_ = false;

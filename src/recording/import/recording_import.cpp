@@ -79,7 +79,7 @@ std::string RefusedRows::summary() const {
   const auto add = [&](std::uint64_t count, const char* what) {
     if (count > 0) parts += (parts.empty() ? "" : ", ") + std::to_string(count) + " " + what;
   };
-  add(wrongCount, "with a wrong number of cells");
+  add(wrongCount, "of another form");
   add(text, "with text");
   add(notFinite, "with NaN or too large values");
   add(missing, "with missing values");

@@ -175,6 +175,29 @@ TEST(HandMesh, NoBodyHidesTaxelsThatLookToAllSides) {
   EXPECT_TRUE(handBodies(HandGeometry(domeOf(150.0))).empty());
 }
 
+// As the signed distance of the emulator sees it; rims are chamfered.
+TEST(HandMesh, ObjectsHaveTheSurfaceOfTheirShape) {
+  const std::pair<ShapeKind, Vector3d> shapes[] = {{ShapeKind::kSphere, {60.0, 60.0, 60.0}},
+                                                   {ShapeKind::kCylinder, {60.0, 60.0, 90.0}},
+                                                   {ShapeKind::kBox, {40.0, 60.0, 90.0}},
+                                                   {ShapeKind::kEllipsoid, {40.0, 60.0, 90.0}},
+                                                   {ShapeKind::kCone, {60.0, 60.0, 90.0}}};
+  for (const auto& [kind, sizeMm] : shapes) {
+    const Shape shape{kind, sizeMm};
+    HandBody body;
+    body.triangles = trianglesOf(shape);
+    expectClosed(body);
+    ASSERT_FALSE(body.triangles.empty());
+    EXPECT_GT(volumeMm3(body), 0.0);
+    for (const HandBody::Corner& corner : body.triangles) {
+      const Vector3d at = corner.atMm.cast<double>();
+      EXPECT_LE(shape.distanceMm(at), 0.01);
+      EXPECT_GE(shape.distanceMm(at), -0.02 * sizeMm.minCoeff() - 0.01);
+      EXPECT_GT(corner.normal.cast<double>().dot(shape.gradient(at)), 0.0);
+    }
+  }
+}
+
 TEST(HandMesh, ALinkWhoseMeshCantBeReadIsABox) {
   GeometryDescription pad;
   pad.layout = SensorLayout({MatrixLayout::full(1, 1, 5.0)});

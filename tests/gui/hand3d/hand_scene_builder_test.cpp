@@ -56,6 +56,37 @@ TEST_F(HandSceneBuilderTest, TaxelsHaveTheColoursOfTheHeatMaps) {
   EXPECT_EQ(numOf(colorsOf(Theme::kDark).taxel.rgb()), 6u * (456u - 3u));
 }
 
+// A ball around an emulated hand: solid before it is touched, seen through afterwards.
+TEST_F(HandSceneBuilderTest, ObjectsAreSolidUntilTheyAreTouched) {
+  SceneObject ball;
+  ball.shape.sizeMm = Eigen::Vector3d::Constant(70.0);
+  ball.positionMm = {1.0, 2.0, 150.0};
+  drawing_.setMoment(emptyFrame(), kPose);
+  const std::size_t solid = fill().solid.size(), clear = scene_.clear.size();
+  EXPECT_TRUE(drawing_.setObjects({ball}));
+  EXPECT_FALSE(drawing_.setObjects({ball}));
+  double top = 0.0;
+  for (const Eigen::Vector3d& point : drawing_.extent(look_)) top = std::max(top, point.z());
+  EXPECT_GE(top, 185.0) << "the picture has room for it";
+  fill();
+  ASSERT_GT(scene_.solid.size(), solid);
+  EXPECT_EQ(scene_.clear.size(), clear);
+  std::size_t onBall = 0;
+  for (const SceneVertex& vertex : scene_.solid) {
+    const Eigen::Vector3d at(vertex.positionMm[0], vertex.positionMm[1], vertex.positionMm[2]);
+    if (std::abs((at - ball.positionMm).norm() - 35.0) < 1e-3) ++onBall;
+  }
+  EXPECT_GE(onBall, scene_.solid.size() - solid);
+  drawing_.setMoment(frame_, kPose);
+  look_.sphere = SphereLook::kNone;
+  EXPECT_EQ(fill().solid.size(), solid);
+  EXPECT_GT(scene_.clear.size(), 0u);
+  ball.positionMm.x() += 5.0;
+  EXPECT_TRUE(drawing_.setObjects({ball}));
+  look_.only = 1;
+  EXPECT_TRUE(fill().clear.empty());
+}
+
 // As in the heat maps: less than half a count, in a taxel that nothing presses on, is nothing to
 // see.
 TEST_F(HandSceneBuilderTest, WhatFiltersLeaveInTaxelsAtRestIsSeenFromHalfACount) {

@@ -192,6 +192,31 @@ TEST_F(HandLabelsTest, AreReadOnAnyGround) {
   EXPECT_GT(light, 40);
 }
 
+TEST_F(HandLabelsTest, ManyAtOnePlaceAreAllRead) {
+  const auto numOf = [](const QImage& image, QColor color) {
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += image.pixel(x, y) == color.rgb();
+    return count;
+  };
+  std::vector<SceneLabel> labels;
+  for (int i = 0; i < 8; ++i) labels.push_back({{0, 0, 0}, "slip 1.2 mm", QColor(255, 30 * i, 0)});
+  const QImage image = painted(labels, Qt::black);
+  const int alone = numOf(painted({labels[0]}, Qt::black), labels[0].color);
+  ASSERT_GT(alone, 10);
+  for (const SceneLabel& label : labels) EXPECT_GT(numOf(image, label.color), alone / 2);
+}
+
+TEST_F(HandLabelsTest, AWideOneHasLines) {
+  const QString part = QString("a part of it ").repeated(6);
+  const QRect line = touched(painted({{{0, 0, 0}, part, Qt::white}}, Qt::gray), Qt::gray);
+  const QRect whole = touched(
+      painted({{{0, 0, 0}, part + ", " + part + ", " + part, Qt::white}}, Qt::gray), Qt::gray);
+  EXPECT_GE(whole.left(), 1);
+  EXPECT_LT(whole.right(), 799);
+  EXPECT_GT(whole.height(), 2 * line.height());
+}
+
 TEST_F(HandLabelsTest, StandBesideTheirPlaceAndInThePicture) {
   const QRect middle = touched(painted({{{0, 0, 0}, "finger", Qt::white}}, Qt::gray), Qt::gray);
   EXPECT_GT(middle.left(), 400);

@@ -168,6 +168,8 @@ GraspPanel::GraspPanel(QSettings& settings,
   });
   for (ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
     connect(each, &ValueSlider::chosen, this, &GraspPanel::remember);
+  connect(
+      close_, &ValueSlider::chosen, this, [this] { settings_.setValue(kClose, close_->value()); });
   connect(options_, &GraspOptions::limitsChanged, this, &GraspPanel::showLimit);
   showLimit();
   showStatus({});
@@ -218,6 +220,10 @@ void GraspPanel::setHand(const HandDescription& hand) {
   renewForecast();
 }
 
+void GraspPanel::setUsualClose(double ratio) {
+  if (!settings_.contains(kClose)) close_->showValue(ratio);
+}
+
 void GraspPanel::showLimit() {
   const QString name = keep_->isChecked() ? "Limit" : "Stop at";
   limitLabel_->setText(name);
@@ -237,7 +243,6 @@ void GraspPanel::showLimit() {
 
 void GraspPanel::remember() {
   settings_.setValue(kPreshape, preshape_->currentData());
-  settings_.setValue(kClose, close_->value());
   settings_.setValue(kLimit, limit_->value());
   settings_.setValue(kForceLimit, forceLimit_->value());
   settings_.setValue(kKeepLimit, keep_->isChecked());

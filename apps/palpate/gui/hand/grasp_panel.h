@@ -36,6 +36,8 @@ class GraspPanel : public QWidget {
   void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
   // The connected hand is another one.
   void setHand(const HandDescription& hand);
+  // The close ratio of a plain grasp while the user has chosen none.
+  void setUsualClose(double ratio);
   // A grasp with a limit in newtons must wait for the calibration.
   void setCalibrationBeingRead(bool beingRead);
   // Enables the motions that are possible now; the tool tips tell why others are not.

@@ -458,6 +458,8 @@ void HandDock::followRefusal(const GraspStatus& status,
   if (limitMeasurable_ && said_ == QString::fromStdString(refused.text)) said_.clear();
 }
 
+void HandDock::setUsualClose(double ratio) { grasp_->setUsualClose(ratio); }
+
 void HandDock::setInSight(bool on) { grasp_->setInSight(on); }
 
 void HandDock::showRefusedNumber(const QString& what) {

@@ -49,6 +49,8 @@ class HandDock : public QWidget {
   // Sets the connected hand; null when there is none. Both must outlive this, or be replaced by
   // null before they are destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
+  // The close ratio of a plain grasp while the user has chosen none.
+  void setUsualClose(double ratio);
   // Whether the window shows the hand, and not a recording: only then keys and menu move it.
   void setInSight(bool on);
   // The connected hand was found to be another one, or scans other taxels.

@@ -13,6 +13,8 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kTouchesTopic = "touches of objects";
+// Fingers that are closed this far touch the objects of data/scenes.
+constexpr double kEmulatedCloseRatio = 0.85;
 
 }  // namespace
 
@@ -66,6 +68,8 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   LiveController& live = windowState.live;
   connect(&live, &LiveController::sourceOpened, this, [this, &live] {
     panel_->setHand(live.source()->session.get(), live.source()->control.get());
+    panel_->setUsualClose(live.source()->emulated ? kEmulatedCloseRatio
+                                                  : GraspRequest().closeRatio);
   });
   connect(&live, &LiveController::leaving, this, [this] { panel_->setHand(nullptr, nullptr); });
   connect(&windowState.displayed, &DisplayedSource::handChanged, panel_, &HandDock::updateHand);

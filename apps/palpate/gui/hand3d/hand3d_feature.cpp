@@ -90,8 +90,9 @@ void Hand3dFeature::connectMoment() {
   connect(&windowState.currentFrame,
           &CurrentFrame::resultsReceived,
           this,
-          [this](const LiveResults& results) {
+          [this, &windowState, &view](const LiveResults& results) {
             if (panel_->isHidden()) return;
+            if (const auto objects = windowState.live.objects()) view.setObjects(*objects);
             panel_->showLive(*results.frame,
                              results.angles ? results.angles->deg : std::vector<double>());
           });

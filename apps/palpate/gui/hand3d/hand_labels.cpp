@@ -3,6 +3,7 @@
 #include <QFontMetricsF>
 #include <QPainter>
 #include <QPainterPath>
+#include <QStringList>
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -40,13 +41,30 @@ QRectF handLabelsFreePlace(const QPointF& at,
                            const QSizeF& text,
                            const QRectF& picture,
                            const std::vector<QRectF>& taken) {
+  const auto isFree = [&](const QRectF& place) {
+    return picture.contains(place) &&
+           std::none_of(taken.begin(), taken.end(), [&](const QRectF& other) {
+             return other.intersects(place);
+           });
+  };
   const auto places = placesAround(at, text);
   for (const QRectF& place : places)
-    if (picture.contains(place) && std::none_of(taken.begin(), taken.end(), [&](const QRectF& r) {
-          return r.intersects(place);
-        }))
-      return place;
-  return movedInside(places.front(), picture);
+    if (isFree(place)) return place;
+  // The nearest free row above or below.
+  const QRectF beside = movedInside(places.front(), picture);
+  for (int step = 1; step * text.height() < picture.height(); ++step)
+    for (const double way : {-1.0, 1.0})
+      if (const QRectF row = beside.translated(0.0, way * step * text.height()); isFree(row))
+        return row;
+  return beside;
+}
+
+// A text that is wider than the picture has a line for each of its parts.
+QStringList linesOf(const QString& text, const QFontMetricsF& metrics, double widthPx) {
+  if (metrics.horizontalAdvance(text) <= widthPx) return {text};
+  QStringList lines = text.split(", ");
+  for (qsizetype i = 0; i + 1 < lines.size(); ++i) lines[i] += ',';
+  return lines;
 }
 
 }  // namespace
@@ -73,11 +91,17 @@ void paintLabels(QPainter& painter,
   rim.setAlphaF(0.85F);
   std::vector<QRectF> taken;
   for (const Placed& word : shown) {
-    const QSizeF text(metrics.horizontalAdvance(word.label->text), metrics.height());
+    const QStringList lines = linesOf(word.label->text, metrics, picture.width());
+    double widest = 0.0;
+    for (const QString& line : lines) widest = std::max(widest, metrics.horizontalAdvance(line));
+    const QSizeF text(widest, metrics.height() * static_cast<double>(lines.size()));
     const QRectF at = handLabelsFreePlace(word.place.at, text, picture, taken);
     taken.push_back(at);
     QPainterPath path;
-    path.addText(at.topLeft() + QPointF(0.0, metrics.ascent()), painter.font(), word.label->text);
+    for (qsizetype i = 0; i < lines.size(); ++i)
+      path.addText(at.topLeft() + QPointF(0.0, metrics.ascent() + i * metrics.height()),
+                   painter.font(),
+                   lines[i]);
     painter.strokePath(path, QPen(rim, kRimPx, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter.fillPath(path, word.label->color);
   }

@@ -331,6 +331,23 @@ void appendSphere(HandBody& body, float radiusMm) {
     }
 }
 
+// A cone about z; the origin is at half its height, the tip up.
+void appendCone(HandBody& body, double radiusMm, double heightMm) {
+  const auto face = [&](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    const Vector3f normal = (b - a).cross(c - a).normalized().cast<float>();
+    appendTriangle(
+        body, {a.cast<float>(), normal}, {b.cast<float>(), normal}, {c.cast<float>(), normal});
+  };
+  const std::vector<Vector2d> rim = circle(Vector2d::Zero(), radiusMm);
+  const Vector3d tip = heightMm / 2.0 * Vector3d::UnitZ();
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const Vector2d &at = rim[i], &next = rim[(i + 1) % rim.size()];
+    const Vector3d from(at.x(), at.y(), -tip.z()), until(next.x(), next.y(), -tip.z());
+    face(from, until, tip);
+    face(until, from, -tip);
+  }
+}
+
 // A box from the joint of a link to its end, for a link whose mesh can't be read; a cube for the
 // base and for links without length.
 HandBody boxOf(const GeometryDescription& hand, const LinkPlace& place) {
@@ -398,6 +415,33 @@ HandBody bodyOf(const LinkShape& shape) {
 }
 
 }  // namespace
+
+std::vector<HandBody::Corner> trianglesOf(const Shape& shape) {
+  LinkShape link;
+  link.sizeMm = shape.sizeMm;
+  HandBody body;
+  switch (shape.kind) {
+    case ShapeKind::kBox:
+      return bodyOf(link).triangles;
+    case ShapeKind::kCylinder:
+      link.kind = LinkShape::Kind::kCylinder;
+      return bodyOf(link).triangles;
+    case ShapeKind::kSphere:
+    case ShapeKind::kEllipsoid: {
+      const Vector3f half = shape.sizeMm.cast<float>() / 2.0F;
+      appendSphere(body, 1.0F);
+      for (HandBody::Corner& corner : body.triangles) {
+        corner.atMm = corner.atMm.cwiseProduct(half);
+        corner.normal = corner.normal.cwiseQuotient(half).normalized();
+      }
+      break;
+    }
+    case ShapeKind::kCone:
+      appendCone(body, shape.sizeMm.x() / 2.0, shape.sizeMm.z());
+      break;
+  }
+  return body.triangles;
+}
 
 std::vector<Vector2d> convexOutline(std::vector<Vector2d> points) {
   std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <palpate/emulator/shape.h>
 #include <palpate/kinematics/hand_geometry.h>
 
 namespace palpate::gui {
@@ -31,6 +32,9 @@ struct HandBody {
 
 // In the place of a mesh that can't be read the link is a box; `palpate hands check` says why.
 std::vector<HandBody> handBodies(const HandGeometry& geometry);
+
+// The surface of an object, in its own frame.
+std::vector<HandBody::Corner> trianglesOf(const Shape& shape);
 
 // Appends a convex outline (counter-clockwise, x right, y up), extruded from zMin to zMax, its rims
 // chamfered by `chamferMm`.

@@ -27,6 +27,8 @@ constexpr float kBarShare = 0.8F;
 constexpr float kTallestBarMm = 30.0F;
 constexpr float kOutlineLiftMm = 0.45F;
 constexpr float kTaxelDotPx = 3.2F;
+// Opacity of an object once it is touched: the taxels behind it are seen.
+constexpr int kTouchedObjectAlpha = 70;
 // Share of the background colour in a greyed hand.
 constexpr double kBodyVeil = 0.62;
 
@@ -41,6 +43,10 @@ QColor bodyColor(HandBodyRole role, Theme theme) {
       break;
   }
   return dark ? QColor(0x76, 0x7f, 0x8c) : QColor(0xc9, 0xd0, 0xd9);
+}
+
+QColor objectColor(Theme theme) {
+  return theme == Theme::kDark ? QColor(0x9a, 0x7b, 0x5b) : QColor(0xc9, 0xa7, 0x7f);
 }
 
 SceneVertex vertex(const Vector3f& at, const Vector3f& normal, QRgb color) {
@@ -237,6 +243,7 @@ void HandSceneBuilder::setHand(const HandDescription& hand, bool withMeshes) {
   hand_ = hand;
   geometry_ = geometryOf(hand);
   slip_.clear();
+  objects_.clear();
   if (!keeps) bodies_.clear();
   missing_.reset();
   handState_ = {};
@@ -262,6 +269,7 @@ void HandSceneBuilder::clear() {
   geometry_.reset();
   missing_.reset();
   bodies_.clear();
+  objects_.clear();
   handState_ = {};
   slip_.clear();
   selection_ = {};
@@ -281,6 +289,22 @@ void HandSceneBuilder::setMoment(const TactileFrame& frame, const std::vector<do
                   pose_);
   patchesOnHand(pose_, *hand_->layout, onHand_);
   handState_.contact = known ? contactOf(frame, pose_) : HandContact{};
+}
+
+bool HandSceneBuilder::setObjects(const std::vector<SceneObject>& objects) {
+  bool changes = objects.size() != objects_.size();
+  objects_.resize(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const SceneObject &now = objects[i], &before = objects_[i].object;
+    if (objects_[i].triangles.empty() || now.shape.kind != before.shape.kind ||
+        now.shape.sizeMm != before.shape.sizeMm)
+      objects_[i].triangles = trianglesOf(now.shape);
+    else if (now.positionMm == before.positionMm && now.rotation == before.rotation)
+      continue;
+    objects_[i].object = now;
+    changes = true;
+  }
+  return changes;
 }
 
 HandLook HandSceneBuilder::effective(HandLook look) const {
@@ -315,6 +339,20 @@ void HandSceneBuilder::addBodies(HandScene& scene, const HandLook& look) const {
     for (const HandBody::Corner& corner : body.triangles)
       scene.solid.push_back(vertex(to * corner.atMm, to.linear() * corner.normal, rgb));
   }
+}
+
+void HandSceneBuilder::addObjects(HandScene& scene, const HandLook& look) const {
+  if (look.only) return;
+  const bool touched = handState_.frame && handState_.contact.centroidMm;
+  QColor color = objectColor(look.theme);
+  if (touched) color.setAlpha(kTouchedObjectAlpha);
+  std::vector<SceneVertex>& to = touched ? scene.clear : scene.solid;
+  for (const auto& [object, triangles] : objects_)
+    for (const HandBody::Corner& corner : triangles)
+      to.push_back(
+          vertex((object.rotation.cast<float>() * corner.atMm) + object.positionMm.cast<float>(),
+                 object.rotation.cast<float>() * corner.normal,
+                 color.rgba()));
 }
 
 void HandSceneBuilder::addTaxels(HandScene& scene, const HandLook& look) const {
@@ -381,6 +419,7 @@ void HandSceneBuilder::fill(HandScene& scene,
   const HandLook look = effective(wanted);
   const bool flat = isFlat(look.taxels);
   if (!flat) addBodies(scene, look);
+  if (!flat) addObjects(scene, look);
   addTaxels(scene, look);
   addSelection(scene, look);
   if (look.normals) addNormals(scene, look);
@@ -409,6 +448,13 @@ std::vector<Vector3d> HandSceneBuilder::extent(const HandLook& wanted) const {
     for (int i = 0; i < 3; ++i)
       for (const double side : {-1.0, 1.0})
         points.push_back(sphere->centreMm + side * sphere->radiusMm * Vector3d::Unit(i));
+  for (const auto& [object, triangles] : objects_)
+    for (int corner = 0; corner < 8 && !look.only; ++corner) {
+      const Vector3d side(
+          corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
+      points.push_back(object.positionMm +
+                       object.rotation * side.cwiseProduct(object.shape.sizeMm));
+    }
   for (const HandBody& body : bodies_) {
     if (!isShown(body, look)) continue;
     const Eigen::Isometry3d to = pose_.baseFrom(body.place);

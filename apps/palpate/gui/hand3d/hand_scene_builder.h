@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <palpate/emulator/scene.h>
 #include <palpate/kinematics/contact_geometry.h>
 #include <palpate/kinematics/hand_geometry.h>
 #include <palpate/model/hand_description.h>
@@ -55,6 +56,9 @@ class HandSceneBuilder {
 
   // Sets frame and joint angles [deg]. Angles that aren't numbers, or too few, count as unknown.
   void setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg);
+  // Sets the objects around an emulated hand, in their poses. Returns whether that changed the
+  // scene.
+  bool setObjects(const std::vector<SceneObject>& objects);
   void setSelection(const TaxelSelection& selection) { selection_ = selection; }
   // Slip of the contacts at this frame; empty: not known.
   void setSlip(std::vector<HandSlip> slip) { slip_ = std::move(slip); }
@@ -82,6 +86,7 @@ class HandSceneBuilder {
 
  private:
   void addBodies(HandScene& scene, const HandLook& look) const;
+  void addObjects(HandScene& scene, const HandLook& look) const;
   void addTaxels(HandScene& scene, const HandLook& look) const;
   void addSelection(HandScene& scene, const HandLook& look) const;
   void addNormals(HandScene& scene, const HandLook& look) const;
@@ -96,6 +101,11 @@ class HandSceneBuilder {
   std::shared_ptr<const HandGeometry> geometry_;
   std::shared_ptr<const HandGeometry> missing_;
   std::vector<HandBody> bodies_;
+  struct DrawnObject {
+    SceneObject object;
+    std::vector<HandBody::Corner> triangles;
+  };
+  std::vector<DrawnObject> objects_;
   HandState handState_;
   HandPose pose_;
   TaxelPatches onHand_, flat_;

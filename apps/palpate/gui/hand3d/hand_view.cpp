@@ -95,6 +95,10 @@ void HandView::clear() {
   drawAnew();
 }
 
+void HandView::setObjects(const std::vector<SceneObject>& objects) {
+  if (drawing_.setObjects(objects)) sceneIsOld_ = true;
+}
+
 void HandView::setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
   takeMoment(frame, anglesDeg, false);
 }

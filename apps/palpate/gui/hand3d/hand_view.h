@@ -41,6 +41,8 @@ class HandView : public QWidget {
   // taxels are drawn anew 16 times a second at most, and when the stream stops (setStale()).
   // Drawing the hand takes more time than anything else in a window that is live.
   void setLiveMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg);
+  // Sets the objects around an emulated hand, before its moment.
+  void setObjects(const std::vector<SceneObject>& objects);
   // Angles for a recording that has none [deg]; empty: none are assumed.
   void setAssumedAngles(const std::vector<double>& anglesDeg);
   const std::vector<double>& assumedAngles() const noexcept { return assumedDeg_; }

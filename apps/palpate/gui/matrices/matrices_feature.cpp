@@ -102,6 +102,8 @@ void MatricesFeature::connectLook() {
     checkChoice(actions.maps, kAllColorMaps, look.view().map);
     checkChoice(actions.ranges, kAllRangeModes, look.view().range);
   });
+  state().actionEnabler.add({actions.interpolated, actions.values},
+                            [this] { return state().displayed.hand() != nullptr; });
   on(actions.interpolated, [&look](bool checked) {
     look.change([&](ViewSettings& view) { view.interpolated = checked; });
   });

@@ -86,7 +86,11 @@ void PlaybackFeature::connectActions() {
                              actions.tenForward,
                              actions.toStart,
                              actions.toEnd,
-                             actions.goToFrame},
+                             actions.goToFrame,
+                             actions.faster,
+                             actions.slower,
+                             actions.loop,
+                             actions.skipGaps},
                             [this] { return state().displayed.hasFrames(); });
 }
 

@@ -77,6 +77,8 @@ void RecogniseFeature::connectAll() {
     panel_->showPage("Ask");
     ask();
   });
+  windowState.actionEnabler.add({actions_.whatIsIt},
+                                [&windowState] { return windowState.displayed.hand() != nullptr; });
   on(actions_.presentationMode, [this] { showFull(); });
   connect(&panel_->controller(), &RecognitionController::modelChanged, this, [this] {
     if (full_ && !panel_->controller().whyNoModel().isEmpty()) showWhyNoModel();

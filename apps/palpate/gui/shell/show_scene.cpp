@@ -25,6 +25,7 @@ ShowScene::ShowScene(WindowState& windowState, MatricesPanel& panel, QWidget* pa
   connect(&panel, &MatricesPanel::lookChanged, this, &ShowScene::takeLook);
   connect(&current, &CurrentFrame::frameChanged, this, &ShowScene::takeFrame);
   connect(&current, &CurrentFrame::resultsReceived, this, [this](const LiveResults& results) {
+    if (const auto objects = windowState_.live.objects()) hand_->setObjects(*objects);
     hand_->setLiveMoment(*results.frame,
                          results.angles ? results.angles->deg : std::vector<double>());
   });

@@ -46,6 +46,10 @@ class LiveController : public QObject {
   const Connection& connection() const noexcept { return connection_; }
   // Null unless connected.
   LiveSource* source() noexcept { return source_.get(); }
+  // The objects around an emulated hand; null for other hands.
+  std::shared_ptr<const std::vector<SceneObject>> objects() const {
+    return source_ ? source_->objects.load() : nullptr;
+  }
 
   // Link health, updated four times a second.
   const LinkHealth& health() const noexcept { return health_; }

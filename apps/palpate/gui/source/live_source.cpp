@@ -18,13 +18,17 @@
 namespace palpate::gui {
 namespace {
 
-std::unique_ptr<EmulatedHand> emulatedHand(const Connection& connection,
+std::unique_ptr<EmulatedHand> emulatedHand(LiveSource& source,
                                            const std::filesystem::path& dataFolder) {
-  Scene scene = loadScene(connection.scene.toStdString(), dataFolder / "scenes");
-  if (!connection.sceneScriptRuns) scene.script.clear();
+  Scene scene = loadScene(source.connection.scene.toStdString(), dataFolder / "scenes");
+  if (!source.connection.sceneScriptRuns) scene.script.clear();
   PhysicalHandOptions options;
   options.repeatsScript = true;
-  return std::make_unique<EmulatedHand>(std::make_unique<PhysicalHand>(scene, options));
+  auto hand = std::make_unique<PhysicalHand>(scene, options);
+  const auto observe = [&source, model = hand.get()](const EmulatedFrame&) {
+    source.objects = std::make_shared<const std::vector<SceneObject>>(model->objects());
+  };
+  return std::make_unique<EmulatedHand>(std::move(hand), EmulatedHandOptions{}, observe);
 }
 
 std::unique_ptr<Device> streamOf(const StreamConnection& stream,
@@ -54,7 +58,7 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
     case Connection::Kind::kStream:
       return streamOf(connection.stream, dataFolder);
     case Connection::Kind::kEmulated:
-      source.emulated = emulatedHand(connection, dataFolder);
+      source.emulated = emulatedHand(source, dataFolder);
       ports.dsaPort = source.emulated->dsaPort();
       ports.sdhPort = source.emulated->sdhPort();
       break;

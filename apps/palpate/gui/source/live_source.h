@@ -3,13 +3,16 @@
 // by openSource().
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <palpate/capture/capture_session.h>
 #include <palpate/control/grasp_control.h>
 #include <palpate/core/progress.h>
 #include <palpate/emulator/emulated_hand.h>
+#include <palpate/emulator/scene.h>
 #include <palpate/interop/foxglove_stream.h>
 #include <palpate/interop/live_stream.h>
 #include <palpate/live/filter_stage.h>
@@ -35,6 +38,9 @@ struct LiveSource {
   const StreamDevice* streamDevice() const;
 
   Connection connection;
+  // The objects around an emulated hand as of its newest frame, set by its thread; null for other
+  // hands.
+  std::atomic<std::shared_ptr<const std::vector<SceneObject>>> objects;
   // Set only for an emulated hand.
   std::unique_ptr<EmulatedHand> emulated;
   std::unique_ptr<CaptureSession> session;

@@ -424,6 +424,8 @@ void TimelineFeature::connectCurves() {
   on(actions_.newFormula, [this] { askForFormula({}); });
   state().actionEnabler.add({actions_.newFormula},
                             [this] { return state().displayed.hasFrames(); });
+  state().actionEnabler.add({actions_.nameTaxels},
+                            [this] { return state().displayed.hand() != nullptr; });
   connect(&state().formulas, &FormulaCurves::changed, this, &TimelineFeature::showCurves);
 }
 
