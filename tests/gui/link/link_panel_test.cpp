@@ -87,7 +87,8 @@ TEST(LinkPanel, LogsWhatHappenedAndListsAlarms) {
   panel.log("recording begins");
   const QString log = panel.findChild<QPlainTextEdit*>("linkLog")->toPlainText();
   EXPECT_TRUE(log.contains("link: tactile port connected"));
-  EXPECT_EQ(log.split('\n').size(), 2);
+  ASSERT_EQ(log.split('\n').size(), 2);
+  EXPECT_TRUE(log.split('\n')[0].contains("recording begins")) << "the newest line comes first";
   const auto* alarms = panel.findChild<QLabel*>("linkAlarms");
   EXPECT_EQ(alarms->text(), "none");
   panel.showAlarms({"no frame for 2 s", "disk full"});

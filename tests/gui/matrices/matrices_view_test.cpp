@@ -58,6 +58,22 @@ TEST_F(MatricesViewTest, ShowsTheNextFrameAndForgetsTheLast) {
   EXPECT_EQ(middle(1, 7, 2), colorsOf(Theme::kDark).taxel);
 }
 
+TEST_F(MatricesViewTest, AMatrixThatSlipsIsMarkedInItsNameAndNoTaxelIsCovered) {
+  const QImage before = view_.grab().toImage();
+  view_.setSlipping({1});
+  const QImage after = view_.grab().toImage();
+  const MatricesGeometry& places = view_.geometryOfMatrices();
+  const double ratio = after.devicePixelRatio();
+  for (int y = 0; y < 14; ++y)
+    for (int x = 0; x < 6; ++x) {
+      const QPoint at = (places.taxelRect(1, y, x).center() * ratio).toPoint();
+      EXPECT_EQ(after.pixel(at), before.pixel(at)) << y << ", " << x;
+    }
+  const QPoint name =
+      (QPointF(places.nameRect(1).left() + 2.0, places.nameRect(1).center().y()) * ratio).toPoint();
+  EXPECT_EQ(after.pixelColor(name), colorsOf(Theme::kDark).danger);
+}
+
 // A view whose window can be moved to a screen with more pixels.
 class OnAnotherScreen : public MatricesView {
  public:

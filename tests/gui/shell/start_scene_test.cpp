@@ -1,11 +1,14 @@
 // The grasp that the start page plays.
 #include "gui/shell/start_scene.h"
 
+#include <QSettings>
 #include <QSignalSpy>
 #include <QTest>
 
 #include <gtest/gtest.h>
 
+#include "gui/open/start_page.h"
+#include "gui/source/recent_files.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::start_scene_test {
@@ -22,6 +25,23 @@ TEST(StartScene, PlaysAGraspOnceItIsShown) {
   QSignalSpy clicked(&scene, &StartScene::clicked);
   QTest::mouseClick(&scene, Qt::LeftButton);
   EXPECT_EQ(clicked.count(), 1);
+}
+
+TEST(StartScene, GivesWayToTheButtonsOnALowPage) {
+  const testing::TemporaryFolder folder;
+  QSettings settings(QString::fromStdString((folder / "settings.ini").string()),
+                     QSettings::IniFormat);
+  RecentFiles recent(settings);
+  StartPage page(recent, true);
+  auto* scene = new StartScene(testing::dataFolder() / "nothing.dsa", &page);
+  page.setScene(scene);
+  page.resize(900, 4 * scene->height());
+  page.show();
+  EXPECT_TRUE(scene->isVisible());
+  page.resize(900, 2 * scene->height());
+  EXPECT_TRUE(scene->isHidden());
+  page.resize(900, 4 * scene->height());
+  EXPECT_TRUE(scene->isVisible());
 }
 
 // It is decoration: nothing is said, and nothing waits for it.

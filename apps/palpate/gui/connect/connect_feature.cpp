@@ -114,7 +114,7 @@ bool ConnectFeature::mayEndRecording(UserPrompts::Ending ending) {
   const QString stopped =
       moves && ending != UserPrompts::Ending::kStop ? " The hand is moving: it is stopped." : "";
   QMessageBox question(
-      QMessageBox::Question, "Finish the recording", {}, QMessageBox::NoButton, window());
+      QMessageBox::NoIcon, "Finish the recording", {}, QMessageBox::NoButton, window());
   const QPushButton* elsewhere = nullptr;
   if (recorder.writeError.empty()) {
     question.setText("A recording is running. " + ended +

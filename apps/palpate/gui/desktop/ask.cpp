@@ -52,7 +52,7 @@ std::optional<QString> DialogAsk::text(const QString& title,
 }
 
 int DialogAsk::choice(const QString& text, const QStringList& buttons, int enter) {
-  QMessageBox box(QMessageBox::Question, "Palpate", text, QMessageBox::Cancel, parent());
+  QMessageBox box(QMessageBox::NoIcon, "Palpate", text, QMessageBox::Cancel, parent());
   QList<QAbstractButton*> made;
   for (const QString& button : buttons)
     made << box.addButton(

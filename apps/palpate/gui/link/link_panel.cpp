@@ -3,6 +3,8 @@
 #include <QCheckBox>
 #include <QLabel>
 #include <QPlainTextEdit>
+#include <QTextCursor>
+#include <QTextDocument>
 #include <QTime>
 
 #include <palpate/core/escaped_line.h>
@@ -137,7 +139,6 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   others_ = named(new FactsView(this), "otherPrograms", {}, "Other programs");
   log_ = named(new QPlainTextEdit(this), "linkLog");
   log_->setReadOnly(true);
-  log_->setMaximumBlockCount(kLinkPanelMostLines);
   log_->setLineWrapMode(QPlainTextEdit::WidgetWidth);
   log_->setFrameShape(QFrame::NoFrame);
   log_->setFocusPolicy(Qt::ClickFocus);
@@ -257,7 +258,15 @@ void LinkPanel::addEvent(const RecordingEvent& event) {
 }
 
 void LinkPanel::log(const QString& line) {
-  log_->appendPlainText(QTime::currentTime().toString("HH:mm:ss") + "  " + line.simplified());
+  // The newest line is the first one: the others are below the edge of a low window.
+  const QString now = QTime::currentTime().toString("HH:mm:ss") + "  " + line.simplified();
+  QTextCursor cursor(log_->document());
+  cursor.insertText(log_->document()->isEmpty() ? now : now + "\n");
+  while (log_->blockCount() > kLinkPanelMostLines) {
+    cursor.movePosition(QTextCursor::End);
+    cursor.select(QTextCursor::BlockUnderCursor);
+    cursor.removeSelectedText();
+  }
   emit logged(line);
 }
 

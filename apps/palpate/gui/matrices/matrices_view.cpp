@@ -194,12 +194,21 @@ void MatricesView::paintFrame(QPainter& painter, std::size_t matrix, const QStri
   painter.setPen(QPen(color, 3.0));
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(rect.adjusted(1.5, 1.5, -1.5, -1.5));
-  const QRectF place = QFontMetricsF(font())
-                           .boundingRect(rect, Qt::AlignHCenter | Qt::AlignBottom, word)
-                           .adjusted(-6.0, -6.0, 6.0, -3.0);
-  painter.fillRect(place, color);
+  // In the place of the name, so that no taxel is covered; without names on the lowest row.
+  const QFontMetricsF metrics(font());
+  const QRectF name = geometry_.nameRect(matrix);
+  const bool named = name.height() > 0.0;
+  const auto fits = [&](const QString& text) {
+    return metrics.horizontalAdvance(text + ": " + word) + 12.0 <= name.width();
+  };
+  const QString whose = named ? matrixNameWithin(*hand_, matrix, fits) : QString();
+  const QString text = named && fits(whose) ? whose + ": " + word : word;
+  const QRectF place =
+      metrics.boundingRect(named ? name : rect, Qt::AlignHCenter | Qt::AlignBottom, text)
+          .adjusted(-6.0, named ? 0.0 : -6.0, 6.0, named ? 0.0 : -3.0);
+  painter.fillRect(named ? name.united(place) : place, color);
   painter.setPen(colorsOf(look_.theme).window);
-  painter.drawText(place, Qt::AlignCenter, word);
+  painter.drawText(place, Qt::AlignCenter, text);
 }
 
 void MatricesView::setStale(const StaleNotice& old) {

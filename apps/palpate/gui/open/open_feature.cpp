@@ -214,7 +214,8 @@ void OpenFeature::listRecordings() {
   const auto& all = state().recordings.all();
   for (const auto& each : all) box->addItem(nameAndDate(*each));
   const auto at = std::find(all.begin(), all.end(), state().displayed.unfilteredRecording());
-  if (at != all.end()) box->setCurrentIndex(static_cast<int>(at - all.begin()));
+  // While a hand is shown live, none of them is.
+  box->setCurrentIndex(at == all.end() ? -1 : static_cast<int>(at - all.begin()));
   state().menus.recordingsShown->setVisible(!all.empty());
 }
 

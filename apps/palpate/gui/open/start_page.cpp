@@ -130,7 +130,20 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
 }
 
 void StartPage::setScene(QWidget* scene) {
+  scene_ = scene;
   column_->insertWidget(2, scene);  // below the words
+  fitScene();
+}
+
+// On a low page the scene gives way to the buttons.
+void StartPage::fitScene() {
+  constexpr double kPagePerScene = 2.4;  // [of heights]
+  if (scene_) scene_->setVisible(height() >= kPagePerScene * scene_->height());
+}
+
+void StartPage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  fitScene();
 }
 
 void StartPage::setLastConnection(const QString& text) {

@@ -38,11 +38,14 @@ class StartPage : public QWidget {
 
  protected:
   void showEvent(QShowEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void listRecent();
+  void fitScene();
 
   RecentFiles& recent_;
+  QWidget* scene_ = nullptr;
   QWidget* list_ = nullptr;
   QVBoxLayout* column_;
   QPushButton* again_;

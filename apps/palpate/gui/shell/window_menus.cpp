@@ -285,6 +285,7 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   menus_.recordings->setObjectName("recordingsBox");
   menus_.recordings->setMinimumHeight(kWindowMenusControlHeight);
   menus_.recordings->setToolTip("Open recordings (Ctrl+Tab)");
+  menus_.recordings->setPlaceholderText("Open recordings");
   menus_.recordings->setAccessibleName("Open recordings");
   menus_.recordings->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   menus_.recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);

@@ -15,6 +15,7 @@ QSize ElidingBox::minimumSizeHint() const {
 void ElidingBox::paintEvent(QPaintEvent*) {
   QStyleOptionComboBox option;
   initStyleOption(&option);
+  if (currentIndex() < 0) option.currentText = placeholderText();
   constexpr int kAround = 4;  // [px]
   const int room =
       style()
