@@ -7,13 +7,13 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <set>
 #include <stdexcept>
 
 #include <muParser.h>
 
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/first_where.h"
 #include "palpate/core/number_text.h"
 #include "palpate/filter/butterworth.h"
 #include "palpate/model/gap_detector.h"
@@ -549,11 +549,10 @@ Series derivedSeries(const Profile& profile,
   const auto frameS = [&](std::size_t frame) {
     return static_cast<double>(profile.frameTimeUs(frame) - profile.frameTimeUs(0)) / 1e6;
   };
-  const auto frames = std::views::iota(std::size_t{0}, profile.numFrames());
-  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(frames, fromS, {}, frameS) -
-                                              frames.begin());
-  const auto end =
-      static_cast<std::size_t>(std::ranges::upper_bound(frames, toS, {}, frameS) - frames.begin());
+  const std::size_t first =
+      firstWhere(profile.numFrames(), [&](std::size_t frame) { return frameS(frame) >= fromS; });
+  const std::size_t end =
+      firstWhere(profile.numFrames(), [&](std::size_t frame) { return frameS(frame) > toS; });
   if (first >= end) return {};
   // Slopes and filters need the samples around the span, too.
   const std::size_t reach = formula.reach(timing.rateHz);
