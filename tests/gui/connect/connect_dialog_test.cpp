@@ -176,10 +176,13 @@ TEST_F(ConnectDialogTest, ASceneWhoseScriptPullsSaysThatItPullsOnlyWhenTicked) {
   const auto* note = find<QLabel>("sceneNote");
   EXPECT_TRUE(note->isVisible());
   EXPECT_TRUE(note->text().contains("nothing pulls or turns the object"));
-  find<QCheckBox>("sceneScriptRuns")->setChecked(true);
+  EXPECT_EQ(text("connectIsCalm"), "Connecting never moves the hand.");
+  find<QCheckBox>("sceneScriptRuns")->click();
   EXPECT_FALSE(note->isVisible());
-  find<QCheckBox>("sceneScriptRuns")->setChecked(false);
+  EXPECT_EQ(text("connectIsCalm"), "The scene acts by itself as soon as it is connected.");
+  find<QCheckBox>("sceneScriptRuns")->click();
   EXPECT_TRUE(note->isVisible());
+  EXPECT_EQ(text("connectIsCalm"), "Connecting never moves the hand.");
   find<QListWidget>("scenes")->setCurrentRow(0);
   ASSERT_EQ(dialog_->connection().scene, "grasped");
   EXPECT_FALSE(note->isVisible());

@@ -250,7 +250,7 @@ TEST_F(KeptLimitTest, WhatIsToBeExpectedIsSaidBefore) {
   // 200 counts at 10 deg/s: it touches so slowly that twice the limit is not exceeded.
   EXPECT_TRUE(await([&] {
     return forecast().startsWith(
-        "Expect up to 400 counts, 2.0 times the limit. Where it touches isn't");
+        "Reactive: expect up to 400 counts, 2.0 times the limit. Where it touches isn't");
   })) << forecast().toStdString();
   EXPECT_TRUE(forecast().contains("its size or name")) << forecast().toStdString();
   EXPECT_EQ(shownColor(), colorsOf(Theme::kDark).text);
@@ -260,8 +260,9 @@ TEST_F(KeptLimitTest, WhatIsToBeExpectedIsSaidBefore) {
   // At 10 deg/s the rubber of the hardest object rises by 8000 counts, of which the motors reach
   // 3020.
   find<QCheckBox>("keepLimit")->setChecked(false);
-  EXPECT_TRUE(await([&] { return forecast().startsWith("Expect up to 3020 counts, 15.1 times"); }))
-      << forecast().toStdString();
+  EXPECT_TRUE(await([&] {
+    return forecast().startsWith("Reactive: expect up to 3020 counts, 15.1 times");
+  })) << forecast().toStdString();
   EXPECT_EQ(shownColor(), colorsOf(Theme::kDark).warning);
   applyTheme(*qApp, Theme::kLight);
   EXPECT_EQ(shownColor(), colorsOf(Theme::kLight).warning);
@@ -272,8 +273,9 @@ TEST_F(KeptLimitTest, WhatIsToBeExpectedIsSaidBefore) {
   // A limit below what the slowest motion allows: 0.2 deg/s raise it by 160 counts.
   find<QCheckBox>("keepLimit")->setChecked(true);
   type("limit", "50");
-  EXPECT_TRUE(await([&] { return forecast().startsWith("Expect up to 210 counts, 4.2 times"); }))
-      << forecast().toStdString();
+  EXPECT_TRUE(await([&] {
+    return forecast().startsWith("Reactive: expect up to 210 counts, 4.2 times");
+  })) << forecast().toStdString();
   EXPECT_EQ(shownColor(), colorsOf(Theme::kLight).warning);
 }
 
@@ -285,8 +287,9 @@ TEST_F(KeptLimitTest, OfALimitInNewtonsItIsInNewtons) {
   ASSERT_TRUE(await([&] { return find<QComboBox>("limitUnit")->isEnabled(); }));
   find<QComboBox>("limitUnit")->setCurrentIndex(1);
   type("forceLimit", "2");
-  EXPECT_TRUE(await([&] { return forecast().startsWith("Expect up to 4.0 N, 2.0 times"); }))
-      << forecast().toStdString();
+  EXPECT_TRUE(await([&] {
+    return forecast().startsWith("Reactive: expect up to 4.0 N, 2.0 times");
+  })) << forecast().toStdString();
 }
 
 TEST_F(KeptLimitTest, AHiddenDockComputesNoForecast) {

@@ -123,8 +123,8 @@ QWidget* ConnectDialog::makeKinds() {
   }
   column->addStretch(1);
   if (settings_) column->addWidget(makeSaved());
-  auto* calm = makeLines(side, "connectIsCalm", "muted", "Connecting never moves the hand.");
-  column->addWidget(calm);
+  calm_ = makeLines(side, "connectIsCalm", "muted");
+  column->addWidget(calm_);
   // Names are never cut, however large the text is; with little height the column scrolls.
   side->setMinimumWidth(std::max(kKindsWidth, column->minimumSize().width()));
   auto* scroll = new ContentScroll(side, QSize(0, kLeastKindsHeight), this);
@@ -254,6 +254,9 @@ QString ConnectDialog::problem() const {
 void ConnectDialog::refresh() {
   // The dialog is still being built.
   if (!connect_) return;
+  calm_->setText(kind_ == Connection::Kind::kEmulated && scenes_->actsByItself()
+                     ? "The scene acts by itself as soon as it is connected."
+                     : "Connecting never moves the hand.");
   const QString missing = problem();
   problem_->setText(missing);
   mark_->setState(missing.isEmpty() ? StateMark::State::kNone : StateMark::State::kWarning);

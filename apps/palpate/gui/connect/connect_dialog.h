@@ -89,6 +89,8 @@ class ConnectDialog : public QDialog {
   ReplayPage* replay_ = nullptr;
   StateMark* mark_ = nullptr;
   QLabel* problem_ = nullptr;
+  // Whether something moves after connecting.
+  QLabel* calm_ = nullptr;
   QPushButton* connect_ = nullptr;
 };
 

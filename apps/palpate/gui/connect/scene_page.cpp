@@ -122,6 +122,11 @@ QString ScenePage::scene() const {
 void ScenePage::setRunsScript(bool runsScript) { acts_->setChecked(runsScript); }
 bool ScenePage::runsScript() const { return acts_->isChecked(); }
 
+bool ScenePage::actsByItself() const {
+  const QListWidgetItem* item = list_->currentItem();
+  return item && item->data(kScriptRole).toBool() && acts_->isChecked();
+}
+
 void ScenePage::showChosen() {
   const QListWidgetItem* item = list_->currentItem();
   problem_ = item ? item->data(kProblemRole).toString() : QString();

@@ -28,6 +28,8 @@ class ScenePage : public QWidget {
   QString scene() const;
   void setRunsScript(bool runsScript);
   bool runsScript() const;
+  // Whether something moves by itself once the hand is connected.
+  bool actsByItself() const;
   // Why the scene cannot be used, in one line; empty when it can.
   QString problem() const { return problem_; }
 

@@ -206,8 +206,8 @@ void GraspPanel::showForecast() {
   if (control_) {
     const GraspRequest request = this->request(GraspMode::kReactive);
     const GraspForecast forecast = control_->forecast(request);
-    text = QString::fromStdString(describe(forecast, request));
-    text[0] = text[0].toUpper();
+    // A plain grasp watches no limit.
+    text = "Reactive: " + QString::fromStdString(describe(forecast, request));
     if (isWarned(forecast)) color = colorsOf().warning;
   }
   forecast_->setText(text);

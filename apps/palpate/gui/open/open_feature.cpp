@@ -39,6 +39,9 @@ std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
 
 QString nameAndDate(const OpenedRecording& recording) {
   if (recording.profile.numFrames() == 0) return fileNameOf(recording) + " · empty";
+  // Times that count from the begin of a measurement, as imported ones may do, have no date.
+  constexpr std::int64_t kYearUs = 365LL * 86'400'000'000;
+  if (recording.profile.frameTimeUs(0) < kYearUs) return fileNameOf(recording);
   const std::string date = utcText(recording.profile.frameTimeUs(0)).substr(0, 10);
   return fileNameOf(recording) + " · " + QString::fromStdString(date);
 }
