@@ -1,5 +1,6 @@
 #include "gui/link/link_panel.h"
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QLabel>
 #include <QPlainTextEdit>

@@ -1,6 +1,7 @@
 #include "gui/shell/view_splitter.h"
 
 #include <QEvent>
+#include <QResizeEvent>
 #include <algorithm>
 
 namespace palpate::gui {

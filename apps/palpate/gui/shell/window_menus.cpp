@@ -1,6 +1,7 @@
 #include "gui/shell/window_menus.h"
 
 #include <QComboBox>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLayout>

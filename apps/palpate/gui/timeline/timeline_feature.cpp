@@ -1,5 +1,7 @@
 #include "gui/timeline/timeline_feature.h"
 
+#include <QCoreApplication>
+#include <QEventLoop>
 #include <QMenu>
 #include <QPainter>
 #include <QPicture>

@@ -1,6 +1,7 @@
 #include "gui/timeline/timeline_header.h"
 
 #include <QComboBox>
+#include <QEvent>
 #include <QLabel>
 #include <QPainter>
 #include <QToolButton>
