@@ -63,8 +63,11 @@ TEST(ImportForms, RowsBelowLaterNamesAreReadByThem) {
   EXPECT_EQ(other.report.refused.wrongCount, 1u);
   EXPECT_EQ(other.report.refused.total(), 3u);
   // A row of words is no line of names.
-  const auto words = importText(folder, first + "off,off,off\n20,3,4\n", pad(1, 2));
-  EXPECT_EQ(words.report.frames, 2u);
+  for (const char* row : {"off,off,off\n", "sensor,not,ready\n"}) {
+    const auto words = importText(folder, first + row + "20,3,4\n", pad(1, 2));
+    EXPECT_EQ(words.report.frames, 2u) << row;
+    EXPECT_EQ(words.report.refused.total(), 1u) << row;
+  }
 }
 
 // imports 22.

@@ -162,16 +162,20 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
 }
 
 // Puts the cells of a row into the columns of the names above it; false when those are others. A
-// line of texts, none twice, is one of names.
+// line of texts, none twice, is one of names where it has one of the first line: other words are a
+// row that can't be used.
 bool CsvSource::placeByNames(TableRow& row) {
   LaterNames& later = laterNames_;
   std::map<std::string_view, std::size_t> places;
   double value = 0.0;
-  const bool areNames =
-      !later.first.empty() && std::all_of(cells_.begin(), cells_.end(), [&](std::string_view cell) {
-        return cellStateOf(cell, shape_.decimal, value) == CellState::kText &&
-               places.emplace(trimmedCell(cell), places.size()).second;
-      });
+  if (!later.first.empty() && std::all_of(cells_.begin(), cells_.end(), [&](std::string_view cell) {
+        return cellStateOf(cell, shape_.decimal, value) == CellState::kText;
+      }))
+    for (const std::string_view cell : cells_) places.emplace(trimmedCell(cell), places.size());
+  const bool areNames = places.size() == cells_.size() &&
+                        std::any_of(later.first.begin(), later.first.end(), [&](const auto& name) {
+                          return places.contains(name);
+                        });
   if (areNames) {
     later.columns.assign(cells_.size(), 0);
     later.otherLine = 0;
