@@ -229,6 +229,7 @@ void GraspControl::checkReturn(const DeviceStatus& status) {
   };
   const bool tactile = returned(tactileReturns_, status.tactile.reconnects);
   const bool motion = returned(motionReturns_, status.motion ? status.motion->reconnects : 0);
+  if (tactile || motion) machine_.forgetHeld();
   if ((!tactile && !motion) || machine_.active() || !lastMotion_) return;
   GraspStatus before;
   before.lastMotion = lastMotion_;
@@ -435,6 +436,7 @@ void GraspControl::stop() noexcept {
 }
 
 void GraspControl::switchMotorsOff(bool isNote) {
+  machine_.forgetHeld();
   stopResults_.push_back(session_.device().submit(SetPower{}));
   motorsOff_ = true;
   if (!isNote) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -35,6 +36,11 @@ constexpr double kFarOverLimit = 1.5;  // the report mentions a rise to this mul
 // Axis states of the SDH-2.
 constexpr int kBlockedClockwise = 4;
 constexpr int kBlockedCounterClockwise = 5;
+
+// Joints that changed by less were not moved by anybody.
+constexpr double kUnmovedDeg = 0.2;
+// The creep of the rubber raises a reading to no more than this multiple of what was left.
+constexpr float kMostCreep = 1.5F;
 
 constexpr std::string_view kNotEased = ": the hand holds, perhaps above its limit";
 std::string millisecondsText(std::int64_t us) {
@@ -111,6 +117,7 @@ void GraspStateMachine::begin(const GraspRequest& request,
   request.validate();
   if (active()) refuse("refused: the hand is " + std::string(nameOf(phase_)) + "; stop it first");
   std::optional<FingerForces> forces;
+  bool goesOn = false;
   if (request.mode != GraspMode::kPlain) {
     if (!stream_.alive(monoUs)) {
       const auto silence = stream_.silenceUs(monoUs);
@@ -122,24 +129,38 @@ void GraspStateMachine::begin(const GraspRequest& request,
     }
     requireMeasurableLimit(request);
     const TaxelPeak& loaded = loadedTaxel(request);
-    if (commonCounts(loaded, request) > static_cast<float>(request.limitCounts))
+    const bool isOver = commonCounts(loaded, request) > static_cast<float>(request.limitCounts);
+    const bool holds = holdsAlready(request);
+    if (!holds && isOver)
       refuse("refused: over the limit of " +
              std::to_string(limitOf(request, fingerOf(loaded.matrix))) + " already, at " +
              placeOf(loaded) + "; open the hand, or raise the limit");
-    forces = forcesFor(request);
+    forces = forcesFor(request, holds);
+    goesOn = holds && (isOver || fingerOverForce(request, forces));
   }
   GraspReport report;
   report.request = request;
   report.beginUs = hostUs;
+  report.limitCounts = request.limitCounts;
+  if (goesOn) {
+    // A slip may have raised the limit at which it is held.
+    report.limitCounts = std::max(report_.limitCounts, request.limitCounts);
+    report.peak = report_.peak;
+    report.peakAfterStop = report_.peakAfterStop;
+    report.forceFinger = report_.forceFinger;
+    report.forceN = report_.forceN;
+    report.forceAfterStopN = report_.forceAfterStopN;
+  }
   // Both motions are checked before the first one is sent.
   if (request.startRatio) motionTo(request, *request.startRatio, hand_);
   motionTo(request, request.closeRatio, hand_, anglesDeg_);
   forces_ = std::move(forces);
   report_ = report;
-  report_.limitCounts = limit_ = request.limitCounts;
+  limit_ = report_.limitCounts;
   next_ = Next::kEnd;
   stopsBlindly_ = reportedOverLimit_ = interrupted_ = false;
   held_ = slippedAtLimit_ = frictionTestRunning_ = frictionTested_ = false;
+  closedToLimit_ = false;
   endUs_ = heldFromUs_ = 0;
   silenceLimitUs_ = stream_.silenceLimitUs();
   answeredSlips_ = 0;
@@ -147,15 +168,46 @@ void GraspStateMachine::begin(const GraspRequest& request,
   grip_.reset();
   approach_.reset();
   if (keepsLimit(request)) approach_ = approachOf(request, touch);
-  approaching_ = isNear_ = false;
+  approaching_ = false;
+  isNear_ = goesOn;
+  heldDeg_.clear();
   restCounts_ = peak_.counts;
   timesPerDeg_ = steepest_ = 0.0;
   follows_ = false;
   easingUntilUs_ = 0;
-  if (request.startRatio)
+  if (goesOn) {
+    const TaxelPeak& loaded = loadedTaxel(request);
+    note("already", "holds already, at " + placeOf(loaded) + ": nothing moves", loaded.matrix);
+    settle(monoUs);
+  } else if (request.startRatio) {
     send(motionTo(request, *request.startRatio, hand_), GraspPhase::kPreshaping, monoUs);
-  else
+  } else {
     close(monoUs);
+  }
+}
+
+bool GraspStateMachine::holdsAlready(const GraspRequest& request) const {
+  const GraspRequest& last = report_.request;
+  if (request.mode != GraspMode::kSlip || request.startRatio || isJointMotion(request) ||
+      isJointMotion(last) || heldDeg_.size() != anglesDeg_.size())
+    return false;
+  const auto terms = [](const GraspRequest& of) {
+    return std::tie(of.preshape,
+                    of.closeRatio,
+                    of.object,
+                    of.limitCounts,
+                    of.fingerLimitCounts,
+                    of.forceLimitsN,
+                    of.keepsLimit);
+  };
+  const float left = report_.peakAfterStop ? commonCounts(*report_.peakAfterStop, request) : 0.0F;
+  const float most = kMostCreep * std::max(left, static_cast<float>(report_.limitCounts));
+  if (terms(request) != terms(last) || commonCounts(loadedTaxel(request), request) > most)
+    return false;
+  return !heldDeg_.empty() &&
+         std::equal(heldDeg_.begin(), heldDeg_.end(), anglesDeg_.begin(), [](double a, double b) {
+           return std::abs(a - b) < kUnmovedDeg;
+         });
 }
 
 // Throws when a matrix that may come into contact can't measure the limit.
@@ -170,7 +222,7 @@ void GraspStateMachine::requireMeasurableLimit(const GraspRequest& request) cons
 
 bool GraspStateMachine::isOverLimit() const noexcept {
   // The limit is below saturation: see requireMeasurableLimit().
-  return loadCounts() > static_cast<float>(limit_) || fingerOverForce(report_.request);
+  return loadCounts() > static_cast<float>(limit_) || fingerOverForce(report_.request, forces_);
 }
 
 float GraspStateMachine::commonCounts(const TaxelPeak& peak,
@@ -189,11 +241,13 @@ const TaxelPeak& GraspStateMachine::loadedTaxel(const GraspRequest& request) con
 }
 
 std::optional<std::size_t> GraspStateMachine::fingerOverForce(
-    const GraspRequest& request, std::optional<std::size_t> except) const noexcept {
-  if (!forces_) return std::nullopt;
-  for (std::size_t finger = 0; finger < forces_->forcesN().size(); ++finger)
+    const GraspRequest& request,
+    const std::optional<FingerForces>& forces,
+    std::optional<std::size_t> except) noexcept {
+  if (!forces) return std::nullopt;
+  for (std::size_t finger = 0; finger < forces->forcesN().size(); ++finger)
     if (const auto limitN = forceLimitOf(request, finger);
-        finger != except && limitN && !(forces_->forcesN()[finger] <= *limitN))
+        finger != except && limitN && !(forces->forcesN()[finger] <= *limitN))
       return finger;
   return std::nullopt;
 }
@@ -203,12 +257,20 @@ std::string GraspStateMachine::forceText(std::size_t finger) const {
          " N";
 }
 
+void GraspStateMachine::setSettings(std::vector<MatrixSettings> settings) {
+  if (settings != settings_) forgetHeld();  // counts mean something else
+  settings_ = std::move(settings);
+}
+
 void GraspStateMachine::setCalibration(std::optional<Calibration> calibration) {
+  forgetHeld();
   calibration_ = std::move(calibration);
 }
 
-// Throws when a force limit of the request can't be measured, or is exceeded already.
-std::optional<FingerForces> GraspStateMachine::forcesFor(const GraspRequest& request) const {
+// Throws when a force limit of the request can't be measured, or is exceeded already and may not
+// be.
+std::optional<FingerForces> GraspStateMachine::forcesFor(const GraspRequest& request,
+                                                         bool mayBeOver) const {
   if (request.forceLimitsN.empty()) return std::nullopt;
   if (!calibration_)
     refuse("refused: a limit in newtons needs a calibration of this hand, and none is applied");
@@ -225,7 +287,7 @@ std::optional<FingerForces> GraspStateMachine::forcesFor(const GraspRequest& req
     if (limitN && !(*limitN <= largestN))
       refuse("refused: a limit of " + numberText(*limitN) + " N would not be felt: finger " +
              std::to_string(finger) + " measures no more than " + fixedText(largestN, 1) + " N");
-    if (limitN && !(forces->forcesN()[finger] <= *limitN))
+    if (!mayBeOver && limitN && !(forces->forcesN()[finger] <= *limitN))
       refuse("refused: over the limit of " + numberText(*limitN) + " N already, at finger " +
              std::to_string(finger) + ": " + fixedText(forces->forcesN()[finger], 2) +
              " N; open the hand, or raise the limit");
@@ -238,6 +300,7 @@ bool GraspStateMachine::updateLayout(const TactileFrame& frame) {
   if (!frame.layout || frame.layout == hand_.layout) return false;
   const bool another = !(*frame.layout == *hand_.layout);
   if (another) {
+    forgetHeld();
     hand_ = describeHand(*frame.layout, hand_.axes.size(), hand_.temperatureSensors.size());
     grip_ = GripMonitor(hand_);
     forces_.reset();
@@ -261,6 +324,7 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   const auto silence = stream_.frame(frame.hostUs, monoUs);
   const bool anotherLayout = updateLayout(frame);
   peak_ = taxelPeaks(frame, matrixPeaks_);
+  if (!active() && peak_.counts <= 0.0F) forgetHeld();
   if (calibration_) newest_ = frame;
   if (anotherLayout && underTactileControl())
     return fault("the layout of the tactile sensor is another one than at the begin", monoUs);
@@ -281,13 +345,14 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   const bool eases = phase_ == GraspPhase::kEasing;
   const bool opens = phase_ == GraspPhase::kLoosening || (eases && !follows_);
   if (!opens && isOverLimit()) {
+    closedToLimit_ = phase_ != GraspPhase::kPreshaping;
     report_.peakAfterStop = report_.peak = loadedTaxel(report_.request);
     report_.limitUs = frame.hostUs;
     report_.forceFinger.reset();
     std::string text = placeOf(report_.peak);
     // The limit in counts is named where both are exceeded in the same frame.
     if (!(loadCounts() > static_cast<float>(limit_))) {
-      report_.forceFinger = fingerOverForce(report_.request);
+      report_.forceFinger = fingerOverForce(report_.request, forces_);
       report_.forceN = report_.forceAfterStopN = forces_->forcesN()[*report_.forceFinger];
       text = forceText(*report_.forceFinger);
     }
@@ -407,6 +472,9 @@ void GraspStateMachine::end(GraspOutcome outcome, const std::string& text) {
   phase_ = GraspPhase::kIdle;
   command_.reset();
   ended_ = report_;
+  if ((outcome == GraspOutcome::kLimitReached && closedToLimit_ && !isSlipAware()) ||
+      (report_.held && (report_.holdTimeOver || outcome == GraspOutcome::kStopped)))
+    heldDeg_ = anglesDeg_;
 }
 
 void GraspStateMachine::onStopAcknowledged(std::int64_t monoUs) {
@@ -475,7 +543,7 @@ std::string GraspStateMachine::riseText() const {
 // Text such as "; finger 1: 5.78 N, above its limit of 3 N: close more slowly" of a grasp that its
 // limit in counts has stopped, or empty.
 std::string GraspStateMachine::overForceText() const {
-  const auto over = fingerOverForce(report_.request, report_.forceFinger);
+  const auto over = fingerOverForce(report_.request, forces_, report_.forceFinger);
   if (!over) return {};
   return "; " + forceText(*over) + ", above its limit of " +
          numberText(*forceLimitOf(report_.request, *over)) + " N: close more slowly";
@@ -720,7 +788,7 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
   const int load = static_cast<int>(loadCounts());
   const int felt = std::max(limit_, load);
   const int raised = std::min(felt + holding.raiseCounts, holding.maxLimitCounts);
-  if (raised <= load || fingerOverForce(report_.request)) {
+  if (raised <= load || fingerOverForce(report_.request, forces_)) {
     limit_ = std::max(limit_, std::min(felt, holding.maxLimitCounts));
     note("at_limit", "slips, and the limit can't rise: " + slip.why, slip.matrix);
     grip_.setReference();
@@ -762,7 +830,7 @@ void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
   }
   const bool mayLoosen = holding.loosen && !slippedAtLimit_;
   // The force rises after the stop, because the rubber has a lag.
-  const bool overForce = mayLoosen && fingerOverForce(report_.request).has_value();
+  const bool overForce = mayLoosen && fingerOverForce(report_.request, forces_).has_value();
   if (limit_ <= report_.request.limitCounts) {
     if (overForce) loosen("loosen", "opening slowly to the limit in newtons", monoUs);
     return;
@@ -791,7 +859,7 @@ void GraspStateMachine::onLooseningFrame(std::int64_t monoUs) {
   }
   const double enough = frictionTestRunning_ ? kLeastOfLimit * report_.request.limitCounts : limit_;
   const bool tooMuch = static_cast<double>(loadCounts()) > enough ||
-                       (!frictionTestRunning_ && fingerOverForce(report_.request));
+                       (!frictionTestRunning_ && fingerOverForce(report_.request, forces_));
   if (tooMuch && monoUs < settledUs_) return;
   if (!frictionTestRunning_) return pause(Next::kSettle, "loose enough", monoUs);
   frictionTestRunning_ = false;

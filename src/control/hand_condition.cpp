@@ -98,6 +98,8 @@ std::string_view nameOf(HandCondition condition) {
   switch (condition) {
     case Condition::kReady:
       break;
+    case Condition::kRelaxed:
+      return "relaxed";
     case Condition::kMoving:
       return "moving";
     case Condition::kEasing:
@@ -144,7 +146,7 @@ ExplainedCondition conditionOf(const GraspStatus& status) {
     return whileRunning(status, *status.running);
   if (!status.unprotected.empty()) return {Condition::kNotProtected, status.unprotected};
   if (status.motorsOff)
-    return {Condition::kReady,
+    return {Condition::kRelaxed,
             "the motors are off: the fingers can be moved by hand, and an object may fall; the "
             "next motion switches them on"};
   if (status.wasAway)

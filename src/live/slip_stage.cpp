@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 
@@ -11,6 +12,21 @@ namespace {
 
 std::string textOf(double pathTaxels, double turnDeg) {
   return "slip: " + fixedText(pathTaxels, 2) + " taxels, " + fixedText(turnDeg, 1) + " degrees";
+}
+
+// Whether the hand opens after an event of a grasp (control/grasp_request.h, beginEvent() and
+// endEvent()); nothing: the event tells neither.
+std::optional<bool> opensAfter(const RecordingEvent& event) {
+  if (event.kind != "grasp" || event.json.empty()) return std::nullopt;
+  try {
+    const Json json = Json::parse(event.json);
+    if (json.contains("outcome")) return false;
+    if (!json.contains("mode")) return std::nullopt;
+    return json.at("mode").asString() == "plain" && !json.contains("start") &&
+           json.contains("close") && json.at("close").asDouble() == 0.0;
+  } catch (const Error&) {
+    return std::nullopt;  // another program's event
+  }
 }
 
 }  // namespace
@@ -63,6 +79,11 @@ void SlipStage::reset() {
 // After changed settings the counts have another meaning, so the reference is no longer valid.
 void SlipStage::onEvent(const RecordingEvent& event) {
   if (event.kind == "settings") reset();
+  const auto opens = opensAfter(event);
+  if (!opens || *opens == opens_) return;
+  opens_ = *opens;
+  // What moved while it opened is no slip of what it holds then.
+  if (!opens_) reset();
 }
 
 void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
@@ -95,6 +116,11 @@ void SlipStage::onFrame(LiveResults& results, std::vector<RecordingEvent>& out) 
       else
         detectors_[m].setReference();
       results.slip[m] = detectors_[m].last();
+    }
+    if (opens_) {
+      SlipDetection unjudged;
+      unjudged.motion = results.slip[m].motion;
+      results.slip[m] = unjudged;
     }
     emitSlipEvents(m, results.slip[m], frame.hostUs, out);
   }

@@ -284,7 +284,7 @@ TEST(GraspControl, TheNextMotionAndRelaxAcknowledge) {
       bench.control->preshape("centrical", 10.0);
     EXPECT_TRUE(bench.control->status().unprotected.empty());
     EXPECT_EQ(bench.control->condition().condition,
-              relaxes ? HandCondition::kReady : HandCondition::kMoving);
+              relaxes ? HandCondition::kRelaxed : HandCondition::kMoving);
   }
 }
 

@@ -52,11 +52,12 @@ C acknowledged(GraspStatus status) {
   return conditionOf(status).condition;
 }
 
-TEST(HandCondition, HasEightNames) {
+TEST(HandCondition, HasNineNames) {
   std::vector<std::string> names;
   for (const C each : kAllHandConditions) names.emplace_back(nameOf(each));
   EXPECT_EQ(names,
             (std::vector<std::string>{"ready",
+                                      "relaxed",
                                       "moving",
                                       "easing",
                                       "holding",
@@ -73,7 +74,7 @@ TEST(HandCondition, FollowsTheEndOfAGrasp) {
       {GraspOutcome::kFinished, {C::kReady, C::kReady, C::kReady}},
       {GraspOutcome::kLimitReached, {C::kHolding, C::kHolding, C::kNotProtected}},
       {GraspOutcome::kStopped, {C::kStopped, C::kStopped, C::kStopped}},
-      {GraspOutcome::kRelaxed, {C::kReady, C::kReady, C::kReady}},
+      {GraspOutcome::kRelaxed, {C::kRelaxed, C::kRelaxed, C::kRelaxed}},
       {GraspOutcome::kStreamLost, {C::kStopped, C::kNotProtected, C::kNotProtected}},
       {GraspOutcome::kPortGone, {C::kStopped, C::kNotProtected, C::kNotProtected}},
       {GraspOutcome::kFailed, {C::kStopped, C::kNotProtected, C::kNotProtected}},

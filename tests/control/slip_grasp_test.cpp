@@ -60,6 +60,134 @@ TEST(SlipGrasp, HoldsWhatRestsAndMovesNothing) {
                   .starts_with("holding for 64 s, 0 slips answered: limit 400 counts"));
 }
 
+// A reactive grasp stopped at its limit, and its reading has crept above it since.
+struct LeftAtItsLimit {
+  HeldObject held{sceneOf("ball")};
+  GraspRequest request = slipAware("centrical", 200);
+
+  LeftAtItsLimit() {
+    request.velocityDegPerS = 8.0;
+    request.mode = GraspMode::kReactive;
+    held.begin(request);
+    EXPECT_TRUE(held.run(20.0, [&] { return !held.machine().active(); }));
+    EXPECT_EQ(held.machine().running().outcome, GraspOutcome::kLimitReached);
+    held.run(5.0);
+    EXPECT_GT(held.machine().peak().counts, 200.0F);
+    request.mode = GraspMode::kSlip;
+  }
+};
+
+TEST(SlipGrasp, WatchesWhatIsHeldAtTheSameLimitAlready) {
+  LeftAtItsLimit left;
+  HeldObject& held = left.held;
+  const std::uint64_t orderCount = held.hand().joints().orderCount();
+  held.begin(left.request);
+  EXPECT_EQ(held.machine().phase(), GraspPhase::kSettling);
+  held.run(4.0);
+  EXPECT_EQ(held.machine().phase(), GraspPhase::kHolding);
+  EXPECT_EQ(held.hand().joints().orderCount(), orderCount) << "nothing moves";
+  held.machine().stop(held.us());
+  held.run(1.0);
+  ASSERT_FALSE(held.machine().active());
+  held.begin(left.request);
+  EXPECT_EQ(held.machine().phase(), GraspPhase::kSettling) << "what was stopped still holds";
+}
+
+// Slips of what was held already are answered as of any other grasp.
+TEST(SlipGrasp, ClosesAgainUponASlipOfWhatWasHeldAlready) {
+  Scene scene = sceneOf("slipping_handle");
+  pull(scene, 24.0, {0.0, 0.0, 12.5}, 6.0);
+  pull(scene, 33.0, {0.0, 0.0, 0.0}, 0.2);
+  HeldObject held(scene);
+  GraspRequest request = slipAware("pinch-parallel", 400);
+  request.velocityDegPerS = 8.0;
+  request.mode = GraspMode::kReactive;
+  held.begin(request);
+  ASSERT_TRUE(held.run(18.0, [&] { return !held.machine().active(); }));
+  request.mode = GraspMode::kSlip;
+  held.begin(request);
+  held.run(38.0 - held.timeS());
+  EXPECT_EQ(held.actions("already"), 1);
+  EXPECT_EQ(held.machine().phase(), GraspPhase::kHolding);
+  EXPECT_GE(held.machine().running().slips, 1);
+  EXPECT_EQ(held.contacts(), 2) << "the handle stays";
+}
+
+// A reactive grasp ended at 300 counts with a limit of 200.
+struct EndedAtItsLimit {
+  testing::MachineBench bench;
+  GraspRequest request = testing::reactive();
+
+  explicit EndedAtItsLimit(const GraspRequest& first = testing::reactive()) {
+    bench.machine.onAngles(std::vector<double>(7, 20.0), bench.us);
+    bench.begin(first);
+    bench.take();
+    bench.frames(1, 250.0F);
+    EXPECT_TRUE(bench.takeStop());
+    bench.machine.onStopAcknowledged(bench.us);
+    bench.lookOn(300.0F);
+    EXPECT_FALSE(bench.machine.active());
+    request.mode = GraspMode::kSlip;
+  }
+  bool isRefused() {
+    try {
+      bench.begin(request);
+    } catch (const DeviceError&) {
+      return true;
+    }
+    EXPECT_FALSE(bench.machine.takeCommand()) << "what is held already isn't moved";
+    return false;
+  }
+};
+
+TEST(SlipGrasp, AboveItsLimitIsRefusedUnlessTheHandHoldsThatAlready) {
+  EXPECT_FALSE(EndedAtItsLimit().isRefused());
+  using Between = std::function<void(EndedAtItsLimit&)>;
+  const std::pair<const char*, Between> table[] = {
+      {"another limit", [](auto& ended) { ended.request.limitCounts = 190; }},
+      {"another preshape", [](auto& ended) { ended.request.preshape = "cylindrical"; }},
+      {"it would open at its first slip", [](auto& ended) { ended.request.closeRatio = 0.5; }},
+      {"another object", [](auto& ended) { ended.request.object = "pen"; }},
+      {"the limit is to be kept", [](auto& ended) { ended.request.keepsLimit = true; }},
+      {"it would move first", [](auto& ended) { ended.request.startRatio = 0.0; }},
+      {"the motors were off", [](auto& ended) { ended.bench.machine.forgetHeld(); }},
+      {"a joint moved",
+       [](auto& ended) {
+         std::vector<double> deg(7, 20.0);
+         deg[3] = 20.3;
+         ended.bench.machine.onAngles(deg, ended.bench.us);
+       }},
+      {"nothing was touched for a frame",
+       [](auto& ended) {
+         ended.bench.frames(1, 0.0F);
+         ended.bench.frames(1, 300.0F);
+       }},
+      {"more than creep explains", [](auto& ended) { ended.bench.frames(1, 460.0F); }},
+      {"counts mean something else",
+       [](auto& ended) {
+         ended.bench.machine.setSettings(std::vector<MatrixSettings>(6, {0.5, 100}));
+       }},
+      {"another calibration", [](auto& ended) { ended.bench.machine.setCalibration({}); }},
+  };
+  for (const auto& [why, between] : table) {
+    EndedAtItsLimit ended;
+    between(ended);
+    EXPECT_TRUE(ended.isRefused()) << why;
+  }
+  GraspRequest joint = testing::reactive();
+  joint.targetDeg.assign(7, {});
+  joint.targetDeg[1] = 30.0;
+  EXPECT_TRUE(EndedAtItsLimit(joint).isRefused()) << "a motion of joints is no grasp";
+}
+
+// Below its limit it closes to the limit, as ever.
+TEST(SlipGrasp, BelowItsLimitClosesEvenIfItHoldsAlready) {
+  EndedAtItsLimit ended;
+  ended.bench.frames(1, 150.0F);
+  ended.bench.begin(ended.request);
+  EXPECT_TRUE(ended.bench.machine.takeCommand());
+}
+
 // The reading rises from 250 to 1200 counts after the stop, and falls again while it is held.
 TEST(SlipGrasp, TellsOfARiseOnlyWhileTheReadingIsThatHigh) {
   testing::MachineBench bench;

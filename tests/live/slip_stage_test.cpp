@@ -40,7 +40,8 @@ struct Found {
 
 Found processed(const Profile& profile,
                 const std::function<void(SlipStage&)>& prepare = {},
-                const std::function<void(SlipStage&, std::size_t)>& before = {}) {
+                const std::function<void(SlipStage&, std::size_t)>& before = {},
+                std::vector<RecordingEvent> events = {}) {
   auto stage = std::make_unique<SlipStage>(sdh2());
   SlipStage& slip = *stage;
   if (prepare) prepare(slip);
@@ -53,7 +54,7 @@ Found processed(const Profile& profile,
     if (before) before(slip, found.detections.size());
   };
   options.onEvent = [&](const RecordingEvent& event) { found.events.push_back(event); };
-  ProcessingChain(std::move(stages), options).runOver(profile);
+  ProcessingChain(std::move(stages), options).runOver(profile, std::move(events));
   return found;
 }
 
@@ -79,6 +80,37 @@ TEST(SlipStage, ShowsTheVectorOfEveryMatrixAndTellsOfSlip) {
   EXPECT_EQ(ends.tUs, begins.tUs);
   EXPECT_GT(ends.t1Us, profile.frameTimeUs(106));
   EXPECT_GT(Json::parse(ends.json).at("dy_taxels").asDouble(), 1.0);
+}
+
+// The slip lasts from frame 95 to 106.
+TEST(SlipStage, DoesNotTellOfSlipWhileTheHandLetsGo) {
+  const auto at = [](int frame, const std::string& json) {
+    const std::int64_t tUs = 1'400'000'000'000'000 + 31'500 * frame - 1;
+    return RecordingEvent{tUs, tUs, "grasp", {}, "opening", json};
+  };
+  const RecordingEvent begins = at(80, R"({"mode":"plain","preshape":"centrical","close":0})");
+  const RecordingEvent ends =
+      at(90, R"({"mode":"plain","preshape":"centrical","close":0,"outcome":"finished"})");
+  const RecordingEvent closes = at(90, R"({"mode":"plain","preshape":"centrical","close":1})");
+  const Profile profile = slipOnce();
+  const Found opening = processed(profile, {}, {}, {begins});
+  EXPECT_TRUE(opening.events.empty());
+  for (int frame = 95; frame < 120; ++frame) {
+    const SlipDetection& here = opening.detections[static_cast<std::size_t>(frame)][3];
+    EXPECT_FALSE(here.slipping || here.alarm);
+    EXPECT_EQ(here.indicator, SlipIndicator::kNotComputable) << "no lamp is red";
+  }
+  EXPECT_TRUE(opening.detections[100][3].motion.valid) << "the motion is measured nevertheless";
+  // Changed settings don't end the opening; what slipped before its end is not told after it.
+  RecordingEvent settings = at(92, {});
+  settings.kind = "settings";
+  RecordingEvent ended = ends;
+  ended.tUs = ended.t1Us = at(104, {}).tUs;
+  EXPECT_TRUE(processed(profile, {}, {}, {begins, settings}).events.empty());
+  EXPECT_TRUE(processed(profile, {}, {}, {begins, ended}).events.empty());
+  EXPECT_EQ(processed(profile, {}, {}, {begins, ends}).events.size(), 2U);
+  EXPECT_EQ(processed(profile, {}, {}, {begins, closes}).events.size(), 2U);
+  EXPECT_EQ(processed(profile, {}, {}, {at(80, "[")}).events.size(), 2U) << "no event of ours";
 }
 
 TEST(SlipStage, MatricesCanBeSwitchedOff) {

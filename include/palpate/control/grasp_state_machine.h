@@ -56,7 +56,7 @@ class GraspStateMachine {
   explicit GraspStateMachine(HandDescription hand) : hand_(std::move(hand)), grip_(hand_) {}
 
   // Settings of the matrices as last read back from the controller; empty when unknown.
-  void setSettings(std::vector<MatrixSettings> settings) { settings_ = std::move(settings); }
+  void setSettings(std::vector<MatrixSettings> settings);
 
   // The calibration by which forces are measured; nothing: no grasp with a limit in newtons begins.
   void setCalibration(std::optional<Calibration> calibration);
@@ -69,6 +69,9 @@ class GraspStateMachine {
   // already over its limit, a matrix on a moving finger can't measure the limit, or no calibration
   // can measure a limit in newtons. hostUs is used in the report. `touch`: what is remembered of
   // the object, for a grasp that keeps its limit.
+  // Above its limit a slip-aware grasp without a start ratio is not refused while the hand still
+  // holds what the last grasp left, which differed in nothing but its mode: the reading creeps. It
+  // moves nothing at first, and watches what is held.
   void begin(const GraspRequest& request,
              std::int64_t monoUs,
              std::int64_t hostUs,
@@ -102,6 +105,9 @@ class GraspStateMachine {
   // case).
   void stop(std::int64_t monoUs);
   void relax();
+  // What the last grasp left at its limit is not known any more: the motors were switched off, or a
+  // port was gone.
+  void forgetHeld() noexcept { heldDeg_.clear(); }
   // Call this when a call above threw an unexpected exception: stops a running motion; the grasp
   // ends as failed.
   void fault(std::string_view why, std::int64_t monoUs);
@@ -199,10 +205,16 @@ class GraspStateMachine {
     return commonCounts(loadedTaxel(report_.request), report_.request);
   }
   // The first finger above its limit in newtons, other than `except`.
-  std::optional<std::size_t> fingerOverForce(const GraspRequest& request,
-                                             std::optional<std::size_t> except = {}) const noexcept;
+  static std::optional<std::size_t> fingerOverForce(
+      const GraspRequest& request,
+      const std::optional<FingerForces>& forces,
+      std::optional<std::size_t> except = {}) noexcept;
   std::string forceText(std::size_t finger) const;
-  std::optional<FingerForces> forcesFor(const GraspRequest& request) const;
+  // The last grasp left the hand at its limit and differs from this slip-aware one in its mode
+  // alone; since then no joint has moved, a taxel was pressed all the time, and creep explains the
+  // largest reading.
+  bool holdsAlready(const GraspRequest& request) const;
+  std::optional<FingerForces> forcesFor(const GraspRequest& request, bool mayBeOver) const;
   bool updateLayout(const TactileFrame& frame);
   void requireMeasurableLimit(const GraspRequest& request) const;
   void onHoldingFrame(std::int64_t monoUs);
@@ -237,6 +249,10 @@ class GraspStateMachine {
   std::optional<MoveJoints> underWay_;
   std::vector<double> anglesDeg_;  // empty: not known
   std::int64_t anglesUs_ = 0;      // when they were read [monotonic us]
+  // Angles at which the last grasp held an object at its limit; empty: it didn't, or the hand may
+  // have let go since.
+  std::vector<double> heldDeg_;
+  bool closedToLimit_ = false;  // the limit of the running grasp was reached while it closed
   std::optional<GraspReport> ended_;
   // Time of the motion command or of the last stop.
   std::int64_t sentUs_ = 0;

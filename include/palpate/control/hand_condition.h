@@ -13,7 +13,8 @@ namespace palpate {
 struct GraspStatus;
 
 enum class HandCondition {
-  kReady,         // nothing is held as far as is known, or the motors are off
+  kReady,         // nothing is held as far as is known
+  kRelaxed,       // the motors are off: the fingers can be moved by hand, and an object may fall
   kMoving,        // fingers move, or are being stopped
   kEasing,        // opens by small steps after the limit was reached
   kHolding,       // holds; nobody was promised that it is watched
@@ -23,6 +24,7 @@ enum class HandCondition {
   kGone           // the hand doesn't answer
 };
 inline constexpr std::array kAllHandConditions = {HandCondition::kReady,
+                                                  HandCondition::kRelaxed,
                                                   HandCondition::kMoving,
                                                   HandCondition::kEasing,
                                                   HandCondition::kHolding,
@@ -30,8 +32,8 @@ inline constexpr std::array kAllHandConditions = {HandCondition::kReady,
                                                   HandCondition::kNotProtected,
                                                   HandCondition::kStopped,
                                                   HandCondition::kGone};
-// Names: "ready", "moving", "easing", "holding", "holding and watched", "not protected",
-// "stopped", "gone".
+// Names: "ready", "relaxed", "moving", "easing", "holding", "holding and watched",
+// "not protected", "stopped", "gone".
 std::string_view nameOf(HandCondition condition);
 
 struct ExplainedCondition {

@@ -18,9 +18,10 @@ namespace palpate {
 SlipDetectorOptions liveSlipOptions();
 
 // Fills LiveResults::slip. When the alarm of a matrix begins, an event "slip" marks the moment;
-// when it ends, a second event covers the time span (path and rotation as JSON). Changed sensor
-// settings and missing frames reset the detection. All functions except those of Stage may be
-// called from any thread; they take effect with the next frame.
+// when it ends, a second event covers the time span (path and rotation as JSON). While the hand
+// opens by an order (event "grasp") there is no alarm: it lets go. Changed sensor settings and
+// missing frames reset the detection. All functions except those of Stage may be called from any
+// thread; they take effect with the next frame.
 class SlipStage final : public Stage {
  public:
   // `hand`: the source's, for its full scale and saturation. Throws std::invalid_argument.
@@ -61,6 +62,7 @@ class SlipStage final : public Stage {
   std::vector<std::optional<Slipping>> slipping_;
   std::vector<ReferenceRequest> dueRequests_;  // requests for this frame
   std::vector<double> jointsDeg_;
+  bool opens_ = false;
 
   mutable std::mutex mutex_;  // protects the following members
   const HandDescription hand_;

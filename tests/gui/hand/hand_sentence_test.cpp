@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
+
 namespace palpate::gui::hand_sentence_test {
 namespace {
 
@@ -60,6 +62,13 @@ const std::vector<Row> kRows{
        status.request->closeRatio = 0.0;
      },
      "opening · centrical, 10 deg/s"},
+    {"ClosingTellsHowFar",
+     [](auto&, auto& status) {
+       status.phase = GraspPhase::kClosing;
+       status.request = GraspRequest{};
+       status.anglesDeg = sdh2Preshape("centrical").anglesDeg(0.42);
+     },
+     "closing, at 0.42 · plain grasp: centrical, to 0.5, 10 deg/s"},
     {"HoldingComesFirst",
      [](auto&, auto& status) {
        status.phase = GraspPhase::kHolding;

@@ -2,6 +2,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDropEvent>
+#include <QLabel>
 #include <QMenu>
 #include <QMimeData>
 #include <QMouseEvent>
@@ -10,6 +11,8 @@
 #include <QScrollBar>
 #include <QStackedWidget>
 #include <QToolButton>
+#include <fstream>
+#include <set>
 #include <utility>
 
 #include "gui/compare/compare_feature.h"
@@ -20,6 +23,9 @@
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/open/start_page.h"
+#include "gui/open/thumbnails.h"
+#include "gui/record/plan_controller.h"
+#include "gui/record/plan_dialog.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/message_banner.h"
 #include "gui/widgets/opening_strip.h"
@@ -341,6 +347,53 @@ TEST_F(OpeningTest, TheStartPageListsRecentFilesAfterARestart) {
   QTest::mouseClick(window().findChildren<QPushButton*>("RecentRow").at(0), Qt::LeftButton);
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good2.dsa");
+}
+
+TEST_F(OpeningTest, TheStartPageHasAPictureOfEachRecentRecording) {
+  const std::filesystem::path kept = folder_ / "cache" / "thumbnails";
+  const auto pictures = [&] {
+    std::vector<std::filesystem::path> found;
+    if (std::filesystem::exists(kept))
+      for (const auto& each : std::filesystem::directory_iterator(kept)) found.push_back(each);
+    return found;
+  };
+  open({"good1.dsa", "good2.dsa"});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return pictures().size() == 2; }, 10'000));
+  window().close();
+  // What is no picture is not shown.
+  std::ofstream(pictures().front()) << "no picture";
+  start();
+  int shown = 0;
+  for (const QPushButton* row : window().findChildren<QPushButton*>("RecentRow"))
+    for (const QLabel* label : row->findChildren<QLabel*>()) {
+      if (label->pixmap().isNull()) continue;
+      ++shown;
+      const QImage image = label->pixmap().toImage();
+      EXPECT_EQ(image.size(), kThumbnailSize * window().devicePixelRatio());
+      std::set<QRgb> colors;
+      for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) colors.insert(image.pixel(x, y));
+      EXPECT_GT(colors.size(), 3U) << "ground, taxels at rest, and those that are pressed";
+    }
+  EXPECT_EQ(shown, 1);
+  window().state().recent.clear();
+  EXPECT_TRUE(pictures().empty()) << "nothing is kept of a recording that is forgotten";
+}
+
+TEST_F(OpeningTest, TheStartPageTellsWhatThePlanHasLeft) {
+  EXPECT_FALSE(find<QPushButton>("startPlan")->isVisible());
+  window().close();
+  {
+    QSettings settings(settingsFile(), QSettings::IniFormat);
+    PlanController plan(settings);
+    plan.addRow({.object = "ball", .run = "left", .repetitions = 3});
+  }
+  start();
+  const auto* button = find<QPushButton>("startPlan");
+  EXPECT_TRUE(button->isVisible());
+  EXPECT_EQ(button->text(), "Plan of recordings: 0 of 3 takes · next: ball, left, 1 of 3");
+  QTest::mouseClick(find<QPushButton>("startPlan"), Qt::LeftButton);
+  EXPECT_TRUE(window().findChild<PlanDialog*>()->isVisible());
 }
 
 TEST_F(OpeningTest, TenRecentFilesFitIntoTheSmallestWindow) {

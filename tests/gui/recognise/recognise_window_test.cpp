@@ -21,6 +21,7 @@
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
 #include "gui/recognise/grasps_page.h"
+#include "gui/recognise/guessing_game.h"
 #include "gui/recognise/presentation_window.h"
 #include "gui/recognise/recognise_fixture.h"
 #include "gui/shell/show_scene.h"
@@ -83,6 +84,25 @@ TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   EXPECT_EQ(scene->hand().drawing().handState().frame->values,
             window().state().currentFrame.frame().values);
   EXPECT_EQ(scene->matrices().look(), window().feature<MatricesFeature>().panel().view().look());
+  // In the guessing game the answer is hidden until the visitor has guessed.
+  auto* game = full->findChild<GuessingGame*>();
+  EXPECT_FALSE(game->isVisible());
+  QTest::keyClick(full, Qt::Key_G);
+  EXPECT_TRUE(game->isVisible());
+  QTest::keyClick(full, Qt::Key_Q);
+  settle();
+  EXPECT_EQ(full->view().answer().name(), "");
+  const auto buttons = game->findChildren<QPushButton*>("gameObject");
+  ASSERT_EQ(buttons.size(), 3);
+  for (const QPushButton* button : buttons) EXPECT_FALSE(button->accessibleName().isEmpty());
+  QTest::keyClick(full, Qt::Key_2);
+  settle();
+  EXPECT_EQ(full->view().answer().name(), "pen") << "the guess asks the hand";
+  QTest::keyClick(full, Qt::Key_1);
+  EXPECT_EQ(game->score(), "hand 0 · you 0 · of 1") << "the pen is none of the three";
+  QTest::keyClick(full, Qt::Key_G);
+  EXPECT_FALSE(game->isVisible());
+  EXPECT_EQ(full->view().answer().name(), "pen");
   QTest::keyClick(full, Qt::Key_Escape);
   EXPECT_TRUE(QTest::qWaitFor(
       [&] { return window().findChild<PresentationWindow*>("showWindow") == nullptr; }, 5'000));
@@ -240,7 +260,7 @@ TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
   moveTo(0.0);
   EXPECT_TRUE(await([&] {
     return full->view().answer().kind == RecognitionAnswer::Kind::kNothing &&
-           full->view().answer().text == "Put an object into the hand.";
+           full->view().answer().text == "Let the hand grasp its object.";
   })) << full->view().answer().accessibleText().toStdString();
   // Asked for, the last grasp is named in the dock, which says so; an audience sees an empty hand.
   QTest::keyClick(full, Qt::Key_Q);

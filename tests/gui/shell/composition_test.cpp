@@ -65,6 +65,25 @@ TEST_F(CompositionTest, OfALiveHandTheDataHaveTheLargestPart) {
   }
 }
 
+// On a screen of a projector the column has the whole height, and its buttons are seen.
+TEST_F(CompositionTest, InALowWindowTheButtonsThatMoveTheHandAreSeen) {
+  connectEmulated();
+  trigger("presetGrasp");
+  setSize({1024, 700});
+  const auto* chart = find<QDockWidget>("Timeline");
+  const auto* column = find<QDockWidget>("Hand");
+  ASSERT_TRUE(chart->isVisible());
+  EXPECT_GE(column->geometry().bottom(), chart->geometry().bottom());
+  EXPECT_GT(chart->x(), column->geometry().right());
+  for (const char* name :
+       {"graspHand", "reactiveGrasp", "slipAwareGrasp", "openHand", "relaxHand"}) {
+    const auto* button = find<QPushButton>(name);
+    EXPECT_EQ(button->visibleRegion().boundingRect(), button->rect()) << name;
+  }
+  setSize({1440, 900});
+  EXPECT_LE(chart->x(), column->x()) << "there the chart has the whole width";
+}
+
 TEST_F(CompositionTest, OfARecordingTheDataHaveTheLargestPart) {
   open({"rich.dsa"});
   for (const QSize& size : kWindows) {

@@ -32,7 +32,8 @@ TEST(StartScene, GivesWayToTheButtonsOnALowPage) {
   QSettings settings(QString::fromStdString((folder / "settings.ini").string()),
                      QSettings::IniFormat);
   RecentFiles recent(settings);
-  StartPage page(recent, true);
+  const Thumbnails thumbnails({});
+  StartPage page(recent, thumbnails, true);
   auto* scene = new StartScene(testing::dataFolder() / "nothing.dsa", &page);
   page.setScene(scene);
   page.resize(900, 4 * scene->height());

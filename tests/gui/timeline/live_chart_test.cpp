@@ -10,6 +10,7 @@
 #include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
+#include "gui/chart/end_names.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::live_chart_test {
@@ -80,6 +81,79 @@ class LiveChartTest : public ::testing::Test {
   LiveChart chart_;
 };
 
+// Right of the plot each name has the colour of its curve, and none covers another one.
+TEST_F(LiveChartTest, NamesStandAtTheEndsOfTheCurves) {
+  chart_.resize(900, 400);
+  plot({0, 1, 2});
+  framesTo(40.0);
+  chart_.replot();
+  const QImage image = chart_.grab().toImage();
+  const QRect room = chart_.axisRect()->rect();
+  ASSERT_GT(chart_.width() - room.right(),
+            chart_.fontMetrics().horizontalAdvance(chart_.curves().front().name));
+  std::vector<std::pair<int, int>> lines;
+  for (const PlottedCurve& curve : chart_.curves()) {
+    std::optional<std::pair<int, int>> line;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = room.right() + 3; x < image.width(); ++x)
+        if (image.pixelColor(x, y) == curve.pen.color()) {
+          if (!line) line.emplace(y, y);
+          line->second = y;
+        }
+    ASSERT_TRUE(line) << curve.name.toStdString();
+    lines.push_back(*line);
+  }
+  // Matrix 2 is at the top; the others rest at zero, one below the other.
+  EXPECT_LT(lines[2].second, room.center().y());
+  EXPECT_GT(lines[0].first, room.center().y());
+  EXPECT_TRUE(lines[0].second < lines[1].first || lines[1].second < lines[0].first);
+}
+
+// Matrices 0 and 1 are of finger 0, 2 and 3 of finger 1, 4 and 5 of finger 2. Matrix 2 reads the
+// seconds, the others 0.
+TEST_F(LiveChartTest, EachFingerHasALane) {
+  framesTo(20.0);
+  const double upper = chart_.yAxis->range().upper;
+  const QString values = chart_.valuesAt(10.0);
+  chart_.setLanes(true);
+  EXPECT_EQ(chart_.yAxis->range(), QCPRange(0.0, 3.0));
+  EXPECT_DOUBLE_EQ(lastDrawn(0), 2.0) << "the first finger is at the top";
+  EXPECT_DOUBLE_EQ(lastDrawn(5), 0.0);
+  EXPECT_DOUBLE_EQ(lastDrawn(3), 1.0);
+  EXPECT_NEAR(lastDrawn(2), 1.0 + 0.85 * 20.0 / upper, 1e-9);
+  EXPECT_EQ(chart_.valuesAt(10.0), values) << "values are told as they are";
+  // A range set by hand is that of each lane.
+  chart_.axes().setByHand("counts", AxisRange{0.0, 40.0});
+  EXPECT_NEAR(lastDrawn(2), 1.0 + 0.85 * 0.5, 1e-9);
+  EXPECT_EQ(chart_.yAxis->range(), QCPRange(0.0, 3.0));
+  chart_.axes().setByHand("counts", std::nullopt);
+  // Angles have their own axis; one finger needs no lanes.
+  std::vector<PlottedCurve> curves = {matrixCurve(sdh2(), 2, SignalKind::kMean),
+                                      matrixCurve(sdh2(), 4, SignalKind::kMean),
+                                      angleCurve(sdh2(), 1)};
+  chart_.setCurves(curves);
+  EXPECT_EQ(chart_.yAxis->range(), QCPRange(0.0, 2.0));
+  EXPECT_NEAR(lastDrawn(2), 40.0, 1e-9);
+  plot({2, 3});
+  EXPECT_NEAR(lastDrawn(2 - 2), 20.0, 1e-9);
+  plot({0, 1, 2, 3, 4, 5});
+  chart_.setLanes(false);
+  EXPECT_DOUBLE_EQ(chart_.yAxis->range().upper, upper);
+  EXPECT_NEAR(lastDrawn(2), 20.0, 1e-9);
+}
+
+TEST_F(LiveChartTest, HasNoNamesAtTheEndsWhereTheyHaveNoRoom) {
+  chart_.resize(300, 400);
+  EXPECT_EQ(roomForEndNames(chart_, chart_.curves()), 0) << "narrow";
+  chart_.resize(900, 100);
+  EXPECT_EQ(roomForEndNames(chart_, chart_.curves()), 0) << "low";
+  chart_.resize(900, 400);
+  EXPECT_GT(roomForEndNames(chart_, chart_.curves()), 0);
+  std::vector<PlottedCurve> curves = chart_.curves();
+  curves.push_back(angleCurve(sdh2(), 1));
+  EXPECT_EQ(roomForEndNames(chart_, curves), 0) << "the axis of the angles stands there";
+}
+
 TEST_F(LiveChartTest, RollsWithTheNewestFrame) {
   for (int i = 0; i <= 40 * 30; ++i) frame(i / 30.0, 100.0);
   chart_.refresh(0.0);
@@ -144,8 +218,21 @@ TEST_F(LiveChartTest, RollsOnBySilenceAndShadesTheGap) {
   chart_.refresh(2.0);  // nothing came for 2 s
   EXPECT_NEAR(chart_.xAxis->range().upper, 33.0, 1e-6);
   EXPECT_EQ(chart_.numEvents(), 0u);
+  // The silence is shaded while it lasts.
+  const auto shades = [&] {
+    std::vector<std::pair<double, double>> found;
+    for (int i = 0; i < chart_.itemCount(); ++i)
+      if (const auto* shade = qobject_cast<QCPItemRect*>(chart_.item(i)))
+        found.emplace_back(shade->topLeft->key(), shade->bottomRight->key());
+    return found;
+  };
+  ASSERT_EQ(shades().size(), 1U);
+  EXPECT_NEAR(shades()[0].first, 31.0, 1e-6);
+  EXPECT_NEAR(shades()[0].second, 33.0, 1e-6);
   frame(34.0, 5.0);
   chart_.refresh(0.0);
+  ASSERT_EQ(shades().size(), 1U);
+  EXPECT_NEAR(shades()[0].second, 34.0, 1e-6);
   EXPECT_EQ(chart_.numEvents(), 1u);
   // No line leads over the gap: a value that is none stands in between.
   bool interrupted = false;

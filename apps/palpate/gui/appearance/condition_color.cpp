@@ -7,6 +7,7 @@ QColor conditionColor(HandCondition condition, Theme theme) {
   const bool dark = theme == Theme::kDark;
   switch (condition) {
     case HandCondition::kReady:
+    case HandCondition::kRelaxed:
       break;
     case HandCondition::kMoving:
       return dark ? "#5eb8f0" : "#0b6aa8";

@@ -66,7 +66,8 @@ QFileDialog QToolButton { padding: 2px; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QInputDialog { min-width: 380px; }
 QPushButton { background: @raised; border: 1px solid @border; border-radius: 5px; padding: 5px 14px; }
-QPushButton:hover, QPushButton:focus { border-color: @accent; }
+QPushButton:hover { border-color: @accent; }
+QPushButton:focus { border-color: @text; }
 QPushButton:pressed { background: @accentSoft; }
 QPushButton[primary="true"] { background: @accentSoft; border-color: @accent; color: @accent; }
 QPushButton[primary="true"]:disabled { background: transparent; border-color: @border; color: @muted; }
@@ -75,10 +76,20 @@ QPushButton[danger="true"]:pressed { background: @danger; color: @window; }
 QPushButton[danger="true"]:disabled { background: transparent; border-color: @border; color: @muted; }
 #stopHand:enabled { background: #b3261e; border-color: #b3261e; color: #ffffff; }
 #stopHand:enabled:pressed { background: #7f1712; }
-QAbstractSpinBox { background: @window; border: 1px solid @border; border-radius: 4px; padding: 3px 5px; }
-QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { width: 0; border: 0; }
-QAbstractSpinBox:focus { border-color: @accent; }
-#FocusFrame { border: 1px solid @accent; border-radius: 3px; background: transparent; }
+QAbstractSpinBox, QComboBox, QLineEdit { background: @window; border: 1px solid @border; border-radius: 4px; padding: 3px 5px; }
+QAbstractSpinBox:focus, QComboBox:focus, QLineEdit:focus, QComboBox:hover { border-color: @text; }
+QAbstractSpinBox QLineEdit, QComboBox QLineEdit, QAbstractItemView QLineEdit { border: 0; padding: 0; }
+QToolBar QComboBox { padding: 4px 5px; }
+QComboBox::drop-down { border: 0; width: 18px; }
+QComboBox::down-arrow { image: url(:/arrows/down.png); }
+QComboBox:disabled, QLineEdit:disabled { color: @muted; background: @panel; }
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { width: 16px; border: 0; background: transparent; }
+QAbstractSpinBox::up-button { subcontrol-position: top right; }
+QAbstractSpinBox::down-button { subcontrol-position: bottom right; }
+QAbstractSpinBox::up-arrow { image: url(:/arrows/up.png); }
+QAbstractSpinBox::down-arrow { image: url(:/arrows/down.png); }
+QAbstractSpinBox::up-arrow:off, QAbstractSpinBox::down-arrow:off { image: none; }
+#FocusFrame { border: 1px solid @text; border-radius: 3px; background: transparent; }
 QAbstractSpinBox[refused="true"] { border-color: @warning; color: @warning; font-weight: bold; }
 QAbstractSpinBox:disabled { color: @muted; }
 QListWidget:disabled { color: @muted; }
@@ -127,7 +138,8 @@ QToolButton[recording="true"] { background: @dangerSoft; border: 1px solid @dang
 #DropHint { border: 1px dashed @border; border-radius: 8px; color: @muted; }
 #DropHint[dragging="true"] { border-color: @accent; color: @accent; background: @accentSoft; }
 #RecentRow { background: @panel; border: 1px solid @border; border-radius: 6px; text-align: left; padding: 0; }
-#RecentRow:hover, #RecentRow:focus { border-color: @accent; }
+#RecentRow:hover { border-color: @accent; }
+#RecentRow:focus { border-color: @text; }
 )";
 
 QString styleOf(Theme theme) {
@@ -154,7 +166,7 @@ QString styleOf(Theme theme) {
 void outlineFields(Theme theme) {
   QPalette palette = paletteOf(theme);
   if (theme == Theme::kDark) palette.setColor(QPalette::Window, colorsOf(theme).muted);
-  for (const char* field : {"QComboBox", "QCheckBox", "QRadioButton", "QAbstractItemView"})
+  for (const char* field : {"QCheckBox", "QRadioButton", "QAbstractItemView"})
     QApplication::setPalette(palette, field);
 }
 

@@ -1,5 +1,6 @@
 #include "gui/appearance/window_settings.h"
 
+#include <QFileInfo>
 #include <QStandardPaths>
 
 #include <palpate/capture/playback.h>
@@ -51,6 +52,14 @@ QString nameOf(RangeMode mode) {
 QString settingsPath() {
   return QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation) +
          "/palpate/palpate.ini";
+}
+
+QString cacheFolder(const QSettings& settings) {
+  // Of files that don't exist yet QFileInfo compares nothing.
+  if (QFileInfo(settings.fileName()).absoluteFilePath() ==
+      QFileInfo(settingsPath()).absoluteFilePath())
+    return QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/palpate";
+  return QFileInfo(settings.fileName()).absolutePath() + "/cache";
 }
 
 ViewSettings loadViewSettings(const QSettings& settings) {

@@ -45,6 +45,9 @@ struct ViewSettings {
 
 // $XDG_CONFIG_HOME/palpate/palpate.ini
 QString settingsPath();
+// Folder of what can be computed again. With settings other than the user's own (of a test or a
+// screenshot) it is next to those settings, so that the user's files are not touched.
+QString cacheFolder(const QSettings& settings);
 // Values out of range are replaced by the defaults: a settings file never stops the program.
 ViewSettings loadViewSettings(const QSettings& settings);
 void saveViewSettings(const ViewSettings& view, QSettings& settings);

@@ -163,6 +163,14 @@ QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS) {
   return shade;
 }
 
+QCPItemRect* shadeGap(QCustomPlot& plot, double beginS, double endS) {
+  QCPItemRect* shade = shadeSpan(plot, beginS, endS);
+  QColor edge = colorsOf().gap;
+  edge.setAlpha(3 * edge.alpha());
+  shade->setPen(edge);
+  return shade;
+}
+
 QCPItemText* wordAt(
     QCustomPlot& plot, double atS, const QString& text, Qt::Alignment side, const QColor& color) {
   // Share of the height.

@@ -52,6 +52,8 @@ QCPItemText* unitInCorner(QCustomPlot& plot, const QString& unit, Qt::Alignment 
 void styleExtraAxis(QCPAxis& axis, const QWidget& plot);
 // Adds a shade over a span of time [s], behind the curves.
 QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS);
+// The same for a gap, with edges: gaps that follow one another are told apart.
+QCPItemRect* shadeGap(QCustomPlot& plot, double beginS, double endS);
 // Adds a text at the top of the chart, at the time `atS` [s].
 QCPItemText* wordAt(
     QCustomPlot& plot, double atS, const QString& text, Qt::Alignment side, const QColor& color);

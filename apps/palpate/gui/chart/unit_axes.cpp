@@ -106,9 +106,11 @@ void UnitAxes::setAutomatic(const QString& unit, const AxisRange& range) {
 void UnitAxes::scale(const Axis& axis, const AxisRange& range) {
   constexpr double kDecades = 1e3;
   constexpr int kTicks = 4;
+  if (axis.unit == laneUnit_) return;
   const bool log = logarithmic_.contains(axis.unit);
   const auto type = log ? QCPAxis::stLogarithmic : QCPAxis::stLinear;
-  if (axis.axis->scaleType() != type) {
+  const bool wasOfLanes = !axis.axis->ticker().dynamicCast<QCPAxisTickerText>().isNull();
+  if (axis.axis->scaleType() != type || wasOfLanes) {
     axis.axis->setScaleType(type);
     axis.axis->setTicker(log ? QSharedPointer<QCPAxisTicker>(new QCPAxisTickerLog)
                              : QSharedPointer<QCPAxisTicker>(new QCPAxisTicker));
@@ -164,6 +166,7 @@ std::optional<QString> UnitAxes::unitAt(const QPointF& at) const {
   if (at.y() < plot.top() || at.y() > plot.bottom()) return std::nullopt;
   if (at.x() >= plot.left() && at.x() <= plot.right()) return std::nullopt;
   for (const Axis& axis : axes_) {
+    if (axis.unit == laneUnit_) continue;
     // The first axis also has the margin left of it.
     if (axis.axis == plot_.yAxis && at.x() < plot.left()) return axis.unit;
     if (axis.axis->selectTest(at, false) >= 0.0) return axis.unit;

@@ -50,6 +50,9 @@ class UnitAxes : public QObject {
   // temperatures don't.
   bool fromZero(const QString& unit) const;
 
+  // The curves of this unit are in lanes: its axis is left to chart/lanes.h, and the mouse doesn't
+  // change it. Nothing: none are.
+  void leaveToLanes(const std::optional<QString>& unit) { laneUnit_ = unit; }
   // Sets the range of an axis unless it is set by hand.
   void setAutomatic(const QString& unit, const AxisRange& range);
   const RangesByHand& byHand() const noexcept { return byHand_; }
@@ -97,6 +100,7 @@ class UnitAxes : public QObject {
   std::vector<Axis> axes_;
   RangesByHand byHand_;
   std::set<QString> logarithmic_;
+  std::optional<QString> laneUnit_;
   // The axis that the mouse drags, and its range and the place when that began.
   QString dragged_;
   AxisRange draggedFrom_;

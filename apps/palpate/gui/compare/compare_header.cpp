@@ -16,7 +16,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kCompareHeaderControlHeight = 26;  // [px]
 constexpr int kCompareHeaderCompactBelow = 760;  // [px] of width; narrower: buttons without text
 constexpr double kFurthestS = 1e9;               // [s], 30 years: limit of the offset
 constexpr double kOffsetStepS = 0.05;            // [s], of the arrow keys
@@ -42,7 +41,6 @@ QString titleOf(Alignment alignment) {
 
 QComboBox* CompareHeader::recordingBox(const char* name, const QString& tip, QLabel*& swatch) {
   auto* box = named(new QComboBox(this), name, tip, tip);
-  box->setMinimumHeight(kCompareHeaderControlHeight);
   box->setMinimumContentsLength(10);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
@@ -65,13 +63,11 @@ CompareHeader::CompareHeader(QAction* leave,
   swap_->setAccessibleName("Swap A and B");
   alignment_ =
       named(new QComboBox(this), "compareAlignment", "How B is aligned with A", "Alignment");
-  alignment_->setMinimumHeight(kCompareHeaderControlHeight);
   alignment_->setFocusPolicy(Qt::TabFocus);
   for (const Alignment each : kAllAlignments) alignment_->addItem(titleOf(each));
   grasps_ = new QWidget(this);
   const auto graspBox = [this](const char* name, const QString& tip) {
     auto* box = named(new QComboBox(grasps_), name, tip, tip);
-    box->setMinimumHeight(kCompareHeaderControlHeight);
     box->setFocusPolicy(Qt::TabFocus);
     connect(box, &QComboBox::activated, this, [this] {
       emit graspsChosen(static_cast<std::size_t>(std::max(0, graspA_->currentIndex())),

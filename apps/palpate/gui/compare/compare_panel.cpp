@@ -30,8 +30,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kComparePanelControlHeight = 26;  // [px]
-constexpr int kViewShare = 5;                   // shares of the height: heat maps and chart
+constexpr int kViewShare = 5;  // shares of the height: heat maps and chart
 constexpr int kChartShare = 2;
 constexpr int kLeastHeight = 150;  // [px] of heat maps and chart together; they scroll then
 constexpr int kBesideBoxes = 16;   // [px] between the boxes above the chart and the figures
@@ -102,7 +101,6 @@ QWidget* ComparePanel::makeCurveHeader() {
   header->setAttribute(Qt::WA_StyledBackground);
   const auto box = [header](const char* name, const QString& tip) {
     auto* made = named(new QComboBox(header), name, tip, tip);
-    made->setMinimumHeight(kComparePanelControlHeight);
     made->setFocusPolicy(Qt::TabFocus);
     return made;
   };

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <optional>
 
+#include <palpate/control/grasp_approach.h>
 #include <palpate/core/time.h>
+#include <palpate/device/sdh2.h>
 
 #include "gui/appearance/captions.h"
 
@@ -14,9 +16,18 @@ QString handText(std::string_view from) {
   return QString::fromUtf8(from.data(), static_cast<qsizetype>(from.size()));
 }
 
+// How far the hand has closed, as a close ratio: ", at 0.42"; empty: not known. A grasp of an
+// unknown object may take minutes.
+QString progressOf(const GraspStatus& status) {
+  if (status.phase != GraspPhase::kClosing || isJointMotion(*status.request)) return {};
+  const auto ratio = closeRatioOf(sdh2Preshape(status.request->preshape), status.anglesDeg);
+  return ratio ? ", at " + figure(*ratio, 2) : QString();
+}
+
 QString phaseText(const GraspStatus& status) {
-  const QString phase = handText(nameOf(status.phase));
+  QString phase = handText(nameOf(status.phase));
   if (!status.request) return phase;
+  phase += progressOf(status);
   QString what = handText(describe(*status.request));
   // "opening: centrical, 10 deg/s" already names the phase.
   if (isOpening(*status.request) && status.phase == GraspPhase::kClosing)

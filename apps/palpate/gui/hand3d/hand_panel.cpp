@@ -17,8 +17,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kHandPanelControlHeight = 26;  // [px] of boxes beside buttons
-
 template <class All, class Value>
 int handPanelIndexOf(const All& all, Value value) {
   return static_cast<int>(std::find(all.begin(), all.end(), value) - all.begin());
@@ -58,7 +56,6 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
     auto* made = named(new QComboBox(header), name);
     made->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
     made->setToolTip(tip);
-    made->setMinimumHeight(kHandPanelControlHeight);
     made->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     return made;
   };

@@ -1,30 +1,17 @@
 #include "gui/library/library_feature.h"
 
-#include <QFileInfo>
-#include <QStandardPaths>
-
+#include "gui/appearance/window_settings.h"
 #include "gui/library/library_panel.h"
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
-namespace {
-
-// Folder of the cache. With settings other than the user's own (of a test or a screenshot) the
-// cache is next to those settings, so that the user's files are not touched.
-QString cacheFolderFor(const QSettings& settings) {
-  if (QFileInfo(settings.fileName()) == QFileInfo(settingsPath()))
-    return QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/palpate";
-  return QFileInfo(settings.fileName()).absolutePath() + "/cache";
-}
-
-}  // namespace
 
 LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       panel_(new LibraryPanel(windowState.settings,
                               windowState.ask,
-                              cacheFolderFor(windowState.settings),
+                              cacheFolder(windowState.settings),
                               catalogRecordings,
                               window)) {
   dock_ = new Dock("Library", new ContentScroll(panel_, kLeastDockContent), nullptr, window);

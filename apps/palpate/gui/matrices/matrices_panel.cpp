@@ -19,7 +19,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kMatricesPanelControlHeight = 26;  // [px] of boxes beside buttons
 constexpr int kMatricesPanelCompactBelow = 700;  // [px] of width: buttons lose their text
 // Parts of full scale that the range of a live hand has at least, so that a first light touch isn't
 // shown in the brightest colour, and grows by: 500 and 250 of 4095 counts.
@@ -61,10 +60,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
   range_ = named(new QComboBox(header), "rangeBox");
   range_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
-  for (QComboBox* box : {map_, range_}) {
-    box->setMinimumHeight(kMatricesPanelControlHeight);
-    box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  }
+  for (QComboBox* box : {map_, range_}) box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   range_->setToolTip("Upper end of the colour range");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour");

@@ -7,10 +7,12 @@
 #include <QLocale>
 #include <QMenu>
 #include <QMimeData>
+#include <QTimer>
 #include <algorithm>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
+#include "gui/appearance/window_settings.h"
 #include "gui/open/session_storage.h"
 #include "gui/open/start_page.h"
 #include "gui/widgets/opening_strip.h"
@@ -56,10 +58,12 @@ bool hasDemo(const WindowState& windowState) {
 OpenFeature::OpenFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
-      startPage_(new StartPage(windowState.recent, hasDemo(windowState), window)),
+      thumbnails_(cacheFolder(windowState.settings) + "/thumbnails"),
+      startPage_(new StartPage(windowState.recent, thumbnails_, hasDemo(windowState), window)),
       strip_(new OpeningStrip(window)) {
   actions_.openDemo->setVisible(hasDemo(windowState));
   actions_.openDemo->setEnabled(hasDemo(windowState));
+  windowState.showPlanLeft = [this](const QString& left) { startPage_->setPlan(left); };
   connectOpener();
   connectActions();
   window->installEventFilter(this);
@@ -123,6 +127,7 @@ void OpenFeature::connectActions() {
     fillRecentMenu();
   });
   connect(&windowState.recent, &RecentFiles::changed, this, [this, &windowState] {
+    thumbnails_.keepOnly(windowState.recent.paths());
     if (windowState.menus.recent->isVisible()) fillRecentMenu();
   });
   connect(windowState.menus.recordings, &QComboBox::activated, this, [&windowState](int index) {
@@ -152,6 +157,10 @@ void OpenFeature::connectStartPage() {
   connect(startPage_, &StartPage::againRequested, this, [&windowState] {
     windowState.connectTo(loadConnection(windowState.settings));
   });
+  connect(startPage_,
+          &StartPage::planRequested,
+          windowState.actions.at("recordingPlan"),
+          &QAction::trigger);
   connect(startPage_, &StartPage::fileChosen, this, [&windowState](const QString& path) {
     windowState.open({path.toStdString()});
   });
@@ -189,6 +198,7 @@ void OpenFeature::take(const OpenedRecordingPtr& recording, const OpenArrival& a
   DisplayedSource& displayed = windowState.displayed;
   if (recording->path != windowState.demoRecording())
     windowState.recent.add(pathText(recording->path));
+  keepThumbnail(recording);
   listRecordings();
   const bool compared = arrival.then == Then::kCompare;
   const bool first = arrival.place == 0 && arrival.then != Then::kList;
@@ -209,6 +219,15 @@ void OpenFeature::take(const OpenedRecordingPtr& recording, const OpenArrival& a
   if (arrival.then != Then::kPlayInLoop || !first) return;
   if (!windowState.playback.loop()) windowState.playback.setLoop(true);
   windowState.playback.play();
+}
+
+void OpenFeature::keepThumbnail(const OpenedRecordingPtr& recording) {
+  constexpr int kAfterMs = 300;  // it is seen first
+  if (recording->path == state().demoRecording()) return;
+  QTimer::singleShot(kAfterMs, this, [this, weak = std::weak_ptr(recording)] {
+    if (const OpenedRecordingPtr alive = weak.lock())
+      thumbnails_.keep(pathText(alive->path), thumbnailOf(alive, window()->devicePixelRatioF()));
+  });
 }
 
 void OpenFeature::listRecordings() {

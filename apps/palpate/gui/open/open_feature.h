@@ -6,6 +6,7 @@
 #include <QActionGroup>
 #include <QList>
 
+#include "gui/open/thumbnails.h"
 #include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
@@ -44,6 +45,8 @@ class OpenFeature : public Feature {
   void connectActions();
   void connectStartPage();
   void showLastConnection();
+  // Keeps the picture of a recording for the start page, once it has been shown.
+  void keepThumbnail(const OpenedRecordingPtr& recording);
   void openDemoRecording();
   void take(const OpenedRecordingPtr& recording, const OpenArrival& arrival);
   void listRecordings();
@@ -52,6 +55,7 @@ class OpenFeature : public Feature {
   void closeCurrent();
 
   OpenActions actions_;
+  Thumbnails thumbnails_;
   StartPage* startPage_;
   OpeningStrip* strip_;
 };

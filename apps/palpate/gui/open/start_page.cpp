@@ -29,12 +29,16 @@ QFont scaled(QFont font, double factor, bool bold) {
   return font;
 }
 
-// A button with two lines of text: file name and folder.
+// A button with a picture, where there is one, and two lines of text: file name and folder.
 class RecentRow : public QPushButton {
  public:
-  RecentRow(const QString& path, bool exists, QWidget* parent) : QPushButton(parent) {
+  RecentRow(const QString& path, const QImage& picture, bool exists, QWidget* parent)
+      : QPushButton(parent) {
     setObjectName("RecentRow");
-    fitToText(*this, [this] { setFixedHeight(qRound(textScale() * kStartPageRowHeight)); });
+    const int leastPx = picture.isNull() ? 0 : kThumbnailSize.height() + 2;
+    fitToText(*this, [this, leastPx] {
+      setFixedHeight(std::max(leastPx, qRound(textScale() * kStartPageRowHeight)));
+    });
     setEnabled(exists);
     setAccessibleName(path);
     setToolTip(path);
@@ -42,9 +46,19 @@ class RecentRow : public QPushButton {
     auto* name = makeLabel(this, {}, {}, file.fileName());
     name->setFont(scaled(font(), 1.0, true));
     auto* folder = makeLabel(this, {}, "muted");
-    folder->setText(fontMetrics().elidedText(file.path(), Qt::ElideMiddle, kColumnWidth - 150));
+    constexpr int kBesideFolder = 150;  // [px]
+    folder->setText(fontMetrics().elidedText(
+        file.path(),
+        Qt::ElideMiddle,
+        kColumnWidth - kBesideFolder - (picture.isNull() ? 0 : kThumbnailSize.width())));
     auto* row = inRow({{inColumn({name, folder}, Space::kNone), 1}}, kBarEdges);
     setLayout(row);
+    if (!picture.isNull()) {
+      auto* shown = new QLabel(this);
+      shown->setPixmap(QPixmap::fromImage(picture));
+      row->insertWidget(0, shown);
+      row->setContentsMargins(1, 1, row->contentsMargins().right(), 1);
+    }
     if (!exists) row->addWidget(new QLabel("missing", this));
     for (QLabel* label : findChildren<QLabel*>())
       label->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -53,8 +67,11 @@ class RecentRow : public QPushButton {
 
 }  // namespace
 
-StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
-    : QWidget(parent), recent_(recent) {
+StartPage::StartPage(RecentFiles& recent,
+                     const Thumbnails& thumbnails,
+                     bool withDemo,
+                     QWidget* parent)
+    : QWidget(parent), recent_(recent), thumbnails_(thumbnails) {
   setObjectName("StartPage");
   setAttribute(Qt::WA_StyledBackground);
   auto* title = new QLabel("Palpate", this);
@@ -94,10 +111,16 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
             &QPushButton::clicked,
             this,
             &StartPage::demoRequested);
-  again_ = makeButton(this, "startAgain", "");
-  again_->setMinimumHeight(38);
-  again_->hide();
+  const auto offer = [&](const char* name) {
+    auto* made = makeButton(this, name, "");
+    made->setMinimumHeight(38);
+    made->hide();
+    return made;
+  };
+  again_ = offer("startAgain");
   connect(again_, &QPushButton::clicked, this, &StartPage::againRequested);
+  plan_ = offer("startPlan");
+  connect(plan_, &QPushButton::clicked, this, &StartPage::planRequested);
   dropHint_ = makeLines(this, "DropHint", {}, kDropText);
   dropHint_->setAlignment(Qt::AlignCenter);
   dropHint_->setMinimumHeight(64);
@@ -114,6 +137,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   column_->addWidget(subtitle);
   column_->addSpacing(16);
   column_->addWidget(again_);
+  column_->addWidget(plan_);
   column_->addLayout(buttons);
   column_->addSpacing(4);
   column_->addWidget(dropHint_);
@@ -152,6 +176,12 @@ void StartPage::setLastConnection(const QString& text) {
   again_->setVisible(!text.isEmpty());
 }
 
+void StartPage::setPlan(const QString& text) {
+  plan_->setText("Plan of recordings: " + QString(text).replace('&', "&&"));
+  plan_->setToolTip(text);
+  plan_->setVisible(!text.isEmpty());
+}
+
 void StartPage::setDragging(bool on) {
   dropHint_->setProperty("dragging", on);
   dropHint_->setText(on ? "drop it to open it" : kDropText);
@@ -173,7 +203,7 @@ void StartPage::listRecent() {
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(5);
   for (const QString& path : recent_.paths()) {
-    auto* button = new RecentRow(path, !recent_.isMissing(path), list_);
+    auto* button = new RecentRow(path, thumbnails_.of(path), !recent_.isMissing(path), list_);
     connect(button, &QPushButton::clicked, this, [this, path] { emit fileChosen(path); });
     auto* remove =
         named(new QToolButton(list_), "removeRecent", "Remove from this list (the file is kept)");

@@ -4,7 +4,7 @@
 
 #include <QWidget>
 
-#include "gui/appearance/theme.h"
+#include "gui/open/thumbnails.h"
 #include "gui/source/recent_files.h"
 
 class QLabel;
@@ -16,12 +16,17 @@ namespace palpate::gui {
 class StartPage : public QWidget {
   Q_OBJECT
  public:
-  // `recent` must outlive this. `withDemo`: whether the demo recording exists.
-  StartPage(RecentFiles& recent, bool withDemo, QWidget* parent = nullptr);
+  // `recent` and `thumbnails` must outlive this. `withDemo`: whether the demo recording exists.
+  StartPage(RecentFiles& recent,
+            const Thumbnails& thumbnails,
+            bool withDemo,
+            QWidget* parent = nullptr);
   // Puts a picture above the buttons.
   void setScene(QWidget* scene);
   // What the last connection was, and when; empty: there was none.
   void setLastConnection(const QString& text);
+  // What the plan of recordings has left; empty: nothing.
+  void setPlan(const QString& text);
   // A file is being dragged over the window.
   void setDragging(bool on);
 
@@ -34,6 +39,8 @@ class StartPage : public QWidget {
   // The user wants the last connection.
   void againRequested();
   void emulatedRequested();
+  // The user wants the plan of recordings.
+  void planRequested();
   void fileChosen(const QString& path);
 
  protected:
@@ -45,10 +52,12 @@ class StartPage : public QWidget {
   void fitScene();
 
   RecentFiles& recent_;
+  const Thumbnails& thumbnails_;
   QWidget* scene_ = nullptr;
   QWidget* list_ = nullptr;
   QVBoxLayout* column_;
   QPushButton* again_;
+  QPushButton* plan_;
   QLabel* recentHeading_;
   QLabel* dropHint_;
 };

@@ -7,6 +7,7 @@
 #include <QPushButton>
 
 #include "gui/recognise/answer_view.h"
+#include "gui/recognise/guessing_game.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
 
@@ -38,9 +39,13 @@ PresentationWindow::PresentationWindow(RecognitionController& controller,
   view_ = named(new AnswerView(controller.photos(), 0.0, this), "showAnswer");
   before_ = makeLines(this, "showBefore", "muted");
   before_->setContentsMargins(kShowRowMargin, 0, kShowRowMargin, kShowRowMargin);
+  game_ = new GuessingGame(this);
+  connect(game_, &GuessingGame::changed, this, &PresentationWindow::showAnswer);
+  connect(game_, &GuessingGame::guessed, this, &PresentationWindow::asked);
   showAnswer();
   connect(&controller, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
-  row_ = inRow({{inColumn({{view_, 1}, before_}, Space::kNone), kAnswerShare}}, Space::kNone);
+  row_ =
+      inRow({{inColumn({{view_, 1}, game_, before_}, Space::kNone), kAnswerShare}}, Space::kNone);
   setLayout(inColumn({{row_, 1}, makeHandRow()}, Space::kNone));
   refusedTimer_.setSingleShot(true);
   refusedTimer_.setInterval(kShowRefusedMs);
@@ -83,6 +88,7 @@ QWidget* PresentationWindow::makeHandRow() {
     larger.setPointSizeF(kShowLargerText * fontInfo().pointSizeF());
     handState_->setFont(larger);
     before_->setFont(larger);
+    game_->setFont(larger);
     larger.setBold(true);
     stop->setFont(larger);
     const QFontMetrics metrics(larger);
@@ -129,27 +135,49 @@ void PresentationWindow::setSilence(const QString& why) {
 
 void PresentationWindow::showAnswer() {
   // An answer that was of now stays below the reason why it isn't any more.
-  if (!view_->stale().isEmpty()) return;
+  if (!view_->stale().isEmpty() && !game_->hidesAnswer()) return;
   RecognitionAnswer answer = controller_.answer();
   const bool ofNow = answer.of.isEmpty() || answer.of == kHeldNow;
   if (answer.of == kLastGrasp || (live_ && !ofNow)) answer = {};
   answer.of.clear();
   answer.offset.clear();
+  game_->setAnswer(answer.name());
+  if (game_->hidesAnswer()) {
+    answer = {};
+    answer.text = "The hand answers when you have guessed.";
+  }
   if (answer.sure && answer.name() != sure_.value(0)) {
     sure_.prepend(answer.name());
     sure_ = sure_.mid(0, kMaxBefore + 1);
   }
+  if (game_->hidesAnswer()) sure_.clear();  // they would tell it
   // The name that is shown isn't one of those before.
   const QStringList before = sure_.mid(answer.name() == sure_.value(0) ? 1 : 0, kMaxBefore);
-  before_->setText(before.isEmpty() ? QString() : "before: " + before.join(", "));
+  before_->setText(before.isEmpty() ? "Q: what is it? · G: guessing game · Esc: leave"
+                                    : "before: " + before.join(", "));
   // The audience needs no hint about buttons.
-  if (answer.kind == RecognitionAnswer::Kind::kNothing)
-    answer.text = "Put an object into the hand.";
+  if (answer.kind == RecognitionAnswer::Kind::kNothing && !game_->hidesAnswer())
+    answer.text =
+        controller_.emulated() ? "Let the hand grasp its object." : "Put an object into the hand.";
   view_->setAnswer(answer);
 }
 
+void PresentationWindow::play() {
+  if (game_->isPlayed()) return game_->end();
+  QStringList objects;
+  if (const TrainedModel* model = controller_.model())
+    for (const std::string& name : model->classes) objects.append(QString::fromStdString(name));
+  game_->begin(objects);
+  if (!game_->isPlayed()) before_->setText("The guessing game needs two taught objects.");
+}
+
 void PresentationWindow::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Q && event->modifiers() == Qt::NoModifier) return emit asked();
+  if (event->modifiers() == Qt::NoModifier) {
+    if (event->key() == Qt::Key_Q) return emit asked();
+    if (event->key() == Qt::Key_G) return play();
+    if (event->key() >= Qt::Key_1 && event->key() < Qt::Key_1 + GuessingGame::kMostObjects)
+      return game_->choose(event->key() - Qt::Key_1);
+  }
   if (event->key() == Qt::Key_Escape ||
       (event->key() == Qt::Key_5 && event->modifiers() == Qt::ControlModifier)) {
     close();

@@ -18,6 +18,7 @@ class QPushButton;
 namespace palpate::gui {
 
 class AnswerView;
+class GuessingGame;
 
 class PresentationWindow : public QWidget {
   Q_OBJECT
@@ -47,6 +48,8 @@ class PresentationWindow : public QWidget {
  private:
   QWidget* makeHandRow();
   void showAnswer();
+  // Begins the guessing game, or ends it.
+  void play();
   // Shows why a key was refused, for some seconds; otherwise what the hand does.
   void showHand();
 
@@ -55,6 +58,7 @@ class PresentationWindow : public QWidget {
   bool live_;
   QBoxLayout* row_;
   AnswerView* view_;
+  GuessingGame* game_;
   QLabel* before_;
   QStringList sure_;  // the last sure answers, the newest first
   QWidget* handRow_;

@@ -239,6 +239,7 @@ void RecordFeature::connectPlan() {
   on(actions_.recordingPlan, [this] { showPlan(); });
   connect(&plan_, &PlanController::changed, this, [this] {
     showState();
+    tellPlan();
     askInPlan();
     // It was decided, discarded or forgotten somewhere else.
     if (!doubted_) return;
@@ -330,6 +331,13 @@ void RecordFeature::addKeysToPlan() {
 
 void RecordFeature::remember() {
   if (planDialog_) planDialog_->hide();
+}
+
+void RecordFeature::tellPlan() {
+  if (!state().showPlanLeft) return;
+  const QString next = plan_.nextTake();
+  state().showPlanLeft(next.isEmpty() ? QString()
+                                      : plan_.progressText() + " takes · next: " + next);
 }
 
 void RecordFeature::settle() { plan_.settle(); }
@@ -446,6 +454,7 @@ void RecordFeature::offerUnfinished() { unfinished_.look(settings_.folder); }
 void RecordFeature::start() {
   if (state().environment.offerUnfinished)
     QTimer::singleShot(0, this, &RecordFeature::offerUnfinished);
+  tellPlan();
 }
 
 void RecordFeature::use(const RecordingSettings& settings) {

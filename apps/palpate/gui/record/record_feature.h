@@ -66,6 +66,7 @@ class RecordFeature : public Feature {
   void connectTake();
   void connectCountdown();
   void connectPlan();
+  void tellPlan();
   void showPlan();
   void addKeysToPlan();
   // Asks about a take that is to be decided, in the line above the views or that of the plan.

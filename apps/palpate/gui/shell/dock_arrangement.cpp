@@ -21,7 +21,7 @@ namespace {
 using Kind = DisplayedSource::Kind;
 
 // Least width of the right side [px]: a table fits without eliding.
-constexpr int kNarrowestRight = 400;
+constexpr int kNarrowestRight = 396;
 constexpr double kRightShare = 0.3;  // of the window's width
 constexpr int kNarrowestRightLive = 330;
 constexpr double kRightShareLive = 0.24;
@@ -95,7 +95,7 @@ DockArrangement::DockArrangement(QMainWindow& window,
   }
   preset_[Kind::kNothing];
   window.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
-  window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  fitCorner();
   window.installEventFilter(this);
   constexpr int kTextChangeMs = 700;
   textChange_.setSingleShot(true);
@@ -188,8 +188,18 @@ void DockArrangement::restore() {
     offer.dock->toggleViewAction()->setEnabled(there || offer.everywhere);
     if (offer.everywhere) offer.dock->setVisible(shown[i]);
   }
+  fitCorner();
   keepWindowSize(before, leftWhileLive() ? leftWhileLive()->dock : nullptr);
   emit presetsChanged();
+}
+
+// The chart is as wide as the window; in a low one the column at its left has the whole height, so
+// that its buttons are seen.
+void DockArrangement::fitCorner() {
+  constexpr int kLowLines = 52;  // of text
+  const bool isLow = window_.height() < kLowLines * window_.fontMetrics().lineSpacing();
+  const Qt::DockWidgetArea area = isLow ? Qt::LeftDockWidgetArea : Qt::BottomDockWidgetArea;
+  if (window_.corner(Qt::BottomLeftCorner) != area) window_.setCorner(Qt::BottomLeftCorner, area);
 }
 
 void DockArrangement::use(const QString& preset) {
@@ -473,9 +483,13 @@ void DockArrangement::giveRoomBack(const Dock& dock) {
   });
 }
 
-void DockArrangement::fitToNewText() { window_.restoreState(text_.before); }
+void DockArrangement::fitToNewText() {
+  window_.restoreState(text_.before);
+  fitCorner();
+}
 
 bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && watched == &window_) fitCorner();
   if (event->type() == QEvent::ChildAdded && watched == &window_) {
     QObject* child = static_cast<QChildEvent*>(event)->child();
     if (child->isWidgetType()) child->installEventFilter(this);

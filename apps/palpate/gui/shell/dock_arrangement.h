@@ -103,6 +103,7 @@ class DockArrangement : public QObject {
   void giveSizeBack();
   // Docks that larger text made wider have their widths again, as far as the new text allows it.
   void fitToNewText();
+  void fitCorner();
   // Enlarges a dock that the user asked for, so that its content can be read.
   void makeRoomFor(const DockSpec& offer, const QByteArray& before);
   std::vector<const Dock*> seenDocks() const;

@@ -63,7 +63,8 @@ void HandChip::setCondition(const ExplainedCondition& condition, const HandTask&
   if (!task.word.isEmpty()) sentence_ = task.sentence + ". Stop (Esc) ends it.\n" + sentence_;
   explain();
   // The next motion begins by itself.
-  if (!task.word.isEmpty() && shown == HandCondition::kReady) shown = HandCondition::kMoving;
+  if (!task.word.isEmpty() && (shown == HandCondition::kReady || shown == HandCondition::kRelaxed))
+    shown = HandCondition::kMoving;
   if (std::exchange(condition_, shown) != shown) style();
 }
 

@@ -25,8 +25,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kWindowMenusControlHeight = 28;  // [px] of boxes beside buttons
-constexpr int kIconAndPadding = 46;            // [px]
+constexpr int kIconAndPadding = 46;  // [px]
 
 void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
   QMenu* choices = menu->addMenu(title);
@@ -200,7 +199,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addSeparator();
   hand->addActions(of(ofHand_, {"live", "hold"}));
   QMenu* chart = part("L&ive chart");
-  chart->addActions({at("freezeLive"), at("liveNewest"), at("liveOldest")});
+  chart->addActions({at("freezeLive"), at("liveLanes"), at("liveNewest"), at("liveOldest")});
   chart->addActions({at("liveEarlier"), at("liveLater"), at("cursorBack"), at("cursorForward")});
   hand->addSeparator();
   hand->addMenu(menus_.scanned);
@@ -284,7 +283,6 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   spacer->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   bar->addWidget(spacer);
   menus_.recordings->setObjectName("recordingsBox");
-  menus_.recordings->setMinimumHeight(kWindowMenusControlHeight);
   menus_.recordings->setToolTip("Open recordings (Ctrl+Tab)");
   menus_.recordings->setPlaceholderText("Open recordings");
   menus_.recordings->setAccessibleName("Open recordings");
@@ -306,7 +304,6 @@ void WindowMenus::addStop(QToolBar& bar, QAction* stop) {
   auto* button = makeButton(&bar, "toolBarStop", "Stop");
   button->setProperty("danger", true);
   button->setFocusPolicy(Qt::NoFocus);  // has a key instead
-  button->setMinimumHeight(kWindowMenusControlHeight);
   QObject::connect(button, &QPushButton::clicked, stop, &QAction::trigger);
   QAction* shown = bar.addWidget(button);
   const auto follow = [shown, button, stop] {
@@ -338,7 +335,6 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
   fitToText(*play_, [this] { setPlayWidth(); });
   add(at("stepForward"));
   menus_.speed->setObjectName("speedBox");
-  menus_.speed->setMinimumHeight(kWindowMenusControlHeight);
   menus_.speed->setToolTip("Speed (Up, Down)");
   menus_.speed->setAccessibleName("Speed");
   menus_.speed->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead

@@ -18,6 +18,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/chart/chart_style.h"
+#include "gui/chart/end_names.h"
 #include "gui/picture/stale_notice.h"
 #include "gui/widgets/text_fit.h"
 
@@ -36,6 +37,7 @@ constexpr std::size_t kFewSamples = 3;
 // Height of the bar of a recording, as a share of that of the chart.
 constexpr double kBarHeight = 0.025;
 constexpr int kLiveWordsMargin = 6;  // [px]
+constexpr int kRightMargin = 20;     // without names at the ends of curves [px]
 // Distance of the mouse from the line of an event whose text is shown [px].
 constexpr double kEventReach = 4.0;
 
@@ -80,12 +82,8 @@ LiveChart::LiveChart(QWidget* parent)
   nameTime();
   fitToText(*this, [this] { setMinimumHeight(kLeastChartLines * fontMetrics().lineSpacing()); });
   xAxis->setTicker(secondsTicker_);
-  const auto rescale = [this] {
-    scaleAxes();
-    replot(QCustomPlot::rpQueuedReplot);
-  };
-  connect(axes_.get(), &UnitAxes::byHandChanged, this, rescale);
-  connect(axes_.get(), &UnitAxes::logarithmicChanged, this, rescale);
+  connect(axes_.get(), &UnitAxes::byHandChanged, this, &LiveChart::refill);
+  connect(axes_.get(), &UnitAxes::logarithmicChanged, this, &LiveChart::rebuildGraphs);
   // Margins are known only after the axes have been laid out.
   connect(this, &QCustomPlot::afterReplot, this, &LiveChart::placeOverlays);
   follow(0.0);
@@ -94,6 +92,7 @@ LiveChart::LiveChart(QWidget* parent)
 
 void LiveChart::setHistory(const SignalHistory* history, const HandDescription* hand) {
   hasHistory_ = history != nullptr;
+  hand_ = hand ? std::optional(*hand) : std::nullopt;
   series_.setHistory(history);
   saturation_.reset();
   if (hand) {
@@ -104,6 +103,7 @@ void LiveChart::setHistory(const SignalHistory* history, const HandDescription* 
   }
   nowS_ = 0.0;
   shadedToS_ = 0.0;
+  if (silence_) removeItem(silence_);
   drag_ = Drag::kNone;
   setHeld(false);
   clearTimeCursors();
@@ -157,14 +157,23 @@ void LiveChart::setHeld(bool held) {
 
 void LiveChart::paintEvent(QPaintEvent* event) {
   QCustomPlot::paintEvent(event);
-  if (!held_) return;
   QPainter painter(this);
-  paintStaleNotice(painter, rect(), {kHeldText, true});
+  paintEndNames(painter, *this, curves_);
+  if (held_) paintStaleNotice(painter, rect(), {kHeldText, true});
+}
+
+void LiveChart::setLanes(bool on) {
+  wantsLanes_ = on;
+  rebuildGraphs();
 }
 
 void LiveChart::rebuildGraphs() {
   clearGraphs();
+  lanes_.set(curves_, wantsLanes_ && hand_ ? &*hand_ : nullptr);
+  if (axes_->logarithmic().contains(lanes_.unit())) lanes_.set({}, nullptr);
+  axes_->leaveToLanes(lanes_.any() ? std::optional(lanes_.unit()) : std::nullopt);
   axes_->rebuild(curves_);
+  makeRoomForNames();
   nameTime();
   for (const PlottedCurve& curve : curves_) {
     QCPGraph* added = addGraph(xAxis, axes_->of(curve.unit));
@@ -186,6 +195,7 @@ void LiveChart::refresh(double silentS) {
   shadeNewGaps();
   const double newestS = series_.newestS();
   const double nowS = taken == 0 ? newestS + silentS : newestS;
+  shadeSilence(nowS);
   if (!following_) return showBehind();
   // A step that is not seen would take as long to draw as a large one. What arrived is drawn by the
   // next step, or when nothing comes any more.
@@ -223,20 +233,21 @@ void LiveChart::refill() {
       .from = range.lower,
       .to = range.upper,
       .columns = static_cast<std::size_t>(std::max(1, axisRect()->width()))};
+  scaleAxes();
   if (!series_.empty()) drawnToS_ = std::min(range.upper, series_.newestS());
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     const auto points = series_.points(curves_[i].choice, options);
     QVector<QCPGraphData> samples;
     samples.reserve(static_cast<qsizetype>(points.size()));
     const UnitConversion& shown = curves_[i].conversion;
-    for (const SeriesPoint& point : points) samples.append({point.x, shown.of(point.y)});
+    for (const SeriesPoint& point : points)
+      samples.append({point.x, lanes_.placed(i, shown.of(point.y))});
     graph(static_cast<int>(i))->data()->set(samples, true);
   }
   for (Recorded& recording : recordings_) {
     if (recording.runs) recording.endS = std::max(recording.endS, series_.newestS());
     recording.bar->bottomRight->setCoords(recording.endS, 1.0);
   }
-  scaleAxes();
   replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -258,7 +269,12 @@ void LiveChart::scaleAxes() {
     const UnitConversion shown = axes_->conversionOf(unit);
     if (extent) extent = ValueExtent{shown.back(extent->low), shown.back(extent->high)};
     const AxisRange range = ranges_[unit].update(extent, options);
-    axes_->setAutomatic(unit, {shown.of(range.from), shown.of(range.to)});
+    const AxisRange automatic = {shown.of(range.from), shown.of(range.to)};
+    axes_->setAutomatic(unit, automatic);
+    if (!lanes_.any() || unit != lanes_.unit()) continue;
+    const auto byHand = axes_->byHand().find(unit);
+    lanes_.setRange(byHand == axes_->byHand().end() ? automatic : byHand->second);
+    lanes_.scale(*axes_->of(unit));
   }
 }
 
@@ -591,13 +607,22 @@ void LiveChart::shadeNewGaps() {
   for (const TimeSpan& gap : series_.gaps()) {
     if (gap.fromS < shadedToS_) continue;
     shadedToS_ = gap.toS;
-    auto* shape = shadeSpan(*this, gap.fromS, gap.toS);
+    auto* shape = shadeGap(*this, gap.fromS, gap.toS);
     const QString name = "gap " + figure(gap.lengthS(), 1) + " s";
     auto* word =
         wordAt(*this, (gap.fromS + gap.toS) / 2, name, Qt::AlignHCenter, colorsOf().warning);
     events_.push_back({gap.fromS, gap.toS, true, shape, word, name, false});
     arrangedFor_ = 0.0;
   }
+}
+
+void LiveChart::shadeSilence(double toS) {
+  const double newestS = series_.newestS();
+  const bool isSilent = toS - newestS >= kOldS;
+  if (!isSilent && silence_) removeItem(silence_);
+  if (!isSilent) return;
+  if (!silence_) silence_ = shadeGap(*this, newestS, toS);
+  silence_->bottomRight->setCoords(toS, 1.0);
 }
 
 // --- mouse
@@ -742,7 +767,14 @@ void LiveChart::contextMenuEvent(QContextMenuEvent* event) {
   if (!series_.empty()) emit menuRequested(event->globalPos());
 }
 
+void LiveChart::makeRoomForNames() {
+  QMargins margins = axisRect()->minimumMargins();
+  margins.setRight(std::max(kRightMargin, roomForEndNames(*this, curves_)));
+  axisRect()->setMinimumMargins(margins);
+}
+
 void LiveChart::resized() {
+  makeRoomForNames();
   nameTime();
   axes_->nameAxes();
   refill();

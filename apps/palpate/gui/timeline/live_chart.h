@@ -21,6 +21,7 @@
 #include <palpate/signals/axis_range.h>
 
 #include "gui/chart/chart.h"
+#include "gui/chart/lanes.h"
 #include "gui/chart/plotted_curve.h"
 #include "gui/chart/span_overlay.h"
 #include "gui/chart/unit_axes.h"
@@ -37,7 +38,7 @@ class LiveChart : public Chart {
   explicit LiveChart(QWidget* parent = nullptr);
 
   // Takes another source, or none (null). `history` must outlive this object, or be replaced before
-  // it is destroyed; `hand` only tells where values end (saturation).
+  // it is destroyed; `hand` tells where values end (saturation), and the fingers.
   void setHistory(const SignalHistory* history, const HandDescription* hand = nullptr);
   // Curves without values stay empty.
   void setCurves(std::vector<PlottedCurve> curves);
@@ -47,6 +48,8 @@ class LiveChart : public Chart {
   // scrolled back, stays where it is.
   void setWindowS(double seconds);
   double windowS() const noexcept { return windowS_; }
+  // Curves of each finger in a lane of their own, except on a logarithmic axis.
+  void setLanes(bool on);
   // While held, the chart doesn't change and shows that it is held; data that arrive meanwhile are
   // drawn afterwards.
   void setHeld(bool held);
@@ -138,6 +141,8 @@ class LiveChart : public Chart {
     QCPItemRect* bar = nullptr;
   };
   void rebuildGraphs();
+  // For the names at the right ends of the curves.
+  void makeRoomForNames();
   void follow(double nowS);
   // Shows the span and draws it.
   void showRange(double fromS, double toS);
@@ -149,6 +154,8 @@ class LiveChart : public Chart {
   void nameTime();
   void arrangeNames();
   void shadeNewGaps();
+  // Shades from the newest frame to here while none arrives.
+  void shadeSilence(double toS);
   void shadeSlip(double beginS, double endS, const QString& text);
   void line(double atS, const QString& name, const QString& text, const QColor& color);
   void forget(double beforeS);
@@ -167,6 +174,9 @@ class LiveChart : public Chart {
   std::optional<double> saturation_;
   std::vector<PlottedCurve> curves_;
   std::unique_ptr<UnitAxes> axes_;
+  bool wantsLanes_ = false;
+  Lanes lanes_;
+  std::optional<HandDescription> hand_;
   // The unit of time where the axis has no title.
   QPointer<QCPItemText> timeUnit_;
   std::map<QString, RollingRange> ranges_;
@@ -177,6 +187,7 @@ class LiveChart : public Chart {
   double drawnToS_ = 0.0;  // the newest time that is drawn
   // Right end of the axis when it was drawn last.
   double nowS_ = 0.0;
+  QPointer<QCPItemRect> silence_;
   // End of the last gap that is shaded.
   double shadedToS_ = 0.0;
   std::deque<Shown> events_;

@@ -47,6 +47,7 @@ struct TimelineActions {
   QAction* axes = nullptr;
   // The live chart: freeze it, scroll it, move its cursors.
   QAction* freeze = nullptr;
+  QAction* lanes = nullptr;
   QAction* newest = nullptr;
   QAction* oldest = nullptr;
   QAction* earlier = nullptr;

@@ -166,7 +166,7 @@ void TimelineChart::rebuildGraphs() {
   if (recording_) gaps_ = recording_->timingNow().gaps;
   for (std::size_t i = 0; i < std::min(gaps_.size(), kMostGapMarks); ++i) {
     const double begin = recording_->timeAt(gaps_[i].frame);
-    shadeSpan(*this, begin, begin + gaps_[i].seconds);
+    shadeGap(*this, begin, begin + gaps_[i].seconds);
     gapLabels_.push_back(wordAt(*this,
                                 begin + gaps_[i].seconds / 2,
                                 "gap " + QString::number(gaps_[i].seconds, 'f', 1) + " s",
@@ -184,9 +184,9 @@ void TimelineChart::shadeUnreadable() {
   const auto& runs = recording_->unreadableNow().runs;
   const std::size_t last = recording_->profile.numFrames() - 1;
   for (std::size_t i = 0; i < std::min(runs.size(), kMostGapMarks); ++i)
-    shadeSpan(*this,
-              recording_->timeAt(runs[i].first > 0 ? runs[i].first - 1 : 0),
-              recording_->timeAt(std::min(runs[i].last + 1, last)));
+    shadeGap(*this,
+             recording_->timeAt(runs[i].first > 0 ? runs[i].first - 1 : 0),
+             recording_->timeAt(std::min(runs[i].last + 1, last)));
 }
 
 // Axes begin at zero unless values are below; those of angles and temperatures begin at their

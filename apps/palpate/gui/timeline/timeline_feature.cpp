@@ -84,6 +84,7 @@ void saveRanges(const RangesByHand& ranges, QSettings& settings, const char* nam
   settings.setValue(name, texts);
 }
 constexpr const char* kDifferencesKey = "timeline/differences";
+constexpr const char* kLanesKey = "timeline/lanes";
 
 }  // namespace
 
@@ -271,7 +272,7 @@ void TimelineFeature::connectLiveChart() {
   connect(liveChart_, &LiveChart::cursorsChanged, this, &TimelineFeature::showSelection);
   connect(liveChart_, &LiveChart::menuRequested, this, [this, &actions](const QPoint& at) {
     QMenu menu(window());
-    menu.addActions({actions.freeze, actions.newest, actions.oldest});
+    menu.addActions({actions.freeze, actions.lanes, actions.newest, actions.oldest});
     menu.addSeparator();
     menu.addActions({actions.selectFrom, actions.selectTo});
     menu.addActions({actions.zoomSelection, actions.dropSelection});
@@ -280,6 +281,13 @@ void TimelineFeature::connectLiveChart() {
     menu.exec(at);
   });
   on(actions.freeze, [this](bool frozen) { liveChart_->setFollowing(!frozen); });
+  const bool lanes = state().settings.value(kLanesKey, false).toBool();
+  actions.lanes->setChecked(lanes);
+  liveChart_->setLanes(lanes);
+  on(actions.lanes, [this](bool on) {
+    liveChart_->setLanes(on);
+    state().settings.setValue(kLanesKey, on);
+  });
   on(actions.newest, [this] { liveChart_->setFollowing(true); });
   on(actions.oldest, [this] { liveChart_->showOldest(); });
   on(actions.earlier, [this] { liveChart_->scroll(-kScrollStep); });
@@ -304,9 +312,13 @@ void TimelineFeature::connectLiveChart() {
       saveRanges(axes->byHand(), state().settings, name);
     });
   }
-  state().actionEnabler.add(
-      {actions.freeze, actions.newest, actions.oldest, actions.earlier, actions.later},
-      [this] { return state().displayed.isLive(); });
+  state().actionEnabler.add({actions.freeze,
+                             actions.lanes,
+                             actions.newest,
+                             actions.oldest,
+                             actions.earlier,
+                             actions.later},
+                            [this] { return state().displayed.isLive(); });
   state().actionEnabler.add({actions.cursorBack, actions.cursorForward}, [this] {
     return state().displayed.isLive() && !liveChart_->cursorWords().isEmpty();
   });

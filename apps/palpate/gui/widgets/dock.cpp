@@ -9,6 +9,7 @@
 
 #include "gui/appearance/icons.h"
 #include "gui/widgets/content_scroll.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 
@@ -27,9 +28,11 @@ Dock::Dock(const QString& name, QWidget* content, QWidget* header, QWidget* pare
   close->setToolTip("Close (open it again with the menu View)");
   close->setAccessibleName("Close " + name);
   close->setFocusPolicy(Qt::NoFocus);
+  // As high as a button with text: the headers of docks and of the views end at one height.
+  fitToText(*close, [close] { close->setMinimumHeight(close->fontMetrics().height() + 10); });
   connect(close, &QToolButton::clicked, this, &QDockWidget::close);
   auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(12, 3, 6, 3);
+  layout->setContentsMargins(12, 4, 10, 4);
   layout->setSpacing(10);
   layout->addWidget(new QLabel("<b>" + name + "</b>", row));
   if (header)

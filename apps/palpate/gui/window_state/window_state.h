@@ -99,6 +99,9 @@ struct WindowState {
   std::function<QStringList()> chosenRecordings;
   // Shows a folder in the Library (empty: the last one); may be empty: no Library.
   std::function<void(const QString& folder)> showLibrary;
+  // Shows what the plan of recordings has left: "3 of 12 takes · next: ball, left, 2 of 3"; empty:
+  // it is done, or there is none.
+  std::function<void(const QString& left)> showPlanLeft;
   // Whether a batch runs; may be empty: none.
   std::function<bool()> batchRunning;
 
