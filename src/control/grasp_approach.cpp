@@ -85,6 +85,11 @@ std::optional<double> closeRatioOf(const Preshape& preshape, const std::vector<d
   return std::clamp(along / squares, 0.0, 1.0);
 }
 
+std::optional<double> closeRatioOf(const GraspRequest& request,
+                                   const std::vector<double>& anglesDeg) {
+  return closeRatioOf(sdh2Preshape(request.preshape), anglesDeg);
+}
+
 GraspForecast forecastOf(const GraspRequest& request,
                          const std::optional<Touch>& touch,
                          const std::vector<double>& presentDeg) {

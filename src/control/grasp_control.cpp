@@ -229,8 +229,9 @@ void GraspControl::checkReturn(const DeviceStatus& status) {
   };
   const bool tactile = returned(tactileReturns_, status.tactile.reconnects);
   const bool motion = returned(motionReturns_, status.motion ? status.motion->reconnects : 0);
-  if (tactile || motion) machine_.forgetHeld();
-  if ((!tactile && !motion) || machine_.active() || !lastMotion_) return;
+  if (!tactile && !motion) return;
+  machine_.forgetHeld();
+  if (machine_.active() || !lastMotion_) return;
   GraspStatus before;
   before.lastMotion = lastMotion_;
   const bool held = !motorsOff_ && conditionOf(before).condition == HandCondition::kHolding;

@@ -39,7 +39,7 @@ constexpr std::int64_t kEasingUs = 30'000'000;
 }  // namespace
 
 std::optional<double> GraspStateMachine::presentRatio() const {
-  return closeRatioOf(sdh2Preshape(report_.request.preshape), anglesDeg_);
+  return closeRatioOf(report_.request, anglesDeg_);
 }
 
 bool GraspStateMachine::isTouching() const noexcept {

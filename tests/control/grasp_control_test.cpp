@@ -288,6 +288,52 @@ TEST(GraspControl, TheNextMotionAndRelaxAcknowledge) {
   }
 }
 
+// The reading of what is held is above the limit; a slip-aware grasp watches it, unless the hand
+// may have let go.
+TEST(GraspControl, WatchesWhatIsHeldUnlessTheHandMayHaveLetGo) {
+  using Between = std::function<void(GraspBench&)>;
+  const auto reconnect = [](GraspBench& bench, PortStatus& port) {
+    port.state = PortState::kLost;
+    bench.wait(1);
+    port.state = PortState::kStreaming;
+    ++port.reconnects;
+    bench.feel(20, 260.0F);
+  };
+  const std::pair<const char*, Between> table[] = {
+      {"", [](GraspBench&) {}},
+      {"the motors were off",
+       [](GraspBench& bench) {
+         bench.control->relax();
+         bench.feel(2, 260.0F);
+       }},
+      {"the motion port was gone",
+       [&](GraspBench& bench) { reconnect(bench, *bench.hand->state.motion); }},
+      {"the tactile port was gone",
+       [&](GraspBench& bench) { reconnect(bench, bench.hand->state.tactile); }},
+  };
+  for (const auto& [why, between] : table) {
+    GraspBench bench;
+    bench.hand->sink->onAngles({bench.clock.hostUs(), std::vector<double>(7, 20.0)});
+    GraspRequest request = reactive(200);
+    bench.control->grasp(request);
+    bench.feel(1, 250.0F);
+    bench.feel(30, 260.0F);
+    ASSERT_EQ(bench.control->status().last->outcome, GraspOutcome::kLimitReached);
+    between(bench);
+    request.mode = GraspMode::kSlip;
+    const std::string_view refused = why;
+    if (!refused.empty()) {
+      EXPECT_THROW(bench.control->grasp(request), DeviceError) << why;
+      continue;
+    }
+    const auto moves = bench.hand->count<MoveJoints>();
+    ASSERT_NO_THROW(bench.control->grasp(request));
+    bench.feel(30, 260.0F);
+    EXPECT_EQ(bench.control->condition().condition, HandCondition::kWatched);
+    EXPECT_EQ(bench.hand->count<MoveJoints>(), moves) << "nothing moves";
+  }
+}
+
 TEST(GraspControl, ChangesTellTheConditionOfTheHand) {
   GraspBench bench;
   ASSERT_NO_FATAL_FAILURE(hold(bench));

@@ -73,6 +73,9 @@ std::string describe(const GraspForecast& forecast, const GraspRequest& request)
 // The close ratio to which the angles of all joints fit best, 0..1; empty for another number of
 // joints, or a preshape that moves none.
 std::optional<double> closeRatioOf(const Preshape& preshape, const std::vector<double>& anglesDeg);
+// The same for the preshape of a grasp.
+std::optional<double> closeRatioOf(const GraspRequest& request,
+                                   const std::vector<double>& anglesDeg);
 
 // What grasps have shown, per preshape and name of the object.
 class TouchMemory {

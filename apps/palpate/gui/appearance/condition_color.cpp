@@ -7,8 +7,9 @@ QColor conditionColor(HandCondition condition, Theme theme) {
   const bool dark = theme == Theme::kDark;
   switch (condition) {
     case HandCondition::kReady:
-    case HandCondition::kRelaxed:
       break;
+    case HandCondition::kRelaxed:
+      return dark ? "#e08fb0" : "#9c3d6b";
     case HandCondition::kMoving:
       return dark ? "#5eb8f0" : "#0b6aa8";
     case HandCondition::kEasing:

@@ -5,7 +5,6 @@
 
 #include <palpate/control/grasp_approach.h>
 #include <palpate/core/time.h>
-#include <palpate/device/sdh2.h>
 
 #include "gui/appearance/captions.h"
 
@@ -20,7 +19,7 @@ QString handText(std::string_view from) {
 // unknown object may take minutes.
 QString progressOf(const GraspStatus& status) {
   if (status.phase != GraspPhase::kClosing || isJointMotion(*status.request)) return {};
-  const auto ratio = closeRatioOf(sdh2Preshape(status.request->preshape), status.anglesDeg);
+  const auto ratio = closeRatioOf(*status.request, status.anglesDeg);
   return ratio ? ", at " + figure(*ratio, 2) : QString();
 }
 

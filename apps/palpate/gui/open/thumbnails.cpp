@@ -3,6 +3,7 @@
 #include <QCryptographicHash>
 #include <QDir>
 #include <QPainter>
+#include <algorithm>
 
 #include <palpate/core/error.h>
 
@@ -12,21 +13,33 @@ namespace palpate::gui {
 
 QImage thumbnailOf(const OpenedRecordingPtr& recording, qreal pixelRatio) {
   if (recording->profile.numFrames() == 0) return {};
+  // Painted large, of which the matrices alone are shown.
+  constexpr double kPaintedPx = 400.0;
+  constexpr double kAroundPx = 3.0;
+  const HandDescription& hand = recording->profile.hand();
   MatricesPictureOptions options;
-  options.size = kThumbnailSize;
+  options.size = {kPaintedPx, kPaintedPx};
   options.theme = Theme::kDark;
   options.colorBar = false;
-  options.pixelRatio = pixelRatio;
   options.font.setPixelSize(1);
+  const MatricesGeometry geometry(QRectF(QPointF(), options.size), hand, options);
+  QRectF matrices;
+  for (std::size_t m = 0; m < geometry.numMatrices(); ++m) matrices |= geometry.matrixRect(m);
   QImage picture(kThumbnailSize * pixelRatio, QImage::Format_RGB32);
   picture.setDevicePixelRatio(pixelRatio);
   picture.fill(colorsOf(options.theme).window);
+  const QRectF room =
+      QRectF(QPointF(), kThumbnailSize).adjusted(kAroundPx, kAroundPx, -kAroundPx, -kAroundPx);
+  const double scale = std::min(room.width() / matrices.width(), room.height() / matrices.height());
   try {
-    const std::size_t frame = recording->isLong() ? recording->profile.numFrames() / 2
-                                                  : recording->table.frameOfLargestSum();
     const FramePictures::Paint paint = matricesFramePainter(recording, options);
     QPainter painter(&picture);
-    paint(painter, frame);
+    painter.translate(room.center());
+    painter.scale(scale, scale);
+    painter.translate(-matrices.center());
+    paint(painter,
+          recording->isLong() ? recording->profile.numFrames() / 2
+                              : recording->table.frameOfLargestSum());
   } catch (const Error&) {
     return {};
   }

@@ -12,7 +12,7 @@
 namespace palpate::gui {
 
 // Size on a screen with one device pixel per pixel [px].
-inline constexpr QSize kThumbnailSize{80, 56};
+inline constexpr QSize kThumbnailSize{48, 56};
 
 // Null when the recording has no frame, or the frame can't be read.
 QImage thumbnailOf(const OpenedRecordingPtr& recording, qreal pixelRatio);

@@ -45,7 +45,7 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   axes = book.make("verticalAxes", "View", "Vertical axes &by hand…");
   axes->setToolTip("Ranges of the vertical axes: automatic, or by hand; linear or logarithmic");
   freeze = book.make("freezeLive", "Hand", "&Freeze the live chart", {}, true);
-  lanes = book.make("liveLanes", "Hand", "A &lane for each finger", {}, true);
+  lanes = book.make("liveLanes", "Hand", "A lane f&or each finger", {}, true);
   lanes->setToolTip(
       "Draws the curves of each finger of the live chart above those of the next one");
   newest = book.make("liveNewest", "Hand", "&Newest frame in the live chart", {key("End")});
