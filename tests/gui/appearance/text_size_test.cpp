@@ -1,5 +1,6 @@
 #include "gui/appearance/text_size.h"
 
+#include <QAbstractItemView>
 #include <QApplication>
 #include <QComboBox>
 #include <QLabel>
@@ -7,6 +8,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <initializer_list>
 
 #include <gtest/gtest.h>
@@ -95,6 +97,34 @@ TEST(TextSizeTest, ReachesChildrenUnderTheStyleSheetOfTheTheme) {
   applyTextPt(0);
   QCoreApplication::processEvents();
   EXPECT_EQ(button->sizeHint(), small);
+}
+
+// The entry of a box that is chosen, and the others of its list.
+TEST(Theme, EachEntryOfABoxCanBeRead) {
+  for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    applyTheme(*qApp, theme);
+    QComboBox box;
+    box.addItems({"first entry", "second entry"});
+    box.setCurrentIndex(1);
+    box.show();
+    box.showPopup();
+    QCoreApplication::processEvents();
+    QAbstractItemView& list = *box.view();
+    const QImage image = list.viewport()->grab().toImage();
+    for (int row = 0; row < box.count(); ++row) {
+      const QRect room = list.visualRect(box.model()->index(row, 0)).adjusted(3, 3, -3, -3);
+      int darkest = 255, lightest = 0;
+      for (int y = room.top(); y <= room.bottom(); ++y)
+        for (int x = room.left(); x <= room.right(); ++x) {
+          const int lightness = image.pixelColor(x, y).lightness();
+          darkest = std::min(darkest, lightness);
+          lightest = std::max(lightest, lightness);
+        }
+      EXPECT_GT(lightest - darkest, 100) << "entry " << row;
+    }
+    box.hidePopup();
+  }
+  applyTheme(*qApp, Theme::kDark);
 }
 
 }  // namespace

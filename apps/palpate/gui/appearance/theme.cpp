@@ -81,6 +81,7 @@ QAbstractSpinBox:focus, QComboBox:focus, QLineEdit:focus, QComboBox:hover { bord
 QAbstractSpinBox QLineEdit, QComboBox QLineEdit, QAbstractItemView QLineEdit { border: 0; padding: 0; }
 QToolBar QComboBox { padding: 4px 5px; }
 QComboBox::drop-down { border: 0; width: 18px; }
+QComboBox QAbstractItemView { background: @raised; color: @text; border: 1px solid @border; selection-background-color: @accentSoft; selection-color: @text; }
 QComboBox::down-arrow { image: url(:/arrows/down.png); }
 QComboBox:disabled, QLineEdit:disabled { color: @muted; background: @panel; }
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { width: 16px; border: 0; background: transparent; }
