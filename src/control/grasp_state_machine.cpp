@@ -40,7 +40,7 @@ constexpr int kBlockedCounterClockwise = 5;
 // Joints that changed by less were not moved by anybody.
 constexpr double kUnmovedDeg = 0.2;
 // The creep of the rubber raises a reading to no more than this multiple of what was left.
-constexpr float kMostCreep = 1.5F;
+constexpr float kMaxCreep = 1.5F;
 
 constexpr std::string_view kNotEased = ": the hand holds, perhaps above its limit";
 std::string millisecondsText(std::int64_t us) {
@@ -201,7 +201,7 @@ bool GraspStateMachine::holdsAlready(const GraspRequest& request) const {
                     of.keepsLimit);
   };
   const float left = report_.peakAfterStop ? commonCounts(*report_.peakAfterStop, request) : 0.0F;
-  const float most = kMostCreep * std::max(left, static_cast<float>(report_.limitCounts));
+  const float most = kMaxCreep * std::max(left, static_cast<float>(report_.limitCounts));
   if (terms(request) != terms(last) || commonCounts(loadedTaxel(request), request) > most)
     return false;
   return !heldDeg_.empty() &&

@@ -72,18 +72,23 @@ void SlipStage::setOn(std::size_t matrix, bool on) {
 }
 
 void SlipStage::reset() {
+  resetDetection();
+  opens_ = false;
+}
+
+void SlipStage::resetDetection() {
   for (SlipDetector& detector : detectors_) detector.reset();
   slipping_.assign(slipping_.size(), std::nullopt);
 }
 
 // After changed settings the counts have another meaning, so the reference is no longer valid.
 void SlipStage::onEvent(const RecordingEvent& event) {
-  if (event.kind == "settings") reset();
+  if (event.kind == "settings") resetDetection();
   const auto opens = opensAfter(event);
   if (!opens || *opens == opens_) return;
   opens_ = *opens;
   // What moved while it opened is no slip of what it holds then.
-  if (!opens_) reset();
+  if (!opens_) resetDetection();
 }
 
 void SlipStage::applyReferenceRequests(const SensorLayout& layout) {

@@ -109,6 +109,9 @@ TEST(SlipStage, DoesNotTellOfSlipWhileTheHandLetsGo) {
   EXPECT_TRUE(processed(profile, {}, {}, {begins, settings}).events.empty());
   EXPECT_TRUE(processed(profile, {}, {}, {begins, ended}).events.empty());
   EXPECT_EQ(processed(profile, {}, {}, {begins, ends}).events.size(), 2U);
+  // The end of the opening was not received before another source begins.
+  const auto before = [&](SlipStage& slip) { slip.onEvent(begins); };
+  EXPECT_EQ(processed(profile, before).events.size(), 2U);
   EXPECT_EQ(processed(profile, {}, {}, {begins, closes}).events.size(), 2U);
   EXPECT_EQ(processed(profile, {}, {}, {at(80, "[")}).events.size(), 2U) << "no event of ours";
 }

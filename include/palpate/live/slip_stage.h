@@ -52,6 +52,7 @@ class SlipStage final : public Stage {
     std::optional<std::size_t> matrix;
     bool clear = false;
   };
+  void resetDetection();
   void applyReferenceRequests(const SensorLayout& layout);
   void emitSlipEvents(std::size_t matrix,
                       const SlipDetection& detection,
