@@ -13,7 +13,7 @@ GuessingGame::GuessingGame(QWidget* parent) : QWidget(parent) {
   words_ = makeLines(this, "gameWords");
   score_ = makeLabel(this, "gameScore", "muted");
   auto* objects = new QHBoxLayout;
-  for (int i = 0; i < kMostObjects; ++i) {
+  for (int i = 0; i < kMaxObjects; ++i) {
     QPushButton*& button = buttons_[static_cast<std::size_t>(i)];
     button = makeButton(this, "gameObject", "");
     button->setFocusPolicy(Qt::NoFocus);  // has a key instead
@@ -25,11 +25,11 @@ GuessingGame::GuessingGame(QWidget* parent) : QWidget(parent) {
 }
 
 void GuessingGame::begin(const QStringList& objects) {
-  objects_ = objects.mid(0, kMostObjects);
+  objects_ = objects.mid(0, kMaxObjects);
   rounds_ = visitor_ = hand_ = 0;
   guess_.clear();
   if (!isPlayed()) return end();
-  for (qsizetype i = 0; i < kMostObjects; ++i) {
+  for (qsizetype i = 0; i < kMaxObjects; ++i) {
     QPushButton* button = buttons_[static_cast<std::size_t>(i)];
     button->setVisible(i < objects_.size());
     if (i >= objects_.size()) continue;

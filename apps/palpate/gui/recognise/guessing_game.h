@@ -15,7 +15,7 @@ namespace palpate::gui {
 class GuessingGame : public QWidget {
   Q_OBJECT
  public:
-  static constexpr int kMostObjects = 3;
+  static constexpr int kMaxObjects = 3;
 
   explicit GuessingGame(QWidget* parent = nullptr);
 
@@ -49,7 +49,7 @@ class GuessingGame : public QWidget {
   int rounds_ = 0, visitor_ = 0, hand_ = 0;
   QLabel* words_;
   QLabel* score_;
-  std::array<QPushButton*, kMostObjects> buttons_;
+  std::array<QPushButton*, kMaxObjects> buttons_;
 };
 
 }  // namespace palpate::gui

@@ -175,7 +175,7 @@ void PresentationWindow::keyPressEvent(QKeyEvent* event) {
   if (event->modifiers() == Qt::NoModifier) {
     if (event->key() == Qt::Key_Q) return emit asked();
     if (event->key() == Qt::Key_G) return play();
-    if (event->key() >= Qt::Key_1 && event->key() < Qt::Key_1 + GuessingGame::kMostObjects)
+    if (event->key() >= Qt::Key_1 && event->key() < Qt::Key_1 + GuessingGame::kMaxObjects)
       return game_->choose(event->key() - Qt::Key_1);
   }
   if (event->key() == Qt::Key_Escape ||
