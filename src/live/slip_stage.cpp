@@ -73,7 +73,7 @@ void SlipStage::setOn(std::size_t matrix, bool on) {
 
 void SlipStage::reset() {
   resetDetection();
-  opens_ = false;
+  ordered_ = opens_ = false;
 }
 
 void SlipStage::resetDetection() {
@@ -84,11 +84,13 @@ void SlipStage::resetDetection() {
 // After changed settings the counts have another meaning, so the reference is no longer valid.
 void SlipStage::onEvent(const RecordingEvent& event) {
   if (event.kind == "settings") resetDetection();
-  const auto opens = opensAfter(event);
-  if (!opens || *opens == opens_) return;
-  opens_ = *opens;
+  ordered_ = opensAfter(event).value_or(ordered_);
+  setOpens(ordered_);
+}
+
+void SlipStage::setOpens(bool opens) {
   // What moved while it opened is no slip of what it holds then.
-  if (!opens_) resetDetection();
+  if (std::exchange(opens_, opens) && !opens) resetDetection();
 }
 
 void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
@@ -109,6 +111,7 @@ void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
 void SlipStage::onFrame(LiveResults& results, std::vector<RecordingEvent>& out) {
   const TactileFrame& frame = *results.frame;
   applyReferenceRequests(*frame.layout);
+  setOpens(ordered_ || (opensByItself && opensByItself()));
   jointsDeg_.clear();
   if (results.angles) jointsDeg_.assign(results.angles->deg.begin(), results.angles->deg.end());
   results.slip.resize(detectors_.size());

@@ -116,6 +116,24 @@ TEST(SlipStage, DoesNotTellOfSlipWhileTheHandLetsGo) {
   EXPECT_EQ(processed(profile, {}, {}, {at(80, "[")}).events.size(), 2U) << "no event of ours";
 }
 
+// As a scene of the emulated hand does, without an event.
+TEST(SlipStage, DoesNotTellOfSlipWhileTheHandOpensByItself) {
+  const auto slips = [](int first, int last) {
+    int frame = 0;
+    return processed(slipOnce(),
+                     [&](SlipStage& stage) {
+                       stage.opensByItself = [&frame, first, last] {
+                         const int now = frame++;
+                         return now >= first && now <= last;
+                       };
+                     })
+        .events.size();
+  };
+  EXPECT_EQ(slips(80, 120), 0U);
+  EXPECT_EQ(slips(80, 104), 0U) << "what slipped before the end is not told after it";
+  EXPECT_EQ(slips(60, 70), 2U);
+}
+
 TEST(SlipStage, MatricesCanBeSwitchedOff) {
   const Found found = processed(slipOnce(), [](SlipStage& stage) { stage.setOn(3, false); });
   EXPECT_TRUE(found.events.empty());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -19,9 +20,9 @@ SlipDetectorOptions liveSlipOptions();
 
 // Fills LiveResults::slip. When the alarm of a matrix begins, an event "slip" marks the moment;
 // when it ends, a second event covers the time span (path and rotation as JSON). While the hand
-// opens by an order (event "grasp") there is no alarm: it lets go. Changed sensor settings and
-// missing frames reset the detection. All functions except those of Stage may be called from any
-// thread; they take effect with the next frame.
+// opens by an order (event "grasp") or by itself there is no alarm: it lets go. Changed sensor
+// settings and missing frames reset the detection. All functions except those of Stage may be
+// called from any thread; they take effect with the next frame.
 class SlipStage final : public Stage {
  public:
   // `hand`: the source's, for its full scale and saturation. Throws std::invalid_argument.
@@ -38,6 +39,10 @@ class SlipStage final : public Stage {
   // on, results are available at once.
   void setOn(std::size_t matrix, bool on);
 
+  // Whether the hand opens now though nothing has ordered it; asked for each frame, in the thread
+  // of the chain. To be set before the first frame. Empty: it opens on orders only.
+  std::function<bool()> opensByItself;
+
   void reset() override;
   void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;
   void onEvent(const RecordingEvent& event) override;
@@ -53,6 +58,7 @@ class SlipStage final : public Stage {
     bool clear = false;
   };
   void resetDetection();
+  void setOpens(bool opens);
   void applyReferenceRequests(const SensorLayout& layout);
   void emitSlipEvents(std::size_t matrix,
                       const SlipDetection& detection,
@@ -63,6 +69,7 @@ class SlipStage final : public Stage {
   std::vector<std::optional<Slipping>> slipping_;
   std::vector<ReferenceRequest> dueRequests_;  // requests for this frame
   std::vector<double> jointsDeg_;
+  bool ordered_ = false;  // to open
   bool opens_ = false;
 
   mutable std::mutex mutex_;  // protects the following members

@@ -31,6 +31,26 @@ class GraspOptionsTest : public HandDockBench {
   GraspRequest running() { return bench_->control->status().request.value_or(GraspRequest{}); }
 };
 
+TEST_F(GraspOptionsTest, FitsIntoTheColumnOfTheHand) {
+  connectTo(stillHand());
+  open();
+  const auto* options = dock_->findChild<GraspOptions*>();
+  const auto fits = [&] {
+    constexpr int kColumnEm = 24;  // the widest column, with margins and a scroll bar
+    constexpr int kAroundEm = 4;
+    return options->minimumSizeHint().width() <=
+           (kColumnEm - kAroundEm) * QFontInfo(options->font()).pixelSize();
+  };
+  EXPECT_TRUE(fits()) << options->minimumSizeHint().width();
+  dock_->calibrationOf = [](const std::string&) {
+    return std::optional(testing::linearCalibration({0.5, 150.0, false}));
+  };
+  dock_->renewCalibration();
+  ASSERT_TRUE(await([&] { return find<QComboBox>("limitUnit")->isEnabled(); }));
+  find<QComboBox>("limitUnit")->setCurrentIndex(1);
+  EXPECT_TRUE(fits()) << "in newtons: " << options->minimumSizeHint().width();
+}
+
 TEST_F(GraspOptionsTest, ASlipAwareGraspGetsWhatIsChosen) {
   connectTo(stillHand());
   open();

@@ -760,6 +760,28 @@ TEST_F(HandDockTest, AHandThatActsByItselfIsNotReady) {
   own.clear();
   dock_->refresh();
   EXPECT_EQ(state(), "Ready.");
+  // After a stop it doesn't say "ready": something may be held.
+  std::vector<std::string> told;
+  QObject::connect(
+      dock_.get(), &HandDock::conditionChanged, dock_.get(), [&](const ExplainedCondition& now) {
+        told.emplace_back(nameOf(now.condition));
+      });
+  own = "holding an object";
+  dock_->refresh();
+  click("stopHand");
+  own.clear();
+  dock_->refresh();
+  EXPECT_TRUE(state().startsWith("Stopped. The hand no longer acts by itself"))
+      << qPrintable(state());
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.back(), "stopped");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  dock_->refresh();
+  EXPECT_FALSE(state().startsWith("Stopped. The hand no longer")) << "a motion has begun";
+  click("stopHand");
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
   dock_->ownMotion = [] { return QString(); };
 }
 

@@ -167,6 +167,10 @@ const std::vector<Row> kRows{
      "The emulated hand acts by itself, as its scene says: closing. Stop (Esc) or a motion of "
      "yours "
      "ends that."},
+    {"SceneStopped",
+     [](auto& facts, auto&) { facts.sceneStopped = true; },
+     "Stopped. The hand no longer acts by itself, and holds what it held; what its scene does to "
+     "objects, such as a pull, goes on."},
     {"MotorsOff",
      [](auto& facts, auto& status) {
        status.motorsOff = true;

@@ -90,13 +90,15 @@ TEST_F(HandChipTest, FitsIntoTheToolBarOfSmallWindows) {
   connectHand();
   for (const bool recording : {false, true}) {
     if (recording) open({"good.dsa"});
-    for (const QSize size : {QSize(1280, 800), QSize(1366, 768), QSize(1440, 900)}) {
+    for (const QSize size :
+         {QSize(1024, 768), QSize(1280, 800), QSize(1366, 768), QSize(1440, 900)}) {
       window().resize(size);
       ASSERT_TRUE(await([&] { return window().size() == size; }));
       for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
       const auto* bar = find<QToolBar>("Toolbar");
       EXPECT_TRUE(chip().isVisible()) << size.width() << ", " << recording;
       EXPECT_TRUE(bar->rect().contains(chip().geometry()));
+      EXPECT_FALSE(chip().text().isEmpty()) << "no word: " << size.width() << ", " << recording;
       const auto* more = bar->findChild<QWidget*>("qt_toolbar_ext_button");
       EXPECT_FALSE(more->isVisible())
           << size.width() << ", " << recording << ": needs " << bar->sizeHint().width();

@@ -3,7 +3,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QGridLayout>
+#include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
@@ -58,14 +58,13 @@ GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
   body_ = new QWidget(this);
   object_ = new ObjectFields(body_);
   connect(object_, &ObjectFields::changed, this, &GraspOptions::showChoice);
-  auto* grid = new QGridLayout;
-  body_->setLayout(inColumn({object_, grid}, Space::kNarrow));
-  grid->setHorizontalSpacing(8);
-  grid->setVerticalSpacing(4);
-  grid->setColumnStretch(1, 1);
-  grid->setColumnStretch(3, 1);
-  makeLimits(*grid);
-  makeHolding(*grid);
+  // One pair in a row: the column of the hand is narrow.
+  auto* form = new QFormLayout;
+  body_->setLayout(inColumn({object_, form}, Space::kNarrow));
+  form->setHorizontalSpacing(8);
+  form->setVerticalSpacing(4);
+  makeLimits(*form);
+  makeHolding(*form);
   setLayout(inColumn({inRow({header_, {summary_, 1}}), body_}, Space::kNarrow));
   connect(header_, &QToolButton::toggled, this, &GraspOptions::open);
   header_->setChecked(settings.value(kOptionsOpen, false).toBool());
@@ -83,15 +82,14 @@ QDoubleSpinBox* GraspOptions::field(
   return made;
 }
 
-void GraspOptions::makeLimits(QGridLayout& grid) {
+void GraspOptions::makeLimits(QFormLayout& form) {
   unit_ = named(new QComboBox(body_), "limitUnit", {}, "Unit of the limit");
   unit_->addItems({"counts", "newtons"});
-  grid.addWidget(new QLabel("Limit in", body_), 0, 0);
-  grid.addWidget(unit_, 0, 1);
+  form.addRow("Limit in", unit_);
   whyCounts_ = makeLines(body_, "whyCounts", "muted", kWhyCounts);
   whyCounts_->setToolTip(kNoCalibrationTip);
-  grid.addWidget(whyCounts_, 0, 2, 1, 2);
-  eachFinger_ = named(new QCheckBox("Fingers 0, 1, 2", body_), "eachFinger");
+  form.addRow(whyCounts_);
+  eachFinger_ = named(new QCheckBox("A limit for each finger: 0, 1, 2", body_), "eachFinger");
   eachFinger_->setToolTip(
       "A limit of its own for each finger; in counts the largest taxel of the finger, in newtons "
       "its whole force");
@@ -115,8 +113,8 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
       fingers->addWidget(each, 1);
     }
   }
-  grid.addWidget(eachFinger_, 1, 0);
-  grid.addLayout(fingers, 1, 1, 1, 3);
+  form.addRow(eachFinger_);
+  form.addRow(fingers);
   connect(unit_, &QComboBox::currentIndexChanged, this, [this] {
     settings_.setValue(kInNewtons, inNewtons());
     showChoice();
@@ -127,7 +125,7 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
   });
 }
 
-void GraspOptions::makeHolding(QGridLayout& grid) {
+void GraspOptions::makeHolding(QFormLayout& form) {
   const HoldingOptions usual;
   most_ = field("mostLimit", "Highest limit", kMinGraspLimitCounts, kMaxGraspLimitCounts, 0);
   most_->setToolTip("Slip-aware: slips raise the limit up to this");
@@ -150,18 +148,13 @@ void GraspOptions::makeHolding(QGridLayout& grid) {
   newtonsPerCount_ = field("newtonsPerCount", "Newtons per count", 0.0, 1.0, 6);
   newtonsPerCount_->setToolTip("Of a calibration, for the friction; needs the object mass");
   newtonsPerCount_->setSpecialValueText("not known");
-  const auto row = [&](int at, int column, const QString& title, QWidget* field) {
-    grid.addWidget(new QLabel(title, body_), at, column);
-    grid.addWidget(field, at, column + 1);
-  };
-  auto* caption = makeLabel(body_, {}, "muted", "Slip-aware grasp");
-  grid.addWidget(caption, 2, 0, 1, 4);
-  row(3, 0, "Most, counts", most_);
-  row(3, 2, "Calm, s", calm_);
-  row(4, 0, "Hold, s", hold_);
-  grid.addWidget(loosen_, 4, 2, 1, 2);
-  row(5, 0, "Object, kg", mass_);
-  row(5, 2, "N/count", newtonsPerCount_);
+  form.addRow(makeLabel(body_, {}, "muted", "Slip-aware grasp"));
+  form.addRow("Highest limit, counts", most_);
+  form.addRow("Calm, s", calm_);
+  form.addRow("Hold, s", hold_);
+  form.addRow(loosen_);
+  form.addRow("Object, kg", mass_);
+  form.addRow("N/count", newtonsPerCount_);
   connect(loosen_, &QCheckBox::toggled, this, &GraspOptions::remember);
 }
 

@@ -11,7 +11,7 @@
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
-class QGridLayout;
+class QFormLayout;
 class QLabel;
 class QToolButton;
 
@@ -45,8 +45,8 @@ class GraspOptions : public QWidget {
   void limitsChanged();
 
  private:
-  void makeLimits(QGridLayout& grid);
-  void makeHolding(QGridLayout& grid);
+  void makeLimits(QFormLayout& form);
+  void makeHolding(QFormLayout& form);
   void open(bool on);
   void showChoice();
   void remember();

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <palpate/core/error.h>
 #include <palpate/model/hand_file.h>
@@ -203,7 +204,8 @@ void GraspPanel::showForecast() {
   forecastDeg_ = shown_.anglesDeg;
   QString text;
   QColor color = colorsOf().text;
-  if (control_) {
+  // Of the next grasp: while one runs, its state is told above.
+  if (control_ && shown_.phase == GraspPhase::kIdle) {
     const GraspRequest request = this->request(GraspMode::kReactive);
     const GraspForecast forecast = control_->forecast(request);
     // A plain grasp watches no limit.
@@ -312,8 +314,9 @@ void GraspPanel::offer(const Motion& motion, bool can, const QString& tip) {
 }
 
 void GraspPanel::showStatus(const GraspStatus& status) {
-  shown_ = status;
-  if (!std::equal(status.anglesDeg.begin(),
+  const bool wasIdle = std::exchange(shown_, status).phase == GraspPhase::kIdle;
+  if (wasIdle != (status.phase == GraspPhase::kIdle) ||
+      !std::equal(status.anglesDeg.begin(),
                   status.anglesDeg.end(),
                   forecastDeg_.begin(),
                   forecastDeg_.end(),

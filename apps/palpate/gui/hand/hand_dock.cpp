@@ -310,6 +310,9 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   layout_.reset();
   goneUs_ = 0;
   toldCondition_.reset();
+  own_.clear();
+  stopsAsked_ = control ? control->status().stopsAsked : 0;
+  sceneStopped_ = false;
   queue_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   const QString whyNot = isReadOnly() ? kReadOnlyTip : "No hand is connected";
   touches_->setControl(control);
@@ -370,6 +373,7 @@ void HandDock::refresh() {
   sensitivity_->refresh();
   const DeviceInfo facts = session_ ? session_->device().facts() : DeviceInfo{};
   showUnmeasurable(facts.matrices);
+  followScene(status);
   followRefusal(status, facts.matrices);
   tactile_->refresh(status, facts);
   showSamples();
@@ -390,7 +394,9 @@ void HandDock::showCondition(const GraspStatus& status, const std::vector<GraspC
   emit unacknowledged(!status.unprotected.empty());
   if (!control_ || (!toldCondition_ && !status.cannotMove.empty()))
     return emit conditionShown(std::nullopt, {});
-  const ExplainedCondition now = conditionOf(status);
+  ExplainedCondition now = conditionOf(status);
+  if (sceneStopped_ && now.condition == HandCondition::kReady)
+    now = {HandCondition::kStopped, sceneStoppedText().chopped(1).toStdString()};
   const auto tell = [this](const ExplainedCondition& condition) {
     if (toldCondition_ == condition.condition) return;
     toldCondition_ = condition.condition;
@@ -400,8 +406,8 @@ void HandDock::showCondition(const GraspStatus& status, const std::vector<GraspC
   for (const GraspChange& change : changes) tell(change.condition);
   tell(now);
   HandTask task = otherTask();
-  if (const QString own = ownMotion(); !own.isEmpty())
-    task = {"by itself", "The emulated hand acts by itself, as its scene says: " + own};
+  if (!own_.isEmpty())
+    task = {"by itself", "The emulated hand acts by itself, as its scene says: " + own_};
   if (sequence_->running()) task = {"sequence runs", "A sequence runs: " + sequence_->stateText()};
   emit conditionShown(now, task);
 }
@@ -436,6 +442,14 @@ void HandDock::showUnmeasurable(const std::vector<MatrixSettings>& settings) {
   if (why == unmeasurable_) return;
   unmeasurable_ = why;
   emit unmeasurableChanged(unmeasurable_);
+}
+
+// A stop of a hand that acts by itself ends no motion of ours: the status doesn't tell of it.
+void HandDock::followScene(const GraspStatus& status) {
+  const bool stopped = std::exchange(stopsAsked_, status.stopsAsked) != status.stopsAsked;
+  const bool acted = !std::exchange(own_, ownMotion()).isEmpty();
+  if (stopped && acted) sceneStopped_ = true;
+  if (status.phase != GraspPhase::kIdle || status.motorsOff) sceneStopped_ = false;
 }
 
 // Finds out when the reason of a refused grasp is gone: its limit can be measured now.
@@ -501,7 +515,8 @@ void HandDock::showState(const GraspStatus& status) {
     facts.nowUs = session_->nowUs();
     facts.foundMovingUs = motion ? motion->foundMovingUs : 0;
     facts.refusal = said_;
-    facts.ownMotion = ownMotion();
+    facts.ownMotion = own_;
+    facts.sceneStopped = sceneStopped_;
     facts.limitMeasurable = limitMeasurable_ && status.last && status.last->endUs == refusedUs_;
   } else if (session_) {
     const bool streamed = dynamic_cast<const StreamDevice*>(&session_->device()) != nullptr;

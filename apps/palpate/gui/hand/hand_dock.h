@@ -130,6 +130,7 @@ class HandDock : public QWidget {
   void clearAnswers();
   void showState(const GraspStatus& status);
   void showCondition(const GraspStatus& status, const std::vector<GraspChange>& changes);
+  void followScene(const GraspStatus& status);
   void followRefusal(const GraspStatus& status, const std::vector<MatrixSettings>& settings);
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
   void showSamples();
@@ -161,6 +162,11 @@ class HandDock : public QWidget {
   // The last ones.
   std::optional<Temperatures> shownTemperatures_;
   StopKey* stopKey_;
+  // What the hand did by itself, and GraspStatus::stopsAsked, at the last refresh; whether a stop
+  // ended it.
+  QString own_;
+  std::uint64_t stopsAsked_ = 0;
+  bool sceneStopped_ = false;
   // Of the connected hand, once it could be moved: the condition that was told last.
   std::optional<HandCondition> toldCondition_;
   QTimer timer_;

@@ -113,10 +113,17 @@ HandSentence atRest(const HandFacts& facts) {
   if (facts.foundMovingUs > 0 && (!status.last || status.last->endUs < facts.foundMovingUs))
     return {"The hand was moving when it was connected, watched by nobody: it was stopped. Ready.",
             true};
+  if (facts.sceneStopped) return {"Stopped. " + sceneStoppedText()};
   return status.last ? afterGrasp(*status.last, facts) : HandSentence{"Ready."};
 }
 
 }  // namespace
+
+QString sceneStoppedText() {
+  return "The hand no longer acts by itself, and holds what it held; what its scene does to "
+         "objects, "
+         "such as a pull, goes on.";
+}
 
 QString withFriction(const QString& text, const GraspStatus& status) {
   std::optional<double> friction = status.friction;

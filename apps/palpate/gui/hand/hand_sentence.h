@@ -30,6 +30,8 @@ struct HandFacts {
   QString refusal = {};
   // What an emulated hand does by itself; empty: nothing.
   QString ownMotion = {};
+  // Whether a stop ended what it did by itself, and nothing has moved it since.
+  bool sceneStopped = false;
   // Whether the limit for which the last grasp was refused can be measured by now.
   bool limitMeasurable = false;
 };
@@ -45,6 +47,9 @@ struct HandSentence {
   QString why = {};
 };
 HandSentence handSentence(const HandFacts& facts);
+
+// What HandFacts::sceneStopped means.
+QString sceneStoppedText();
 
 // `text` below the friction that the running or the last grasp has measured: a line that is seen
 // without scrolling.

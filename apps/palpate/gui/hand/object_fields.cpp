@@ -68,11 +68,11 @@ ObjectFields::ObjectFields(QWidget* parent) : QWidget(parent), hand_(movableHand
   grid->setVerticalSpacing(4);
   grid->setColumnStretch(1, 1);
   grid->addWidget(new QLabel("Object", this), 0, 0);
-  grid->addWidget(name_, 0, 1);
-  grid->addWidget(new QLabel("Size, mm", this), 0, 2);
-  grid->addWidget(size_, 0, 3);
-  grid->addWidget(remembered_, 1, 0, 1, 3);
-  grid->addWidget(forget_, 1, 3);
+  grid->addWidget(name_, 0, 1, 1, 2);
+  grid->addWidget(new QLabel("Size, mm", this), 1, 0);
+  grid->addWidget(size_, 1, 1, 1, 2);
+  grid->addWidget(remembered_, 2, 0, 1, 2);
+  grid->addWidget(forget_, 2, 2);
   connect(name_, &QComboBox::currentTextChanged, this, [this] {
     showRemembered();
     emit changed();

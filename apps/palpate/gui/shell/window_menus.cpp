@@ -25,7 +25,9 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kIconAndPadding = 46;  // [px]
+constexpr int kWidestRecordings = 420;  // [px] of the list of open recordings
+constexpr int kRecordingsLetters = 16;  // that it keeps in a narrow bar, its arrow included
+constexpr int kIconAndPadding = 46;     // [px]
 
 void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
   QMenu* choices = menu->addMenu(title);
@@ -288,7 +290,6 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   menus_.recordings->setAccessibleName("Open recordings");
   menus_.recordings->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   menus_.recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  menus_.recordings->setMaximumWidth(420);
   menus_.recordingsShown = bar->addWidget(menus_.recordings);
   bar->addAction(menus_.layout->menuAction());
   auto* layouts = qobject_cast<QToolButton*>(bar->widgetForAction(menus_.layout->menuAction()));
@@ -387,8 +388,8 @@ void WindowMenus::styleRecord() {
 }
 
 void WindowMenus::fitBar() {
-  // The planned text of Record gives way first, then the words of all buttons, then that of the
-  // chip, and at last what is connected.
+  // The planned text of Record gives way first, then the words of all buttons, then the names of
+  // recordings, then the word of the chip, and at last what is connected.
   const bool planned = record_->property(kPlannedProperty).toBool();
   std::vector<int> now{bar_->width(), planned};
   for (QAction* action : bar_->actions())
@@ -405,8 +406,15 @@ void WindowMenus::fitBar() {
                                    : QWIDGETSIZE_MAX);
   linkAction_->setVisible(!link_->text().isEmpty());
   chip_->setNarrow(false);
+  QComboBox& list = *menus_.recordings;
+  list.setMaximumWidth(kWidestRecordings);
   setCompact(false);
   if (taken() > bar_->width()) setCompact(true);
+  if (const int over = taken() - bar_->width(); over > 0 && menus_.recordingsShown->isVisible()) {
+    const int narrowest = kRecordingsLetters * list.fontMetrics().averageCharWidth();
+    const int usual = std::min(list.sizeHint().width(), kWidestRecordings);
+    list.setMaximumWidth(std::max(std::min(narrowest, usual), usual - over));
+  }
   if (taken() > bar_->width()) chip_->setNarrow(chipShown_->isVisible());
   if (taken() > bar_->width()) linkAction_->setVisible(false);
   if (planned)

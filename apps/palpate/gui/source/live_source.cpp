@@ -127,6 +127,10 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   stages.push_back(std::move(pressure));
   auto slip = std::make_unique<SlipStage>(source->session->device().hand());
   source->slip = slip.get();
+  if (source->emulated)
+    slip->opensByItself = [hand = source->emulated.get()] {
+      return hand->counts().ownMotion == "opening";
+    };
   stages.push_back(std::move(slip));
   ChainOptions options;
   source->stream =
