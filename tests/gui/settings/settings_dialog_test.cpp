@@ -1,17 +1,21 @@
 #include "gui/settings/settings_dialog.h"
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
+#include <QFontInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "gui/appearance/text_size.h"
 #include "gui/testing/fake_ask.h"
 #include "testing/testing.h"
 
@@ -59,6 +63,17 @@ TEST_F(SettingsDialogTest, ShowsWhatIsChosen) {
   EXPECT_EQ(dialog_->choices(), begin_);
   EXPECT_TRUE(told_.empty());
   EXPECT_EQ(problem(), "") << "a folder that is gone is no mistake of the user";
+}
+
+TEST_F(SettingsDialogTest, TheTextGrowsFromTheSizeOfTheDesktop) {
+  auto* text = find<QSpinBox>("settingsTextPt");
+  text->setValue(text->minimum());
+  text->stepUp();
+  EXPECT_EQ(text->value(),
+            std::lround(QFontInfo(QApplication::font()).pointSizeF() / textScale()) + 1);
+  text->setValue(7);
+  text->stepDown();
+  EXPECT_EQ(text->value(), text->minimum());
 }
 
 TEST_F(SettingsDialogTest, TellsEveryChangeAtOnceAndCancelTakesThemBack) {

@@ -265,7 +265,10 @@ void OpenFeature::fillRecentMenu() {
   connect(forget, &QAction::triggered, &windowState.recent, &RecentFiles::removeMissing);
   QAction* clear = menu->addAction("Forget all");
   clear->setEnabled(!windowState.recent.paths().isEmpty());
-  connect(clear, &QAction::triggered, &windowState.recent, &RecentFiles::clear);
+  connect(clear, &QAction::triggered, this, [&windowState] {
+    if (windowState.ask.confirmed("Forget all recent recordings? The files stay.", "Forget all"))
+      windowState.recent.clear();
+  });
 }
 
 void OpenFeature::showNeighbour(int step) {

@@ -1,10 +1,12 @@
 #include "gui/settings/settings_dialog.h"
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QFileInfo>
+#include <QFontInfo>
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -13,6 +15,7 @@
 #include <QSpinBox>
 #include <QTimer>
 #include <algorithm>
+#include <cmath>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/text_size.h"
@@ -44,6 +47,18 @@ QString problemOfExports(const QString& folder) {
     return "You have no permission to write to " + folder + "; choose another folder for exports";
   return {};
 }
+
+// Its smallest value stands for the size of the desktop, and steps go on from that size.
+class TextSizeField : public QSpinBox {
+ public:
+  using QSpinBox::QSpinBox;
+  void stepBy(int steps) override {
+    if (value() == minimum() && steps > 0)
+      setValue(static_cast<int>(
+          std::lround(QFontInfo(QApplication::font()).pointSizeF() / textScale())));
+    QSpinBox::stepBy(steps);
+  }
+};
 
 }  // namespace
 
@@ -108,7 +123,7 @@ void SettingsDialog::addLook(QFormLayout& form) {
   theme_ = named(new QComboBox(this), "settingsTheme");
   theme_->addItems({"as the desktop", "dark", "light"});
   form.addRow("&Theme", theme_);
-  textPt_ = named(new QSpinBox(this), "settingsTextPt");
+  textPt_ = named(new TextSizeField(this), "settingsTextPt");
   // The value below the least one stands for the desktop's size.
   textPt_->setRange(kLeastTextPt - 1, kMostTextPt);
   textPt_->setSpecialValueText("as the desktop");

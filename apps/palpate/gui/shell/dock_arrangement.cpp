@@ -451,7 +451,11 @@ void DockArrangement::makeRoomFor(const DockSpec& offer, const QByteArray& befor
   QTimer::singleShot(0, this, [this, offer, dock, below, before, asTabs] {
     if (dock->isFloating() || dock->isHidden()) return;
     if (!isAcross(window_.dockWidgetArea(dock)))
-      widen(*dock, std::max(offer.preferredWidthPx, dock->contentWidth()));
+      widen(*dock,
+            std::max({offer.preferredWidthPx,
+                      dock->contentWidth(),
+                      // A table beside the start page, which needs little.
+                      place_ == Kind::kNothing ? window_.width() / 2 : 0}));
     const int wanted = static_cast<int>(window_.height() * offer.shareOfHeight);
     if (!asTabs && dock->height() < wanted && below)
       window_.resizeDocks(

@@ -1,6 +1,7 @@
 #include <QEventLoop>
 #include <QFile>
 #include <QPixmap>
+#include <QSettings>
 #include <QTemporaryDir>
 #include <QTimer>
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <palpate/core/output_file.h>
 #include <palpate/core/time.h>
 
+#include "gui/appearance/window_settings.h"
 #include "gui/calibrate/calibrate_feature.h"
 #include "gui/calibrate/calibrate_panel.h"
 #include "gui/compare/compare_feature.h"
@@ -118,10 +120,21 @@ QImage pressAll(MainWindow& window, const ScreenshotOptions& options) {
   return forS > 0.0 ? runAndPress(window, options.presses, forS) : QImage();
 }
 
+ThemeChoice themeOf(const ScreenshotOptions& options) {
+  const ThemeChoice choice = themeChoiceFrom(QString::fromStdString(options.theme));
+  if (choice == ThemeChoice::kSystem)
+    throw Error("no theme '" + options.theme + "': dark or light");
+  return choice;
+}
+
+// The theme is there before the first widget: a later one styles all of them again.
 void useSettings(const QString& to, const ScreenshotOptions& options) {
-  if (!options.settings) return;
-  if (!QFile::copy(QString::fromStdString(options.settings->string()), to))
+  if (options.settings && !QFile::copy(QString::fromStdString(options.settings->string()), to))
     throw FileError(*options.settings, "the settings can't be read");
+  QSettings stored(to, QSettings::IniFormat);
+  ViewSettings view = loadViewSettings(stored);
+  view.theme = themeOf(options);
+  saveViewSettings(view, stored);
 }
 
 void settle(MainWindow& window) {
@@ -138,13 +151,6 @@ void settle(MainWindow& window) {
   // Layout requests and queued replots follow one another in several rounds of events.
   constexpr int kRounds = 5;
   for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
-}
-
-ThemeChoice themeOf(const ScreenshotOptions& options) {
-  const ThemeChoice choice = themeChoiceFrom(QString::fromStdString(options.theme));
-  if (choice == ThemeChoice::kSystem)
-    throw Error("no theme '" + options.theme + "': dark or light");
-  return choice;
 }
 
 template <typename Panel>
@@ -182,7 +188,7 @@ void showDocks(MainWindow& window, const ScreenshotOptions& options) {
 }  // namespace
 
 int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
-  const ThemeChoice theme = themeOf(options);
+  themeOf(options);  // refused before anything is made
   std::error_code ignored;
   if (!options.force && std::filesystem::exists(options.out, ignored))
     throw FileError(options.out, "exists already; give another name, or --force to replace it");
@@ -205,7 +211,6 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
                      .recipe = options.recipe});
   if (options.openGl && openGlProblem().isEmpty())
     window.feature<Hand3dFeature>().panel().view().useOpenGl();
-  window.state().appearance.setTheme(theme);
   window.setFixedSize(options.size);
   window.show();
   if (options.file) {
