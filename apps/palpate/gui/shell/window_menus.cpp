@@ -389,7 +389,8 @@ void WindowMenus::styleRecord() {
 
 void WindowMenus::fitBar() {
   // The planned text of Record gives way first, then the words of all buttons, then the names of
-  // recordings, then the word of the chip, and at last what is connected.
+  // recordings, then what is connected (the status bar has it, too), and at last the word of the
+  // chip.
   const bool planned = record_->property(kPlannedProperty).toBool();
   std::vector<int> now{bar_->width(), planned};
   for (QAction* action : bar_->actions())
@@ -415,8 +416,8 @@ void WindowMenus::fitBar() {
     const int usual = std::min(list.sizeHint().width(), kWidestRecordings);
     list.setMaximumWidth(std::max(std::min(narrowest, usual), usual - over));
   }
-  if (taken() > bar_->width()) chip_->setNarrow(chipShown_->isVisible());
   if (taken() > bar_->width()) linkAction_->setVisible(false);
+  if (taken() > bar_->width()) chip_->setNarrow(chipShown_->isVisible());
   if (planned)
     record_->setMaximumWidth(record_->maximumWidth() + std::max(0, bar_->width() - taken()));
 }
