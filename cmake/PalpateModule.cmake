@@ -1,8 +1,9 @@
-# palpate_module(NAME SOURCES ... [USES module...] [PUBLIC lib...] [PRIVATE lib...])
-# One static library per module (docs/architecture.md): palpate_NAME, collected by palpate::palpate.
+# palpate_module(NAME SOURCES ... [APART] [USES module...] [PUBLIC lib...] [PRIVATE lib...])
+# One static library per module (docs/architecture.md): palpate_NAME, collected by palpate::palpate,
+# but for those APART.
 # USES are modules; the include-rule test checks that the #include lines agree.
 function(palpate_module name)
-  cmake_parse_arguments(module "" "" "SOURCES;USES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(module "APART" "" "SOURCES;USES;PUBLIC;PRIVATE" ${ARGN})
   add_library(palpate_${name} STATIC ${module_SOURCES})
   add_library(palpate::${name} ALIAS palpate_${name})
   target_include_directories(palpate_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include
@@ -13,7 +14,9 @@ function(palpate_module name)
   palpate_precompiled(palpate_${name} core)
   palpate_unity(palpate_${name})
   palpate_optimise_speed(palpate_${name})
-  set_property(GLOBAL APPEND PROPERTY PALPATE_MODULES palpate::${name})
+  if(NOT module_APART)
+    set_property(GLOBAL APPEND PROPERTY PALPATE_MODULES palpate::${name})
+  endif()
 endfunction()
 
 # palpate_tests(MODULE [GUI] FILES file... [DISPLAY file...] [SLOW file...] [LIVE file...] [TIMED file...]
@@ -31,8 +34,8 @@ function(palpate_tests module)
   set(files ${tests_FILES} ${tests_DISPLAY} ${tests_SLOW})
   list(TRANSFORM files APPEND .cpp OUTPUT_VARIABLE sources)
   add_executable(${target} ${sources} ${tests_SOURCES})
-  target_link_libraries(${target} PRIVATE palpate::palpate palpate_warnings palpate_testing
-                        ${tests_LIBS})
+  target_link_libraries(${target} PRIVATE palpate::palpate palpate::laboratory palpate_warnings
+                        palpate_testing ${tests_LIBS})
   if(tests_GUI)
     palpate_precompiled(${target} window_tests)
   else()

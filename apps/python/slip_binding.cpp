@@ -6,11 +6,11 @@
 
 #include <pybind11/stl.h>
 
+#include "palpate/laboratory/slip_accuracy.h"
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/slip/contact_moments.h"
 #include "palpate/slip/contact_outline.h"
-#include "palpate/slip/slip_accuracy.h"
 #include "palpate/slip/slip_segments.h"
-#include "palpate/slip/synthetic_slip.h"
 
 #include "python/arrays.h"
 #include "python/bindings.h"

@@ -6,9 +6,9 @@
 #include <benchmark/benchmark.h>
 
 #include "palpate/device/sdh2.h"
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/slip/slip_tracker.h"
-#include "palpate/slip/synthetic_slip.h"
 
 namespace palpate::slip_benchmark {
 namespace {

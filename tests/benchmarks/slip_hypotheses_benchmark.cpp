@@ -8,8 +8,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/slip/slip_detector.h"
-#include "palpate/slip/synthetic_slip.h"
 
 namespace palpate::contest_benchmark {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "palpate/core/number_text.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/dsa_writer.h"
-#include "palpate/slip/synthetic_slip.h"
 
 #include "commands/palpate_program.h"
 

@@ -8,7 +8,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
-#include "palpate/slip/synthetic_slip.h"
+#include "palpate/laboratory/synthetic_slip.h"
 
 #include "calibration/sample_calibrations.h"
 #include "control/machine_bench.h"

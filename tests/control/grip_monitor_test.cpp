@@ -1,7 +1,7 @@
 #include "palpate/control/grip_monitor.h"
 
 #include "palpate/device/sdh2.h"
-#include "palpate/slip/synthetic_slip.h"
+#include "palpate/laboratory/synthetic_slip.h"
 
 #include "testing/testing.h"
 

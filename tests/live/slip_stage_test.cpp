@@ -5,10 +5,10 @@
 
 #include "palpate/core/json.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/live/processing_chain.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
-#include "palpate/slip/synthetic_slip.h"
 
 #include "testing/testing.h"
 

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "palpate/device/sdh2.h"
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/model/hand_description.h"
-#include "palpate/slip/synthetic_slip.h"
 
 namespace palpate::sensor_slip_detector_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "palpate/slip/synthetic_slip.h"
+#include "palpate/laboratory/synthetic_slip.h"
 
 namespace palpate::slip_detector_test {
 namespace {

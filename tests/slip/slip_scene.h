@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "palpate/slip/synthetic_slip.h"
+#include "palpate/laboratory/synthetic_slip.h"
 
 namespace palpate::testing {
 

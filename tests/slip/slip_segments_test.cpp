@@ -8,9 +8,9 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
-#include "palpate/slip/synthetic_slip.h"
 
 #include "testing/damaged_profile.h"
 #include "testing/testing.h"

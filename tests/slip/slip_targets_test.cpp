@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/laboratory/slip_evaluation.h"
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/recording/recording.h"
 #include "palpate/slip/slip_detector.h"
-#include "palpate/slip/slip_evaluation.h"
-#include "palpate/slip/synthetic_slip.h"
 
 #include "testing/testing.h"
 

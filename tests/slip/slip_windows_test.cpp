@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "palpate/slip/synthetic_slip.h"
+#include "palpate/laboratory/synthetic_slip.h"
 
 namespace palpate::slip_windows_test {
 namespace {

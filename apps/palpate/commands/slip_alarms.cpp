@@ -3,8 +3,8 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/laboratory/slip_evaluation.h"
 #include "palpate/recording/recording.h"
-#include "palpate/slip/slip_evaluation.h"
 
 #include "commands/command_line.h"
 #include "commands/recording_list.h"

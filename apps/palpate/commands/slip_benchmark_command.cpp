@@ -1,7 +1,7 @@
 // The command `palpate slip-benchmark` measures how well every method measures slip, against
 // synthetic truth.
 #include "palpate/core/json.h"
-#include "palpate/slip/slip_accuracy.h"
+#include "palpate/laboratory/slip_accuracy.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"

@@ -2,8 +2,8 @@
 // contain the truth, against synthetic steps.
 #include <array>
 
-#include "palpate/calibration/step_coverage.h"
 #include "palpate/core/json.h"
+#include "palpate/laboratory/step_coverage.h"
 #include "palpate/recognition/classification_report.h"
 
 #include "commands/command_line.h"

@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "palpate/device/sdh2.h"
+#include <palpate/laboratory/synthetic_slip.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/profile_builder.h>
-#include <palpate/slip/synthetic_slip.h>
 
 namespace palpate::gui {
 

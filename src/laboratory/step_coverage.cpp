@@ -1,4 +1,4 @@
-#include "palpate/calibration/step_coverage.h"
+#include "palpate/laboratory/step_coverage.h"
 
 #include <cmath>
 #include <cstdint>

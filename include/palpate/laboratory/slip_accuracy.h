@@ -19,8 +19,8 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/laboratory/synthetic_slip.h>
 #include <palpate/slip/slip_motion.h>
-#include <palpate/slip/synthetic_slip.h>
 
 namespace palpate {
 

@@ -13,7 +13,7 @@
 
 #include <limits>
 
-#include <palpate/slip/synthetic_slip.h>
+#include <palpate/laboratory/synthetic_slip.h>
 
 namespace palpate {
 

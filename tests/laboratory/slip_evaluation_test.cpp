@@ -1,4 +1,4 @@
-#include "palpate/slip/slip_evaluation.h"
+#include "palpate/laboratory/slip_evaluation.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "palpate/device/sdh2.h"
+#include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
-#include "palpate/slip/synthetic_slip.h"
 
 #include "testing/testing.h"
 

@@ -1,4 +1,4 @@
-#include "palpate/slip/slip_evaluation.h"
+#include "palpate/laboratory/slip_evaluation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "palpate/slip/cramer_rao_bound.h"
+#include "palpate/laboratory/cramer_rao_bound.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "palpate/slip/slip_accuracy.h"
+#include "palpate/laboratory/slip_accuracy.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/slip/cramer_rao_bound.h"
+#include "palpate/laboratory/cramer_rao_bound.h"
 #include "palpate/slip/slip_detector.h"
 #include "palpate/slip/slip_tracker.h"
 

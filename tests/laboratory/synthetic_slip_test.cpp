@@ -1,10 +1,10 @@
-#include "palpate/slip/synthetic_slip.h"
+#include "palpate/laboratory/synthetic_slip.h"
 
 #include <cmath>
 
 #include "palpate/slip/contact_moments.h"
 
-#include "slip_scene.h"
+#include "slip/slip_scene.h"
 #include "testing/testing.h"
 
 namespace palpate::synthetic_slip_test {

@@ -1,4 +1,4 @@
-#include "palpate/slip/slip_accuracy.h"
+#include "palpate/laboratory/slip_accuracy.h"
 
 #include <cmath>
 #include <memory>
@@ -6,7 +6,7 @@
 #include "palpate/core/error.h"
 #include "palpate/slip/slip_method.h"
 
-#include "slip_scene.h"
+#include "slip/slip_scene.h"
 #include "testing/testing.h"
 
 namespace palpate::slip_accuracy_test {

@@ -1,4 +1,4 @@
-#include "palpate/slip/synthetic_slip.h"
+#include "palpate/laboratory/synthetic_slip.h"
 
 #include <algorithm>
 #include <array>
