@@ -160,9 +160,9 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
             for (std::size_t i = 0; i < grasps.size(); ++i)
               answer.results.push_back(names.pathFor(fields, i + 1, grasps.size()));
             GraspFilesOptions files{.overwrite = overwrite, .replaceable = item.earlier};
+            const ExportSource source(item.source);
             files.extras = [&](const Profile& part, const fs::path& out) {
-              SaveExtras extras =
-                  exportExtras(options.choices, item.source, out, part, options.filters);
+              SaveExtras extras = exportExtras(options.choices, source, out, part, options.filters);
               extras.meta.erase("settings");  // those at the start of the whole recording
               return extras;
             };

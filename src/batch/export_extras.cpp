@@ -7,6 +7,16 @@
 
 namespace palpate {
 
+const std::map<std::string, std::string>& ExportSource::meta() const {
+  if (!meta_) meta_ = readRecordingMeta(file_);
+  return *meta_;
+}
+
+const std::string& ExportSource::sha256() const {
+  if (!sha256_) sha256_ = sha256OfFile(file_);
+  return *sha256_;
+}
+
 void requirePossible(const ExportChoices& choices,
                      const Recipe& filters,
                      const std::filesystem::path& out) {
@@ -24,7 +34,7 @@ void requirePossible(const ExportChoices& choices,
 }
 
 SaveExtras exportExtras(const ExportChoices& choices,
-                        const std::filesystem::path& in,
+                        const ExportSource& in,
                         const std::filesystem::path& out,
                         const Profile& profile,
                         const Recipe& filters) {
@@ -32,7 +42,7 @@ SaveExtras exportExtras(const ExportChoices& choices,
   const RecordingFormat format = formatOf(out);
   SaveExtras all;
   all.unitsRow = choices.unitsRow;
-  all.meta = readRecordingMeta(in);
+  all.meta = in.meta();
   if (choices.compression) all.mcap.compression = *choices.compression;
   if (choices.images) all.mcap.images = *choices.images;
   if (format != RecordingFormat::kHdf5 && format != RecordingFormat::kMat &&
@@ -40,8 +50,8 @@ SaveExtras exportExtras(const ExportChoices& choices,
     return all;
   ExportExtras& extras = all.exported;
   extras.provenance.program = "palpate " PALPATE_VERSION;
-  extras.provenance.sourceFile = in.filename().string();
-  extras.provenance.sourceSha256 = sha256OfFile(in);
+  extras.provenance.sourceFile = in.file().filename().string();
+  extras.provenance.sourceSha256 = in.sha256();
   extras.provenance.filters = fullRecipeText(filters);
   extras.provenance.hand = profile.hand().name;
   extras.series =

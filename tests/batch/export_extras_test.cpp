@@ -43,6 +43,22 @@ TEST(ExportExtras, SaysWhereAnExportComesFrom) {
   EXPECT_TRUE(exportExtras({.unitsRow = true}, in, "x.csv", profile, {}).unitsRow);
 }
 
+// Core F6: 200 grasps of a recording hashed it 200 times.
+TEST(ExportExtras, ASourceOfManyFilesIsReadOnce) {
+  const testing::TemporaryFolder folder;
+  const Profile profile = synthesize({.durationS = 1.0, .grasps = 0});
+  const ExportSource source(folder / "a.palpate");
+  SaveExtras said;
+  said.meta["operator"] = "A";
+  saveRecording(profile, {}, source.file(), Overwrite::kRefuse, {}, said);
+  const SaveExtras first = exportExtras({}, source, "x.mcap", profile, {});
+  std::filesystem::remove(source.file());
+  const SaveExtras second = exportExtras({}, source, "y.mcap", profile, {});
+  EXPECT_EQ(second.meta, first.meta);
+  EXPECT_EQ(second.exported.provenance.sourceSha256, first.exported.provenance.sourceSha256);
+  EXPECT_EQ(second.exported.provenance.sourceSha256.size(), 64u);
+}
+
 TEST(ExportExtras, RefusesWhatAFormCanNotHave) {
   EXPECT_NO_THROW(requirePossible({.unitsRow = true}, median(), "x.CSV"));
   EXPECT_THROW(requirePossible({.unitsRow = true}, {}, "x.npz"), std::invalid_argument);

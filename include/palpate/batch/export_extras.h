@@ -3,7 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
@@ -22,6 +25,22 @@ struct ExportChoices {
   bool operator==(const ExportChoices&) const = default;
 };
 
+// The recording that exports are made of. What they say of the file is read when it is first
+// needed, and once: a source that is cut into many files is hashed once. Not thread-safe.
+class ExportSource {
+ public:
+  ExportSource(std::filesystem::path file) : file_(std::move(file)) {}  // NOLINT: a path is one
+  const std::filesystem::path& file() const noexcept { return file_; }
+  // As readRecordingMeta() and sha256OfFile(), which throw.
+  const std::map<std::string, std::string>& meta() const;
+  const std::string& sha256() const;
+
+ private:
+  std::filesystem::path file_;
+  mutable std::optional<std::map<std::string, std::string>> meta_;
+  mutable std::optional<std::string> sha256_;
+};
+
 // Throws std::invalid_argument when a file with the ending of `out` can't be made with these
 // choices and filters, FileError for an ending that is not known.
 void requirePossible(const ExportChoices& choices,
@@ -30,10 +49,10 @@ void requirePossible(const ExportChoices& choices,
 
 // What is saved beside `profile`, which was read from `in`, filtered by `filters` (empty: not
 // filtered) and is to be saved as `out`: what was said of the recording, and for .h5, .mat and
-// .mcap the series and where all of it comes from (`in` is read for its hash). Throws as
+// .mcap the series and where all of it comes from (its file is read for its hash). Throws as
 // requirePossible(), FileError, FormatError.
 SaveExtras exportExtras(const ExportChoices& choices,
-                        const std::filesystem::path& in,
+                        const ExportSource& in,
                         const std::filesystem::path& out,
                         const Profile& profile,
                         const Recipe& filters);
