@@ -74,7 +74,7 @@ TEST(DialogStop, QuestionsAndNamesAreReadWholeInTheTheme) {
       QMessageBox::Question,
       "Finish the recording",
       "A recording is running. Before the hand is disconnected, the recording is "
-      "finished; all that was recorded is kept. The hand is moving: it is stopped.",
+      "finished; all that was recorded is kept. The hand is moving: it will be stopped.",
       QMessageBox::NoButton,
       &window);
   question.setDefaultButton(question.addButton("Finish the recording", QMessageBox::AcceptRole));

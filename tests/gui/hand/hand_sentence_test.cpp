@@ -69,6 +69,14 @@ const std::vector<Row> kRows{
        status.anglesDeg = sdh2Preshape("centrical").anglesDeg(0.42);
      },
      "closing, at 0.42 · plain grasp: centrical, to 0.5, 10 deg/s"},
+    {"ClosesSlowly",
+     [](auto& facts, auto& status) {
+       status.phase = GraspPhase::kClosing;
+       status.request = GraspRequest{};
+       facts.touchUnknown = true;
+     },
+     "closing · plain grasp: centrical, to 0.5, 10 deg/s\n"
+     "Slowly: where it touches isn't known. More takes its size or name."},
     {"HoldingComesFirst",
      [](auto&, auto& status) {
        status.phase = GraspPhase::kHolding;

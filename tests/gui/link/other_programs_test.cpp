@@ -236,6 +236,7 @@ TEST_F(OtherProgramsTest, ARecordingFromOutsideIsTheWindowsOwn) {
   const Profile profile = openRecording(path);
   EXPECT_EQ(stopped.at("frames").asInteger(), static_cast<std::int64_t>(profile.numFrames()));
   auto meta = readRecordingMeta(path);
+  EXPECT_TRUE(meta.contains("emulated")) << "a recording of the emulated hand says so";
   EXPECT_EQ(meta["operator"], "Ada");
   EXPECT_EQ(meta["object"], "foam ball");
   int labels = 0;

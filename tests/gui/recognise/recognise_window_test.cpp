@@ -62,6 +62,35 @@ TEST_F(RecogniseWindowTest, NamesTheSelectedGrasp) {
   EXPECT_TRUE(answer().of.startsWith("pen.palpate, ")) << answer().of.toStdString();
 }
 
+TEST_F(RecogniseWindowTest, AnAnswerGoesWithItsSource) {
+  openIt(record("pen"));
+  window().docks().show("Recognise");
+  panel().controller().useEmulatedModel();
+  settle();
+  press(Qt::Key_N);
+  press(Qt::Key_Q);
+  settle();
+  ASSERT_EQ(answer().name(), "pen") << answer().accessibleText().toStdString();
+  openIt(record("ball"));
+  EXPECT_EQ(answer().kind, RecognitionAnswer::Kind::kNothing) << answer().name().toStdString();
+}
+
+// The same grasp has the same answer live and in its recording.
+TEST_F(RecogniseWindowTest, ARecordingOfTheEmulatedHandHasItsModel) {
+  const std::filesystem::path path = folder_ / "pen.palpate";
+  SaveExtras extras;
+  extras.meta["emulated"] = "pen";
+  saveRecording(graspsOf("pen", 2), {}, path, Overwrite::kRefuse, {}, extras);
+  openIt(path.string());
+  window().docks().show("Recognise");
+  settle();
+  press(Qt::Key_N);
+  press(Qt::Key_Q);
+  settle();
+  EXPECT_EQ(answer().name(), "pen") << answer().accessibleText().toStdString();
+  EXPECT_TRUE(answer().sure) << answer().unsure.toStdString();
+}
+
 TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   openIt(record("pen"));
   window().docks().show("Recognise");

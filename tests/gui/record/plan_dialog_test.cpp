@@ -27,7 +27,7 @@ class PlanDialogTest : public WindowStateTest {
       : controller_(windowState_->settings),
         record_(windowState_->actions.make("record", "Hand", "&Record")) {
     QObject::connect(record_, &QAction::triggered, record_, [this] { ++recorded_; });
-    ask_.choices = {"Begin anew"};
+    ask_.choices = {"Start over"};
     controller_.addRow({.object = "ball", .run = "left", .repetitions = 2, .notes = "slowly"});
     controller_.addRow({.object = "cup"});
     dialog_ = std::make_unique<PlanDialog>(*windowState_, controller_, record_);

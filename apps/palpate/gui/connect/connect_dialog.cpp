@@ -29,6 +29,7 @@ constexpr QSize kConnectDialogUsualSize(840, 500);
 constexpr int kKindsWidth = 236;          // [px]
 constexpr int kLeastKindsHeight = 160;    // [px]
 constexpr int kConnectDialogMargin = 20;  // [px]
+constexpr QSize kLeastPage(380, 160);
 
 struct KindText {
   const char* name;
@@ -79,11 +80,14 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices,
                       : kind == Connection::Kind::kStream   ? static_cast<QWidget*>(stream_)
                       : kind == Connection::Kind::kEmulated ? static_cast<QWidget*>(scenes_)
                                                             : static_cast<QWidget*>(replay_));
-  auto* page = new QHBoxLayout;
-  page->setContentsMargins(kConnectDialogMargin, kConnectDialogMargin, kConnectDialogMargin, 16);
-  page->addWidget(pages_);
+  auto* page = new QWidget(this);
+  page->setLayout(inRow({{pages_, 1}}));
+  page->layout()->setContentsMargins(
+      kConnectDialogMargin, kConnectDialogMargin, kConnectDialogMargin, 16);
+  // With large text on a small screen it scrolls; the buttons below stay in sight.
+  auto* scroll = new ContentScroll(page, kLeastPage, this);
   setLayout(
-      inColumn({{inRow({makeKinds(), {page, 1}}, Space::kNone), 1}, makeFoot()}, Space::kNone));
+      inColumn({{inRow({makeKinds(), {scroll, 1}}, Space::kNone), 1}, makeFoot()}, Space::kNone));
   connect(ports_, &PortsPage::changed, this, &ConnectDialog::refresh);
   connect(stream_, &StreamPage::changed, this, &ConnectDialog::refresh);
   connect(scenes_, &ScenePage::changed, this, &ConnectDialog::refresh);

@@ -111,8 +111,9 @@ bool ConnectFeature::mayEndRecording(UserPrompts::Ending ending) {
   const bool moves = source && source->control && source->control->status().request;
   const RecorderStatus& recorder = windowState.live.health().recorder;
   const QString ended = endingText(ending);
-  const QString stopped =
-      moves && ending != UserPrompts::Ending::kStop ? " The hand is moving: it is stopped." : "";
+  const QString stopped = moves && ending != UserPrompts::Ending::kStop
+                              ? " The hand is moving: it will be stopped."
+                              : "";
   QMessageBox question(
       QMessageBox::NoIcon, "Finish the recording", {}, QMessageBox::NoButton, window());
   const QPushButton* elsewhere = nullptr;
@@ -168,8 +169,13 @@ void ConnectFeature::connectActions() {
   });
   on(actions.disconnectHand, [&windowState] {
     if (!windowState.live.recording() ||
-        windowState.prompts.endRecording(UserPrompts::Ending::kDisconnect))
+        windowState.prompts.endRecording(UserPrompts::Ending::kDisconnect)) {
+      const LiveSource* source = windowState.live.source();
+      const bool moves = source && source->control && source->control->status().request;
       windowState.live.end();
+      windowState.messages.flash(moves ? "Disconnected; the motion of the hand was stopped"
+                                       : "Disconnected");
+    }
   });
   on(actions.live, [this, &windowState] {
     windowState.displayed.showLive();

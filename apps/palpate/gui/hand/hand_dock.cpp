@@ -61,6 +61,7 @@ HandDock::HandDock(QSettings& settings, Ask& ask, const HandActions& actions, QW
   ownMotion = [] { return QString(); };
   otherTask = [] { return HandTask(); };
   stopKey_ = new StopKey(this);
+  stopKey_->actsByItself = [this] { return !ownMotion().isEmpty(); };
   // A click on a button takes the focus from whatever had it: Return, pressed after a click on
   // Grasp, must not press a button elsewhere in the window.
   setFocusPolicy(Qt::ClickFocus);
@@ -517,6 +518,8 @@ void HandDock::showState(const GraspStatus& status) {
     facts.refusal = said_;
     facts.ownMotion = own_;
     facts.sceneStopped = sceneStopped_;
+    if (status.phase == GraspPhase::kClosing && status.request && keepsLimit(*status.request))
+      facts.touchUnknown = !control_->forecast(*status.request).touchKnown;
     facts.limitMeasurable = limitMeasurable_ && status.last && status.last->endUs == refusedUs_;
   } else if (session_) {
     const bool streamed = dynamic_cast<const StreamDevice*>(&session_->device()) != nullptr;

@@ -155,7 +155,10 @@ HandSentence handSentence(const HandFacts& facts) {
   if (const ExplainedCondition now = conditionOf(status);
       now.condition == HandCondition::kNotProtected)
     return {"Not protected: " + handText(now.sentence), true};
-  return {withFriction(phaseText(status), status)};
+  const QString slowly =
+      facts.touchUnknown ? "\nSlowly: where it touches isn't known. More takes its size or name."
+                         : QString();
+  return {withFriction(phaseText(status) + slowly, status)};
 }
 
 }  // namespace palpate::gui

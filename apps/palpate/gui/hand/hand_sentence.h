@@ -30,6 +30,8 @@ struct HandFacts {
   QString refusal = {};
   // What an emulated hand does by itself; empty: nothing.
   QString ownMotion = {};
+  // Whether a grasp that keeps its limit closes without knowing where it touches: slowly.
+  bool touchUnknown = false;
   // Whether a stop ended what it did by itself, and nothing has moved it since.
   bool sceneStopped = false;
   // Whether the limit for which the last grasp was refused can be measured by now.

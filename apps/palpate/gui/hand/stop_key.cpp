@@ -24,7 +24,7 @@ bool StopKey::eventFilter(QObject* /*watched*/, QEvent* event) {
   const bool same = key->timestamp() != 0 && key->timestamp() == lastPress_;
   if (!same && !key->isAutoRepeat()) {
     lastPress_ = key->timestamp();
-    const bool moves = control_->status().phase != GraspPhase::kIdle;
+    const bool moves = control_->status().phase != GraspPhase::kIdle || actsByItself();
     // A KeyPress follows the ShortcutOverride of the same press and finds the hand stopping or
     // stopped.
     swallow_ = moves || (swallow_ && type == QEvent::KeyPress);

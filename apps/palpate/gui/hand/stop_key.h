@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QObject>
+#include <functional>
 
 #include <palpate/control/grasp_control.h>
 
@@ -15,6 +16,8 @@ class StopKey : public QObject {
   // Sets the hand; null: Escape has only its usual meaning. `control` must outlive this, or be
   // replaced by null before it is destroyed.
   void setControl(GraspControl* control) { control_ = control; }
+  // Whether the hand moves or holds by itself, as in a scene of the emulated hand.
+  std::function<bool()> actsByItself = [] { return false; };
 
  signals:
   void pressed();

@@ -153,12 +153,13 @@ void PresentationWindow::showAnswer() {
   if (game_->hidesAnswer()) sure_.clear();  // they would tell it
   // The name that is shown isn't one of those before.
   const QStringList before = sure_.mid(answer.name() == sure_.value(0) ? 1 : 0, kMaxBefore);
-  before_->setText(before.isEmpty() ? "Q: what is it? · G: guessing game · Esc: leave"
-                                    : "before: " + before.join(", "));
+  before_->setText((before.isEmpty() ? "Q: what is it?" : "before: " + before.join(", ")) +
+                   " · G: guessing game · Esc: " + (live_ ? "stop the hand, then leave" : "leave"));
   // The audience needs no hint about buttons.
   if (answer.kind == RecognitionAnswer::Kind::kNothing && !game_->hidesAnswer())
-    answer.text =
-        controller_.emulated() ? "Let the hand grasp its object." : "Put an object into the hand.";
+    answer.text = !live_                   ? "Choose a grasp in the timeline, then press Q."
+                  : controller_.emulated() ? "Let the hand grasp its object."
+                                           : "Put an object into the hand.";
   view_->setAnswer(answer);
 }
 

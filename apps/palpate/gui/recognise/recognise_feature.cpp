@@ -87,7 +87,11 @@ void RecogniseFeature::connectAll() {
   connect(dock_, &QDockWidget::visibilityChanged, this, [this](bool seen) {
     if (seen) renew();
   });
-  connect(&windowState.displayed, &DisplayedSource::shown, this, [this] {
+  connect(&windowState.displayed, &DisplayedSource::shown, this, [this, &windowState] {
+    const DisplayedSource& displayed = windowState.displayed;
+    const void* now = displayed.source();
+    if (!now) now = displayed.recorded().get();
+    if (std::exchange(answeredOf_, now) != now) panel_->controller().forgetAnswer();
     renew();
     showWanted();
   });
@@ -108,7 +112,7 @@ void RecogniseFeature::renew() {
   const LiveSource* shown = state().displayed.source();
   if (full_) full_->setLive(shown != nullptr);
   if (full_) full_->setSilence(silence());
-  panel_->controller().setEmulated(shown && shown->emulated);
+  panel_->controller().setEmulated(isOfEmulatedHand());
   panel_->ask().setLive(shown != nullptr, silence());
   panel_->teach().setLive(source != nullptr);
   if (!source || !source->control)
@@ -116,6 +120,12 @@ void RecogniseFeature::renew() {
                                     : source->streamDevice() ? "This hand is read, not moved."
                                                              : "A replay can't be moved.",
                                     false);
+}
+
+bool RecogniseFeature::isOfEmulatedHand() const {
+  if (const LiveSource* shown = state().displayed.source()) return shown->emulated != nullptr;
+  const OpenedRecordingPtr recording = state().displayed.recorded();
+  return recording && recording->meta.contains("emulated");
 }
 
 void RecogniseFeature::ask() {
@@ -131,6 +141,8 @@ void RecogniseFeature::askOfRecording() {
   RecognitionController& controller = panel_->controller();
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording) return controller.showProblem("Open a recording, or connect a hand.");
+  if (const QString why = controller.whyNoModel(); !why.isEmpty())
+    return controller.showProblem(why);
   if (recording->profile.numFrames() == 0)
     return controller.showProblem("This recording has no frames.");
   const QString name = QString::fromStdString(recording->path.filename().string());
@@ -250,8 +262,7 @@ void RecogniseFeature::showFull() {
     return;
   }
   // The model is opened when it is first needed.
-  const LiveSource* shown = state().displayed.source();
-  panel_->controller().setEmulated(shown && shown->emulated);
+  panel_->controller().setEmulated(isOfEmulatedHand());
   if (!panel_->controller().whyNoModel().isEmpty()) return showWhyNoModel();
   full_ = new PresentationWindow(
       panel_->controller(), state().handCommands, state().displayed.source() != nullptr, window());

@@ -50,6 +50,8 @@ class RecogniseFeature : public Feature {
 
  private:
   void connectAll();
+  // Whether what is shown is an emulated hand, or was recorded of one.
+  bool isOfEmulatedHand() const;
   // The source or the appearance has changed.
   void renew();
   void ask();
@@ -102,6 +104,8 @@ class RecogniseFeature : public Feature {
     std::size_t begin = 0, end = 0;
   };
   std::optional<Wanted> wanted_;
+  // The source of which answers are shown; only compared.
+  const void* answeredOf_ = nullptr;
 };
 
 }  // namespace palpate::gui

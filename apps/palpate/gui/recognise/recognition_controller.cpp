@@ -235,6 +235,13 @@ void RecognitionController::contactEnded() {
   emit answered(answer_);
 }
 
+void RecognitionController::forgetAnswer() {
+  asking_.abandon();
+  waiting_.reset();
+  last_.reset();
+  if (answer_.kind != RecognitionAnswer::Kind::kNothing) sayHowToAsk();
+}
+
 QString RecognitionController::hint() const {
   const QString why = whyNoModel();
   if (!why.isEmpty()) return why;

@@ -66,6 +66,8 @@ class RecognitionController : public QObject {
   void touchBegins();
   // The contact has ended: an answer about "held now" becomes one about "the last grasp".
   void contactEnded();
+  // Another source is shown: the answer isn't of it.
+  void forgetAnswer();
   const RecognitionAnswer& answer() const noexcept { return answer_; }
   PhotoCache& photos() noexcept { return photos_; }
   // Sets the training folder as a folder with photos.

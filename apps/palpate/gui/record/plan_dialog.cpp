@@ -129,7 +129,7 @@ QWidget* PlanDialog::makeRows() {
                        "A table (CSV) with the columns object, run, repetitions, notes");
   export_ = makeButton(this, "planExport", "&Export…", "The plan as a table (CSV)");
   anew_ =
-      makeButton(this, "planAnew", "&Begin anew…", "All takes are to be made again; files stay");
+      makeButton(this, "planAnew", "&Start over…", "All takes are to be made again; files stay");
   connect(add_, &QPushButton::clicked, this, &PlanDialog::addRow);
   connect(remove_, &QPushButton::clicked, this, &PlanDialog::removeRow);
   connect(import_, &QPushButton::clicked, this, &PlanDialog::importTable);
@@ -310,8 +310,8 @@ void PlanDialog::exportTable() {
 
 void PlanDialog::beginAnew() {
   if (windowState_.ask.confirmed(
-          "All takes of the plan are to be made again; their files stay. Begin anew?",
-          "Begin anew"))
+          "All takes of the plan are to be made again; their files stay. Start over?",
+          "Start over"))
     controller_.beginAnew();
 }
 

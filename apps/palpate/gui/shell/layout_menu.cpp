@@ -46,8 +46,8 @@ LayoutMenu::LayoutMenu(WindowState& windowState, DockArrangement& docks, QMenu& 
           },
           "Nothing is shown: open a recording or connect a hand first");
   }
-  keep_ = book.make("keepLayout", "View", "&Keep as an own layout…");
-  remove_ = book.make("removeLayout", "View", "Re&move this own layout");
+  keep_ = book.make("keepLayout", "View", "&Save this layout as…");
+  remove_ = book.make("removeLayout", "View", "Re&move this layout");
   reset_ = book.make("resetLayout", "View", "Rese&t this layout");
   // The comparison hides all docks: that isn't the layout which is stored, or goes on.
   const auto leaveComparison = [&windowState] { windowState.comparison.set(false); };

@@ -242,7 +242,10 @@ void LiveController::startRecording(std::function<RecordingOptions()> make) {
   inWorker([this, make = std::move(make), source = source_, generation = generation_] {
     QString error;
     try {
-      source->session->startRecording(make());
+      RecordingOptions options = make();
+      if (source->emulated)
+        options.meta["emulated"] = sceneTitle(source->connection.scene).toStdString();
+      source->session->startRecording(std::move(options));
     } catch (const std::exception& failure) {
       error = QString::fromUtf8(failure.what());
     }

@@ -54,7 +54,10 @@ void RecentFiles::look() {
       [](const QString&) {});
 }
 
-QString RecentFiles::lastFolder() const { return settings_.value(kLastFolderKey).toString(); }
+QString RecentFiles::lastFolder() const {
+  const QString folder = settings_.value(kLastFolderKey).toString();
+  return folder.isEmpty() && !paths_.isEmpty() ? QFileInfo(paths_.first()).path() : folder;
+}
 
 void RecentFiles::setLastFolder(const QString& folder) {
   settings_.setValue(kLastFolderKey, folder);
