@@ -60,7 +60,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
     events.events = eventsWithin(events.events, profile);
   }
   profile = filteredBy(recipe, profile, in);
-  SaveExtras extras = exportExtras(choices, in, out, profile, recipe);
+  SaveExtras extras = exportExtras(choices, ExportSource(in), out, profile, recipe);
   if (from || to) extras.meta.erase("settings");  // those at the start of the whole recording
   const SaveReport saved = [&] {
     ProgressLine progress("writing " + out, given.quiet());
