@@ -2,6 +2,8 @@
 // maps, with the chart and the column of a connected hand, and without them.
 #include <palpate/control/grasp_request.h>
 
+#include "gui/hand/hand_dock.h"
+#include "gui/hand/hand_feature.h"
 #include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
 #include "gui/matrices/matrices_feature.h"
@@ -82,6 +84,21 @@ TEST_F(CompositionTest, InALowWindowTheButtonsThatMoveTheHandAreSeen) {
   }
   setSize({1440, 900});
   EXPECT_LE(chart->x(), column->x()) << "there the chart has the whole width";
+}
+
+TEST_F(CompositionTest, APageOfTheHandThatNeedsMoreRoomGivesItBack) {
+  connectEmulated();
+  trigger("presetGrasp");
+  setSize({1440, 900});
+  const auto* column = find<QDockWidget>("Hand");
+  const int usual = column->width();
+  HandDock& hand = window().feature<HandFeature>().panel();
+  hand.showPage("Joints");
+  processAll();
+  EXPECT_GT(column->width(), usual);
+  hand.showPage("Grasp");
+  processAll();
+  EXPECT_EQ(column->width(), usual);
 }
 
 TEST_F(CompositionTest, OfARecordingTheDataHaveTheLargestPart) {

@@ -114,10 +114,26 @@ void DockArrangement::fitShown(Dock& dock) {
   });
 }
 
+void DockArrangement::fitPage(Dock& dock) {
+  if (isAcross(window_.dockWidgetArea(&dock))) return;
+  QTimer::singleShot(0, &dock, [this, &dock] {
+    if (dock.isFloating() || dock.visibleRegion().isEmpty()) return;
+    // What the page before was widened by is given back, unless somebody has chosen another width.
+    const auto last = pageWidths_.find(&dock);
+    const int usual = last != pageWidths_.end() && last->second.to == dock.width()
+                          ? last->second.from
+                          : dock.width();
+    window_.resizeDocks({&dock}, {std::max(dock.contentWidth(), usual)}, Qt::Horizontal);
+    QTimer::singleShot(0, &dock, [this, &dock, usual] {
+      pageWidths_[&dock] = {usual, dock.width()};
+    });
+  });
+}
+
 void DockArrangement::add(const DockSpec& offer) {
   for (const auto* pages : offer.dock->findChildren<FittingPages*>(kDockPages))
     connect(
-        pages, &FittingPages::currentChanged, this, [this, dock = offer.dock] { fitShown(*dock); });
+        pages, &FittingPages::currentChanged, this, [this, dock = offer.dock] { fitPage(*dock); });
   QAction* toggle = offer.dock->toggleViewAction();
   setSection(*toggle, offer.menu);
   toggle->setShortcut(offer.key);

@@ -109,8 +109,10 @@ class DockArrangement : public QObject {
   std::vector<const Dock*> seenDocks() const;
   // Gives the room back that a closed dock took.
   void giveRoomBack(const Dock& dock);
-  // Widens a dock of which another tab or page is shown, so that nothing of it is cut.
+  // Widens a dock of which another tab is shown, so that nothing of it is cut.
   void fitShown(Dock& dock);
+  // Gives a dock of which another page is shown the width that this page needs.
+  void fitPage(Dock& dock);
   // Widens a dock up to `widthPx`, as far as the views in the centre stay side by side, but at
   // least so far that its content isn't cut.
   void widen(Dock& dock, int widthPx);
@@ -131,6 +133,11 @@ class DockArrangement : public QObject {
   std::optional<Growth> grown_;
   // The layout before hideAll().
   QByteArray hidden_;
+  // The usual widths of docks [px], and what their pages have widened them to.
+  struct PageWidth {
+    int from = 0, to = 0;
+  };
+  std::map<const Dock*, PageWidth> pageWidths_;
 };
 
 }  // namespace palpate::gui
