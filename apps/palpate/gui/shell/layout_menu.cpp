@@ -46,7 +46,7 @@ LayoutMenu::LayoutMenu(WindowState& windowState, DockArrangement& docks, QMenu& 
           },
           "Nothing is shown: open a recording or connect a hand first");
   }
-  keep_ = book.make("keepLayout", "View", "&Save this layout as…");
+  keep_ = book.make("keepLayout", "View", "Sa&ve this layout as…");
   remove_ = book.make("removeLayout", "View", "Re&move this layout");
   reset_ = book.make("resetLayout", "View", "Rese&t this layout");
   // The comparison hides all docks: that isn't the layout which is stored, or goes on.
