@@ -1,6 +1,6 @@
 # palpate_module(NAME SOURCES ... [APART] [USES module...] [PUBLIC lib...] [PRIVATE lib...])
-# One static library per module (docs/architecture.md): palpate_NAME, collected by palpate::palpate,
-# but for those APART.
+# One static library per module (docs/architecture.md): palpate_NAME, collected by palpate::palpate
+# except those marked APART.
 # USES are modules; the include-rule test checks that the #include lines agree.
 function(palpate_module name)
   cmake_parse_arguments(module "APART" "" "SOURCES;USES;PUBLIC;PRIVATE" ${ARGN})

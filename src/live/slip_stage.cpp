@@ -84,8 +84,8 @@ void SlipStage::resetDetection() {
 // After changed settings the counts have another meaning, so the reference is no longer valid.
 void SlipStage::onEvent(const RecordingEvent& event) {
   if (event.kind == "settings") resetDetection();
-  ordered_ = opensAfter(event).value_or(ordered_);
-  setOpens(ordered_);
+  const bool ordered = opensAfter(event).value_or(ordered_);
+  if (std::exchange(ordered_, ordered) != ordered) setOpens(ordered_);
 }
 
 void SlipStage::setOpens(bool opens) {

@@ -779,9 +779,21 @@ TEST_F(HandDockTest, AHandThatActsByItselfIsNotReady) {
   click("graspHand");
   ASSERT_TRUE(bench_->awaitMotion());
   dock_->refresh();
-  EXPECT_FALSE(state().startsWith("Stopped. The hand no longer")) << "a motion has begun";
   click("stopHand");
-  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  EXPECT_FALSE(state().startsWith("Stopped. The hand no longer")) << "a motion came after it";
+  // Also one that was refused, and began and ended between two refreshes.
+  own = "holding an object";
+  dock_->refresh();
+  click("stopHand");
+  own.clear();
+  dock_->refresh();
+  ASSERT_TRUE(state().startsWith("Stopped. The hand no longer"));
+  GraspRequest wrong;
+  wrong.velocityDegPerS = -1.0;
+  EXPECT_THROW(bench_->control->grasp(wrong), std::exception);
+  dock_->refresh();
+  EXPECT_TRUE(state().contains("refused")) << qPrintable(state());
   dock_->ownMotion = [] { return QString(); };
 }
 

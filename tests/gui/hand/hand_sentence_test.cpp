@@ -76,7 +76,7 @@ const std::vector<Row> kRows{
        facts.touchUnknown = true;
      },
      "closing · plain grasp: centrical, to 0.5, 10 deg/s\n"
-     "Slowly: where it touches isn't known. More takes its size or name."},
+     "Slowly: where it touches isn't known. For the next grasp, give its size (More)."},
     {"HoldingComesFirst",
      [](auto&, auto& status) {
        status.phase = GraspPhase::kHolding;

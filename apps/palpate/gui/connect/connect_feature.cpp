@@ -105,10 +105,16 @@ void ConnectFeature::addQuestions() {
   };
 }
 
+std::optional<GraspStatus> ConnectFeature::movingHand() const {
+  const LiveSource* source = state().live.source();
+  if (!source || !source->control) return std::nullopt;
+  GraspStatus status = source->control->status();
+  return status.request ? std::optional(std::move(status)) : std::nullopt;
+}
+
 bool ConnectFeature::mayEndRecording(UserPrompts::Ending ending) {
   WindowState& windowState = state();
-  const LiveSource* source = windowState.live.source();
-  const bool moves = source && source->control && source->control->status().request;
+  const bool moves = movingHand().has_value();
   const RecorderStatus& recorder = windowState.live.health().recorder;
   const QString ended = endingText(ending);
   const QString stopped = moves && ending != UserPrompts::Ending::kStop
@@ -155,6 +161,19 @@ bool ConnectFeature::moveRecording() {
   return true;
 }
 
+void ConnectFeature::disconnectHand() {
+  LiveController& live = state().live;
+  const bool connected = live.source() != nullptr;
+  const auto moving = movingHand();
+  live.end();
+  if (!connected) return;
+  state().messages.flash(!moving ? "Disconnected"
+                         : moving->cannotMove.empty()
+                             ? "Disconnected; the moving hand is sent a stop"
+                             : "Disconnected; no stop reaches the moving hand: "
+                               "use the emergency stop");
+}
+
 void ConnectFeature::connectActions() {
   WindowState& windowState = state();
   ConnectActions& actions = actions_;
@@ -167,15 +186,10 @@ void ConnectFeature::connectActions() {
     windowState.messages.flash(
         "An emulated hand grasps a ball by itself. Press Grasp, Open or Stop to take over.");
   });
-  on(actions.disconnectHand, [&windowState] {
+  on(actions.disconnectHand, [this, &windowState] {
     if (!windowState.live.recording() ||
-        windowState.prompts.endRecording(UserPrompts::Ending::kDisconnect)) {
-      const LiveSource* source = windowState.live.source();
-      const bool moves = source && source->control && source->control->status().request;
-      windowState.live.end();
-      windowState.messages.flash(moves ? "Disconnected; the motion of the hand was stopped"
-                                       : "Disconnected");
-    }
+        windowState.prompts.endRecording(UserPrompts::Ending::kDisconnect))
+      disconnectHand();
   });
   on(actions.live, [this, &windowState] {
     windowState.displayed.showLive();

@@ -5,6 +5,9 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QList>
+#include <optional>
+
+#include <palpate/control/grasp_control.h>
 
 #include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
@@ -32,6 +35,9 @@ class ConnectFeature : public Feature {
   void addQuestions();
   void connectActions();
   void fillMenu();
+  // The status of the connected hand while it moves or holds.
+  std::optional<GraspStatus> movingHand() const;
+  void disconnectHand();
   bool mayEndRecording(UserPrompts::Ending ending);
   bool moveRecording();
   std::filesystem::path scenesFolder() const;

@@ -298,6 +298,9 @@ void HandDock::clearAnswers() {
 }
 
 void HandDock::fitWidth() {
+  // Layouts around a page that is another one learn of it one after the other, by events.
+  for (QWidget* each = pages_; each != body_->widget(); each = each->parentWidget())
+    each->updateGeometry();
   body_->setMinimumWidth(body_->widget()->minimumSizeHint().width() +
                          body_->verticalScrollBar()->sizeHint().width());
 }
@@ -449,8 +452,13 @@ void HandDock::showUnmeasurable(const std::vector<MatrixSettings>& settings) {
 void HandDock::followScene(const GraspStatus& status) {
   const bool stopped = std::exchange(stopsAsked_, status.stopsAsked) != status.stopsAsked;
   const bool acted = !std::exchange(own_, ownMotion()).isEmpty();
-  if (stopped && acted) sceneStopped_ = true;
-  if (status.phase != GraspPhase::kIdle || status.motorsOff) sceneStopped_ = false;
+  const std::int64_t lastUs = status.last ? status.last->endUs : 0;
+  if (stopped && acted) {
+    sceneStopped_ = true;
+    sceneLastUs_ = lastUs;
+  }
+  if (status.phase != GraspPhase::kIdle || status.motorsOff || lastUs != sceneLastUs_)
+    sceneStopped_ = false;
 }
 
 // Finds out when the reason of a refused grasp is gone: its limit can be measured now.

@@ -163,10 +163,11 @@ class HandDock : public QWidget {
   std::optional<Temperatures> shownTemperatures_;
   StopKey* stopKey_;
   // What the hand did by itself, and GraspStatus::stopsAsked, at the last refresh; whether a stop
-  // ended it.
+  // ended it, and when the last grasp had ended then [us since 1970].
   QString own_;
   std::uint64_t stopsAsked_ = 0;
   bool sceneStopped_ = false;
+  std::int64_t sceneLastUs_ = 0;
   // Of the connected hand, once it could be moved: the condition that was told last.
   std::optional<HandCondition> toldCondition_;
   QTimer timer_;

@@ -156,8 +156,9 @@ HandSentence handSentence(const HandFacts& facts) {
       now.condition == HandCondition::kNotProtected)
     return {"Not protected: " + handText(now.sentence), true};
   const QString slowly =
-      facts.touchUnknown ? "\nSlowly: where it touches isn't known. More takes its size or name."
-                         : QString();
+      facts.touchUnknown
+          ? "\nSlowly: where it touches isn't known. For the next grasp, give its size (More)."
+          : QString();
   return {withFriction(phaseText(status) + slowly, status)};
 }
 

@@ -24,7 +24,9 @@ bool StopKey::eventFilter(QObject* /*watched*/, QEvent* event) {
   const bool same = key->timestamp() != 0 && key->timestamp() == lastPress_;
   if (!same && !key->isAutoRepeat()) {
     lastPress_ = key->timestamp();
-    const bool moves = control_->status().phase != GraspPhase::kIdle || actsByItself();
+    const GraspStatus status = control_->status();
+    const bool moves =
+        status.phase != GraspPhase::kIdle || (status.cannotMove.empty() && actsByItself());
     // A KeyPress follows the ShortcutOverride of the same press and finds the hand stopping or
     // stopped.
     swallow_ = moves || (swallow_ && type == QEvent::KeyPress);

@@ -102,6 +102,7 @@ QWidget* PresentationWindow::makeHandRow() {
   if (hand_.stop) {
     connect(stop, &QPushButton::clicked, hand_.stop, &QAction::trigger);
     connect(hand_.stop, &QAction::enabledChanged, handRow_, offer);
+    connect(hand_.stop, &QAction::enabledChanged, this, &PresentationWindow::showAnswer);
   }
   offer();
   return handRow_;
@@ -154,10 +155,11 @@ void PresentationWindow::showAnswer() {
   // The name that is shown isn't one of those before.
   const QStringList before = sure_.mid(answer.name() == sure_.value(0) ? 1 : 0, kMaxBefore);
   before_->setText((before.isEmpty() ? "Q: what is it?" : "before: " + before.join(", ")) +
-                   " · G: guessing game · Esc: " + (live_ ? "stop the hand, then leave" : "leave"));
+                   " · G: guessing game · Esc: " +
+                   (handRow_->isVisibleTo(this) ? "stop the hand, then leave" : "leave"));
   // The audience needs no hint about buttons.
   if (answer.kind == RecognitionAnswer::Kind::kNothing && !game_->hidesAnswer())
-    answer.text = !live_                   ? "Choose a grasp in the timeline, then press Q."
+    answer.text = !live_ ? "Connect a hand, or choose a grasp of a recording, before the show."
                   : controller_.emulated() ? "Let the hand grasp its object."
                                            : "Put an object into the hand.";
   view_->setAnswer(answer);

@@ -96,7 +96,10 @@ void RecogniseFeature::connectAll() {
     showWanted();
   });
   connect(&windowState.live, &LiveController::sourceOpened, this, [this] { listen(true); });
-  connect(&windowState.live, &LiveController::leaving, this, [this] { listen(false); });
+  connect(&windowState.live, &LiveController::leaving, this, [this] {
+    answeredOf_ = nullptr;  // the next source may have its address
+    listen(false);
+  });
   connect(&liveTimer_, &QTimer::timeout, this, &RecogniseFeature::readLiveGrasps);
   liveTimer_.setInterval(kHearingMs);
   connect(&windowState.currentFrame,
@@ -123,7 +126,10 @@ void RecogniseFeature::renew() {
 }
 
 bool RecogniseFeature::isOfEmulatedHand() const {
-  if (const LiveSource* shown = state().displayed.source()) return shown->emulated != nullptr;
+  if (const LiveSource* shown = state().displayed.source()) return shown->isEmulated;
+  // What was named of a connected hand today belongs to its model.
+  if (const LiveSource* connected = state().live.source(); connected && !connected->isEmulated)
+    return false;
   const OpenedRecordingPtr recording = state().displayed.recorded();
   return recording && recording->meta.contains("emulated");
 }

@@ -53,10 +53,11 @@ class TextSizeField : public QSpinBox {
  public:
   using QSpinBox::QSpinBox;
   void stepBy(int steps) override {
+    const double desktopPt = QFontInfo(QApplication::font()).pointSizeF() / textScale();
     if (value() == minimum() && steps > 0)
-      setValue(static_cast<int>(
-          std::lround(QFontInfo(QApplication::font()).pointSizeF() / textScale())));
-    QSpinBox::stepBy(steps);
+      setValue(static_cast<int>(std::lround(desktopPt)) + steps);
+    else
+      QSpinBox::stepBy(steps);
   }
 };
 

@@ -247,7 +247,7 @@ QString DockArrangement::keepAs(const QString& name) {
   if (presetNames().contains(name, Qt::CaseInsensitive))
     return name + " is one of Palpate's own: choose another name";
   if (!ownPresets().contains(name) && ownPresets().size() >= kMaxOwnPresets)
-    return "There are " + QString::number(kMaxOwnPresets) + " own layouts: remove one first";
+    return "There are " + QString::number(kMaxOwnPresets) + " saved layouts: remove one first";
   preset_[place_] = name;
   remember();
   emit presetsChanged();

@@ -131,10 +131,14 @@ ThemeChoice themeOf(const ScreenshotOptions& options) {
 void useSettings(const QString& to, const ScreenshotOptions& options) {
   if (options.settings && !QFile::copy(QString::fromStdString(options.settings->string()), to))
     throw FileError(*options.settings, "the settings can't be read");
+  if (options.settings) QFile::setPermissions(to, QFile::ReadOwner | QFile::WriteOwner);
   QSettings stored(to, QSettings::IniFormat);
   ViewSettings view = loadViewSettings(stored);
   view.theme = themeOf(options);
   saveViewSettings(view, stored);
+  stored.sync();
+  if (stored.status() != QSettings::NoError)
+    throw Error("the settings can't be written: " + to.toStdString());
 }
 
 void settle(MainWindow& window) {

@@ -115,6 +115,9 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   auto source = std::make_unique<LiveSource>();
   source->connection = connection;
   source->session = std::make_unique<CaptureSession>(deviceOf(*source, dataFolder, progress));
+  source->isEmulated = source->emulated ||
+                       (connection.kind == Connection::Kind::kReplay &&
+                        readRecordingMeta(connection.recording.toStdString()).contains("emulated"));
   source->history = std::make_unique<SignalHistory>();
   std::vector<std::unique_ptr<Stage>> stages;
   auto filters = std::make_unique<FilterStage>();

@@ -43,6 +43,8 @@ struct LiveSource {
   std::atomic<std::shared_ptr<const std::vector<SceneObject>>> objects;
   // Set only for an emulated hand.
   std::unique_ptr<EmulatedHand> emulated;
+  // Whether the hand is emulated, or a recording of an emulated one is replayed.
+  bool isEmulated = false;
   std::unique_ptr<CaptureSession> session;
   std::unique_ptr<SignalHistory> history;
   // Sends live signals to other programs; off at first.
