@@ -116,18 +116,19 @@ void DockArrangement::fitShown(Dock& dock) {
 
 void DockArrangement::fitPage(Dock& dock) {
   if (isAcross(window_.dockWidgetArea(&dock))) return;
-  QTimer::singleShot(0, &dock, [this, &dock] {
+  // What the page before was widened by is given back, unless somebody has chosen another width.
+  const auto last = pageWidths_.find(&dock);
+  const int now = dock.width();
+  const int usual = last != pageWidths_.end() && last->second.to == now ? last->second.from : now;
+  // Once the layouts around the page know what it needs.
+  const auto fit = [this, &dock, usual] {
     if (dock.isFloating() || dock.visibleRegion().isEmpty()) return;
-    // What the page before was widened by is given back, unless somebody has chosen another width.
-    const auto last = pageWidths_.find(&dock);
-    const int usual = last != pageWidths_.end() && last->second.to == dock.width()
-                          ? last->second.from
-                          : dock.width();
     window_.resizeDocks({&dock}, {std::max(dock.contentWidth(), usual)}, Qt::Horizontal);
     QTimer::singleShot(0, &dock, [this, &dock, usual] {
       pageWidths_[&dock] = {usual, dock.width()};
     });
-  });
+  };
+  QTimer::singleShot(0, &dock, [&dock, fit] { QTimer::singleShot(0, &dock, fit); });
 }
 
 void DockArrangement::add(const DockSpec& offer) {
