@@ -1,5 +1,7 @@
 // How much of the window the data have: the views of the sensor, and the painted cells of the heat
 // maps, with the chart and the column of a connected hand, and without them.
+#include <QPushButton>
+
 #include <palpate/control/grasp_request.h>
 
 #include "gui/hand/hand_dock.h"
