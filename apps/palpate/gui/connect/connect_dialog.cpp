@@ -29,7 +29,7 @@ constexpr QSize kConnectDialogUsualSize(840, 500);
 constexpr int kKindsWidth = 236;          // [px]
 constexpr int kLeastKindsHeight = 160;    // [px]
 constexpr int kConnectDialogMargin = 20;  // [px]
-constexpr QSize kLeastPage(380, 160);
+constexpr QSize kMinimumPage(380, 160);   // [px]
 
 struct KindText {
   const char* name;
@@ -85,7 +85,7 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices,
   page->layout()->setContentsMargins(
       kConnectDialogMargin, kConnectDialogMargin, kConnectDialogMargin, 16);
   // With large text on a small screen it scrolls; the buttons below stay in sight.
-  auto* scroll = new ContentScroll(page, kLeastPage, this);
+  auto* scroll = new ContentScroll(page, kMinimumPage, this);
   setLayout(
       inColumn({{inRow({makeKinds(), {scroll, 1}}, Space::kNone), 1}, makeFoot()}, Space::kNone));
   connect(ports_, &PortsPage::changed, this, &ConnectDialog::refresh);

@@ -169,9 +169,9 @@ void ConnectFeature::disconnectHand() {
   if (!connected) return;
   state().messages.flash(!moving ? "Disconnected"
                          : moving->cannotMove.empty()
-                             ? "Disconnected; the moving hand is sent a stop"
-                             : "Disconnected; no stop reaches the moving hand: "
-                               "use the emergency stop");
+                             ? "Disconnected; the hand is sent a stop"
+                             : "Disconnected; no stop reaches the hand: use the "
+                               "emergency stop if it moves");
 }
 
 void ConnectFeature::connectActions() {

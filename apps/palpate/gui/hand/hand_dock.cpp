@@ -61,7 +61,8 @@ HandDock::HandDock(QSettings& settings, Ask& ask, const HandActions& actions, QW
   ownMotion = [] { return QString(); };
   otherTask = [] { return HandTask(); };
   stopKey_ = new StopKey(this);
-  stopKey_->actsByItself = [this] { return !ownMotion().isEmpty(); };
+  // As of the last refresh: nothing is asked, or waited for, before the stop.
+  stopKey_->actsByItself = [this] { return !own_.isEmpty(); };
   // A click on a button takes the focus from whatever had it: Return, pressed after a click on
   // Grasp, must not press a button elsewhere in the window.
   setFocusPolicy(Qt::ClickFocus);

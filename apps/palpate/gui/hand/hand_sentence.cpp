@@ -121,8 +121,7 @@ HandSentence atRest(const HandFacts& facts) {
 
 QString sceneStoppedText() {
   return "The hand no longer acts by itself, and holds what it held; what its scene does to "
-         "objects, "
-         "such as a pull, goes on.";
+         "objects, such as a pull, goes on.";
 }
 
 QString withFriction(const QString& text, const GraspStatus& status) {
