@@ -42,11 +42,11 @@ PresentationWindow::PresentationWindow(RecognitionController& controller,
   game_ = new GuessingGame(this);
   connect(game_, &GuessingGame::changed, this, &PresentationWindow::showAnswer);
   connect(game_, &GuessingGame::guessed, this, &PresentationWindow::asked);
-  showAnswer();
-  connect(&controller, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
   row_ =
       inRow({{inColumn({{view_, 1}, game_, before_}, Space::kNone), kAnswerShare}}, Space::kNone);
   setLayout(inColumn({{row_, 1}, makeHandRow()}, Space::kNone));
+  showAnswer();
+  connect(&controller, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
   refusedTimer_.setSingleShot(true);
   refusedTimer_.setInterval(kShowRefusedMs);
   connect(&refusedTimer_, &QTimer::timeout, this, [this] {

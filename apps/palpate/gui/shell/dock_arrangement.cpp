@@ -115,7 +115,7 @@ void DockArrangement::fitShown(Dock& dock) {
 }
 
 void DockArrangement::fitPage(Dock& dock) {
-  if (isAcross(window_.dockWidgetArea(&dock))) return;
+  if (isAcross(window_.dockWidgetArea(&dock)) || opening_.contains(&dock)) return;
   // What the page before was widened by is given back, unless somebody has chosen another width.
   const auto last = pageWidths_.find(&dock);
   const int now = dock.width();
@@ -464,9 +464,13 @@ void DockArrangement::makeRoomFor(const DockSpec& offer, const QByteArray& befor
     window_.tabifyDockWidget(below, dock);
     dock->raise();
   }
+  opening_.insert(dock);
   // Runs after the dock has got its place.
   QTimer::singleShot(0, this, [this, offer, dock, below, before, asTabs] {
-    if (dock->isFloating() || dock->isHidden()) return;
+    if (dock->isFloating() || dock->isHidden()) {
+      opening_.erase(dock);
+      return;
+    }
     if (!isAcross(window_.dockWidgetArea(dock)))
       widen(*dock,
             std::max({offer.preferredWidthPx,
@@ -479,8 +483,10 @@ void DockArrangement::makeRoomFor(const DockSpec& offer, const QByteArray& befor
           {dock, below}, {wanted, static_cast<int>(window_.height() * kBottomBelow)}, Qt::Vertical);
     // The sizes hold after the layout has been applied.
     QTimer::singleShot(0, this, [this, dock, before] {
-      if (!before.isEmpty() && !dock->isFloating() && !dock->isHidden())
-        opened_.try_emplace(dock, Change{before, seenDocks()});
+      opening_.erase(dock);
+      if (dock->isFloating() || dock->isHidden()) return;
+      if (!before.isEmpty()) opened_.try_emplace(dock, Change{before, seenDocks()});
+      fitShown(*dock);  // another page may have been chosen meanwhile
     });
   });
 }

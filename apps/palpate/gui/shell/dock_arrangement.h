@@ -12,6 +12,7 @@
 #include <QTimer>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "gui/appearance/theme.h"
@@ -127,6 +128,7 @@ class DockArrangement : public QObject {
   // By preset. A preset without a layout has its default places.
   std::map<DisplayedSource::Kind, std::map<QString, QByteArray>> layouts_;
   std::map<const Dock*, Change> opened_;
+  std::set<const Dock*> opening_;  // they get their room by makeRoomFor()
   Change text_;
   // Ends when all parts have their sizes for another size of text.
   QTimer textChange_;
