@@ -20,15 +20,15 @@ const std::string& ExportSource::sha256() const {
 void requirePossible(const ExportChoices& choices,
                      const Recipe& filters,
                      const std::filesystem::path& out) {
-  const RecordingFormat format = formatOf(out);
-  if (choices.unitsRow && format != RecordingFormat::kCsv)
+  const RecordingFormat& format = formatOf(out);
+  if (choices.unitsRow && !format.takesUnitsRow)
     throw std::invalid_argument("--units-row is for .csv; " + out.string() + " isn't one");
   for (const char* option :
        {choices.compression ? "--compression" : "", choices.images ? "--images" : ""})
-    if (*option && format != RecordingFormat::kMcap)
+    if (*option && !format.takesMcap)
       throw std::invalid_argument(std::string(option) + " is for .mcap; " + out.string() +
                                   " isn't one");
-  if (!filters.empty() && (format == RecordingFormat::kDsa || format == RecordingFormat::kPalpate))
+  if (!filters.empty() && !format.isExport)
     throw std::invalid_argument(
         "'palpate filter' makes filtered recordings; --filter is for exports");
 }
@@ -39,15 +39,12 @@ SaveExtras exportExtras(const ExportChoices& choices,
                         const Profile& profile,
                         const Recipe& filters) {
   requirePossible(choices, filters, out);
-  const RecordingFormat format = formatOf(out);
   SaveExtras all;
   all.unitsRow = choices.unitsRow;
   all.meta = in.meta();
   if (choices.compression) all.mcap.compression = *choices.compression;
   if (choices.images) all.mcap.images = *choices.images;
-  if (format != RecordingFormat::kHdf5 && format != RecordingFormat::kMat &&
-      format != RecordingFormat::kMcap)
-    return all;
+  if (!formatOf(out).takesSeries) return all;
   ExportExtras& extras = all.exported;
   extras.provenance.program = "palpate " PALPATE_VERSION;
   extras.provenance.sourceFile = in.file().filename().string();

@@ -14,9 +14,9 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
-#include "palpate/recording/recording.h"
 
 #include "recording/event_sidecar.h"
+#include "recording/format_reader.h"
 #include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_rows.h"
 
@@ -142,10 +142,12 @@ void requireFinished(const fs::path& path) {
                     "in the recovered recording");
 }
 
-void saveRows(const fs::path& given,
-              const EventsReport& asRead,
-              std::span<const RecordingEvent> events,
-              const SaveEventsOptions& options) {
+}  // namespace
+
+void saveEventRows(const fs::path& given,
+                   const EventsReport& asRead,
+                   std::span<const RecordingEvent> events,
+                   const SaveEventsOptions& options) {
   std::error_code ignored;
   // Journal and lock lie beside the file itself, not beside a link to it.
   const fs::path path = fs::is_symlink(given, ignored) ? fs::canonical(given, ignored) : given;
@@ -178,17 +180,16 @@ void saveRows(const fs::path& given,
     throw FileError(path, "was deleted or replaced while its notes were being saved");
 }
 
-void saveSidecar(const fs::path& path,
-                 const EventsReport& asRead,
-                 std::span<const RecordingEvent> events) {
+void saveEventSidecar(const fs::path& path,
+                      const EventsReport& asRead,
+                      std::span<const RecordingEvent> events,
+                      const SaveEventsOptions&) {
   const fs::path sidecar = sidecarPathOf(path);
   requireWritableBy(path, sidecar);
   const auto lock = locked(path, sidecar);
   const EventsReport now = readEventSidecar(path);
   if (needsSaving(path, now.events, asRead, events)) replaceEventSidecar(path, events);
 }
-
-}  // namespace
 
 bool isUserEvent(const RecordingEvent& event) {
   constexpr std::array<std::string_view, 7> kNoted{
@@ -202,18 +203,12 @@ void saveEvents(const fs::path& path,
                 const SaveEventsOptions& options) {
   eventStoreRequireStorable(asRead, events);
   requireThere(path);
-  if (isHdf5Recording(path))
+  const FormatReader& reader = readerOf(path);
+  if (!reader.saveEvents)
     throw FileError(path,
-                    "notes can't be added to an HDF5 file; convert it to .palpate and add them "
-                    "there");
-  if (isMcapRecording(path))
-    throw FileError(path,
-                    "notes can't be added to an MCAP file; convert it to .palpate and add them "
-                    "there");
-  if (isNativeRecording(path))
-    saveRows(path, asRead, events, options);
-  else
-    saveSidecar(path, asRead, events);
+                    std::string("notes can't be added to ") + reader.kind +
+                        "; convert it to .palpate and add them there");
+  reader.saveEvents(path, asRead, events, options);
 }
 
 }  // namespace palpate

@@ -10,12 +10,8 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
-#include "palpate/recording/dsa_reader.h"
-#include "palpate/recording/hdf5_recording.h"
-#include "palpate/recording/mcap_recording.h"
-#include "palpate/recording/recording.h"
 
-#include "recording/event_sidecar.h"
+#include "recording/format_reader.h"
 #include "recording/native/palpate_connection.h"
 
 namespace palpate {
@@ -86,36 +82,7 @@ void readSpan(RecordingDetails& details, PalpateConnection& access) {
   details.durationUs = end - *details.startUs;
 }
 
-void readNative(RecordingDetails& details) {
-  details.form = "palpate";
-  PalpateConnection access(details.path);
-  const MetaRows& meta = access.meta();
-  details.operatorName = bounded(meta["operator"]);
-  details.object = bounded(meta["object"]);
-  details.run = bounded(meta["run"]);
-  addNote(details.notes, meta["notes"]);
-  if (access.beingWritten()) details.state = State::kRecording;
-  if (access.unfinished()) {
-    details.state = State::kUnfinished;
-    details.message = "its writer stopped before the end; it can be recovered";
-  }
-  addEvents(details, readEventRows(access.database()));
-  readSpan(details, access);
-}
-
-void readDsaThrough(RecordingDetails& details, const Progress& progress, std::size_t threads) {
-  details.form = "dsa";
-  DsaReadOptions options;
-  options.threads = threads;
-  const Profile profile = readDsa(details.path, progress, options);
-  details.numFrames = static_cast<std::int64_t>(profile.numFrames());
-  if (profile.numFrames() == 0) return;
-  details.startUs = profile.frameTimeUs(0);
-  details.durationUs = profile.frameTimeUs(profile.numFrames() - 1) - *details.startUs;
-}
-
-// Of a recording in one of the forms that other programs read.
-template <typename Recording>
+// Those of an opened recording.
 void takeDetails(const Recording& recording, RecordingDetails& details) {
   const auto valueOf = [&](const char* key) {
     const auto found = recording.meta.find(key);
@@ -125,22 +92,11 @@ void takeDetails(const Recording& recording, RecordingDetails& details) {
   details.object = bounded(valueOf("object"));
   details.run = bounded(valueOf("run"));
   addNote(details.notes, valueOf("notes"));
-  addEvents(details, {recording.events, 0});
   const Profile& profile = recording.profile;
   details.numFrames = static_cast<std::int64_t>(profile.numFrames());
   if (profile.numFrames() == 0) return;
   details.startUs = profile.frameTimeUs(0);
   details.durationUs = profile.durationUs();
-}
-
-void readHdf5Details(RecordingDetails& details) {
-  details.form = "hdf5";
-  takeDetails(readHdf5(details.path), details);
-}
-
-void readMcapDetails(RecordingDetails& details, const Progress& progress, std::size_t threads) {
-  details.form = "mcap";
-  takeDetails(readMcap(details.path, progress, threads), details);
 }
 
 void fail(RecordingDetails& details, State state, std::string message) {
@@ -168,6 +124,22 @@ void attemptRecordingDetails(RecordingDetails& details, Work work) {
 
 }  // namespace
 
+void addPalpateDetails(RecordingDetails& details) {
+  PalpateConnection access(details.path);
+  const MetaRows& meta = access.meta();
+  details.operatorName = bounded(meta["operator"]);
+  details.object = bounded(meta["object"]);
+  details.run = bounded(meta["run"]);
+  addNote(details.notes, meta["notes"]);
+  if (access.beingWritten()) details.state = State::kRecording;
+  if (access.unfinished()) {
+    details.state = State::kUnfinished;
+    details.message = "its writer stopped before the end; it can be recovered";
+  }
+  addEvents(details, readEventRows(access.database()));
+  readSpan(details, access);
+}
+
 const char* nameOf(State state) {
   for (const auto& [known, name] : kStateNames)
     if (known == state) return name;
@@ -189,15 +161,20 @@ RecordingDetails readDetails(const fs::path& path, const Progress& progress, std
     details.changedUs =
         std::int64_t{facts.st_mtim.tv_sec} * 1'000'000 + facts.st_mtim.tv_nsec / 1000;
   }
+  const FormatReader* reader = nullptr;
   attemptRecordingDetails(details, [&] {
-    if (isNativeRecording(path)) return readNative(details);
-    if (isHdf5Recording(path)) return readHdf5Details(details);
-    if (isMcapRecording(path)) return readMcapDetails(details, progress, threads);
-    readDsaThrough(details, progress, threads);
+    const RecordingFormat* format = recognisedFormat(path);
+    if (!format) format = &kDsaFormat;
+    details.form = format->name;
+    reader = format->reader;
+    if (reader->addDetails) return reader->addDetails(details);
+    const Recording recording = reader->open(path, {.threads = threads}, progress);
+    takeDetails(recording, details);
+    if (!reader->eventsBeside) addEvents(details, {recording.events});
   });
-  if (details.form == "dsa") {
+  if (reader && reader->eventsBeside) {
     const State state = details.state;
-    attemptRecordingDetails(details, [&] { addEvents(details, readEventSidecar(path)); });
+    attemptRecordingDetails(details, [&] { addEvents(details, reader->events(path)); });
     if (state == State::kFinished && details.state != state) {
       // The recording itself is sound: its notes are not.
       details.state = State::kFinished;

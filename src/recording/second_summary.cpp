@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "palpate/core/progress.h"
-#include "palpate/recording/dsa_reader.h"
-#include "palpate/recording/recording.h"
 
+#include "recording/format_reader.h"
 #include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_rows.h"
 
@@ -63,7 +62,11 @@ std::vector<SecondSummary> secondsOf(const Profile& profile, const Progress& pro
 }
 
 std::vector<SecondSummary> readSeconds(const std::filesystem::path& path) {
-  if (!isNativeRecording(path)) return secondsOf(openRecording(path));
+  const auto seconds = readerOf(path).seconds;
+  return seconds ? seconds(path) : secondsOf(openRecording(path));
+}
+
+std::vector<SecondSummary> readPalpateSeconds(const std::filesystem::path& path) {
   PalpateConnection access(path);
   const std::size_t numMatrices = readLayout(access.database()).numMatrices();
   auto seconds =

@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   std::size_t frames = 0;
   try {
-    const Profile profile = palpate::readPalpate(path);
+    const Profile profile = palpate::readPalpate(path).profile;
     requireSane(profile);
     frames = profile.numFrames();
   } catch (const palpate::FormatError&) {

@@ -105,10 +105,10 @@ TEST(McapBombs, eventsBeyond64MegabytesAreLeftOutAndCounted) {
   const VerifyReport verified = verifyRecording(path);
   EXPECT_EQ(verified.state, VerifyReport::State::kSound);
   EXPECT_TRUE(verified.message.ends_with("; " + words)) << verified.message;
-  const ReadableRecording readable = readableRecording(path);
+  const Recording readable = readableRecording(path);
   EXPECT_EQ(readable.events.size(), 268u);
-  EXPECT_EQ(readable.damage, "");
-  EXPECT_EQ(readable.damagedEvents, 32u);
+  EXPECT_EQ(readable.damage.text, "");
+  EXPECT_EQ(readable.damage.events, 32u);
   const RecoverReport recovered = recoverRecording(path, folder / "out.palpate");
   EXPECT_EQ(recovered.state, RecoverReport::State::kPart);
   EXPECT_TRUE(recovered.message.ends_with("; " + words)) << recovered.message;

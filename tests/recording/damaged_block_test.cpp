@@ -83,7 +83,7 @@ class DamagedBlock : public ::testing::TestWithParam<Place> {
 
 TEST_P(DamagedBlock, OfFramesCostsItsFramesOnly) {
   const auto [path, hit] = damaged(Stream::kTactile);
-  const Profile profile = readPalpate(path);
+  const Profile profile = readPalpate(path).profile;
   ASSERT_EQ(profile.numFrames(), kFrames);
   UnreadableSamples unreadable;
   TactileFrame frame;
@@ -115,7 +115,7 @@ TEST_P(DamagedBlock, OfFramesCostsItsFramesOnly) {
 
 TEST_P(DamagedBlock, OfAnglesCostsItsAnglesOnly) {
   const auto [path, hit] = damaged(Stream::kAngles);
-  const Profile profile = readPalpate(path);
+  const Profile profile = readPalpate(path).profile;
   ASSERT_EQ(profile.numAngles(), kFrames);
   for (std::size_t i = 0; i < kFrames; ++i) {
     ASSERT_EQ(profile.angleSampleAt(profile.angleTimeUs(i)), i);
@@ -141,7 +141,7 @@ TEST(DamagedBlockReads, AStreamWithoutASoundBlockIsLeftOut) {
   constexpr std::size_t kFew = 500;
   writeLong(path, kFew, true);
   for (const BlockRow& block : blocksOf(path, Stream::kAngles)) damage(path, block.id);
-  const Profile profile = readPalpate(path);
+  const Profile profile = readPalpate(path).profile;
   EXPECT_EQ(profile.numAngles(), 0u);
   ASSERT_EQ(profile.numFrames(), kFew);
   EXPECT_EQ(profile.frame(kFew - 1).values[0], longValue(kFew - 1));
@@ -160,7 +160,7 @@ TEST(DamagedBlockReads, ASeekReadsTheBlockThatItShowsAndNoOther) {
   FaultyVfs files(true);
   int reads = 0;
   files.setReadHook([&](std::int64_t) { ++reads; });
-  Playback playback(readPalpate(path), {});
+  Playback playback(readPalpate(path).profile, {});
   ASSERT_GT(reads, 0) << "the reading isn't seen";
   TactileFrame frame;
   // Never the same block twice; the way of the search would be new each time.
@@ -189,7 +189,7 @@ TEST(DamagedBlockReads, ADamagedBlockIsReadOnce) {
   const BlockRow& hit = blocks[blocks.size() / 2];
   damage(path, hit.id);
   FaultyVfs files(true);
-  const Profile profile = readPalpate(path);
+  const Profile profile = readPalpate(path).profile;
   TactileFrame frame;
   EXPECT_THROW(profile.readFrame(hit.first, frame), FormatError);
   files.setReadHook([](std::int64_t) { ADD_FAILURE() << "read again"; });

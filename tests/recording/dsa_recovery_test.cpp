@@ -143,10 +143,10 @@ TEST(DsaRecovery, saysWhichFramesAreLostBeforeTheFirstOne) {
   EXPECT_TRUE(saved.losses[0].text.starts_with(text)) << saved.losses[0].text;
   EXPECT_TRUE(saved.lossText.starts_with(text)) << saved.lossText;
   EXPECT_NE(saved.lossText.find("the joint angles begin "), std::string::npos);
-  const ReadableRecording readable = readableRecording(folder / "a.dsa");
-  EXPECT_NE(readable.damage.find(text), std::string::npos);
+  const Recording readable = readableRecording(folder / "a.dsa");
+  EXPECT_NE(readable.damage.text.find(text), std::string::npos);
   EXPECT_EQ(readable.events, saved.losses) << "drawn in the timeline";
-  EXPECT_EQ(readable.notInFile, saved.losses);
+  EXPECT_EQ(readable.damage.notInFile, saved.losses);
   EXPECT_NE(verifyRecording(folder / "a.dsa").message.find(text), std::string::npos);
 
   recoverRecording(folder / "a.dsa", folder / "saved.palpate", Overwrite::kRefuse);

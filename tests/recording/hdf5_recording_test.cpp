@@ -137,7 +137,7 @@ TEST(Hdf5Recording, randomRecordingsComeBackBitByBit) {
     for (const std::size_t frames : {0, 1, 1023, 1024, 2600}) {
       const Profile profile = randomProfile(static_cast<std::uint32_t>(frames), floats, frames);
       write(profile, folder / "a.h5");
-      const Hdf5Recording read = readHdf5(folder / "a.h5");
+      const Recording read = readHdf5(folder / "a.h5");
       expectSame(profile, read.profile);
       EXPECT_EQ(read.events, (std::vector<RecordingEvent>{kOddEvent, {7, 7, "mark", {}, "", ""}}));
       EXPECT_EQ(read.meta.at("operator"), "A. B.");

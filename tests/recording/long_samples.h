@@ -53,7 +53,7 @@ inline UnreadableSamples::Run damageBlock(const std::filesystem::path& path, dou
     bytes[page * kPage + kPage / 2] ^= 0x5a;
     writeFile(path, bytes);
     try {
-      const Profile profile = readPalpate(path);
+      const Profile profile = readPalpate(path).profile;
       UnreadableSamples unreadable;
       TactileFrame frame;
       for (std::size_t i = 0; i < profile.numFrames(); ++i)

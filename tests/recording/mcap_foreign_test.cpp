@@ -338,7 +338,7 @@ image('/pad', 2, [[1, 2], [math.nan, 4]], '32FC1')
   EXPECT_EQ(profile.frame(0).values, (Values{0.5F, 0, 0, -1.5F}));
   EXPECT_EQ(profile.frame(1).values, (Values{1, 2, 0, 4}));
   EXPECT_EQ(lostText(profile), "3 values of the topic \"/pad\" are taken as 0 (NaN or infinite)");
-  EXPECT_NE(readableRecording(file).damage.find("3 values"), std::string::npos);
+  EXPECT_NE(readableRecording(file).damage.text.find("3 values"), std::string::npos);
 }
 
 TEST_F(McapForeign, AFileWithoutImagesNamesItsTopics) {

@@ -173,7 +173,7 @@ TEST(McapRecording, randomRecordingsComeBackBitByBit) {
           McapWriteOptions options = smallChunks(compression);
           options.images = images;
           write(profile, folder / "a.mcap", options);
-          const McapRecording read = readMcap(folder / "a.mcap");
+          const Recording read = readMcap(folder / "a.mcap");
           expectSame(profile, read.profile);
           EXPECT_EQ(read.events, kEvents);
           EXPECT_EQ(readMcapEvents(folder / "a.mcap").events, kEvents);
@@ -507,7 +507,7 @@ for size in 1, 3:
   out.close()
 )");
   for (const char* name : {"1.mcap", "3.mcap"}) {
-    const McapRecording read = readMcap(folder / name);
+    const Recording read = readMcap(folder / name);
     expectSame(profile, read.profile);
     EXPECT_EQ(read.events, kEvents);
     EXPECT_EQ(readMcapEvents(folder / name).events, kEvents);
@@ -614,8 +614,8 @@ TEST(McapRecording, anyChangedByteIsFoundAndTheRestIsSaved) {
     EXPECT_NE(report.state, VerifyReport::State::kSound) << round;
     if (report.state == VerifyReport::State::kUnreadable) continue;
     ++saved;
-    const ReadableRecording read = readableRecording(folder / "bad.mcap");
-    EXPECT_FALSE(read.damage.empty());
+    const Recording read = readableRecording(folder / "bad.mcap");
+    EXPECT_FALSE(read.damage.text.empty());
     // Whatever is read is a frame of the recording.
     for (std::size_t i = 0; i < read.profile.numFrames(); ++i) {
       const auto at = profile.frameAt(read.profile.frameTimeUs(i));
@@ -721,7 +721,7 @@ TEST(McapLiveWriter, whatIsFlushedCanBeReadBeforeTheEnd) {
   writer.flush();
   writer.addFrame(profile.frame(300));
   EXPECT_NE(errorOf(folder / "a.mcap").find("is being written"), std::string::npos);
-  const McapRecording read = recoverMcap(folder / "a.mcap");
+  const Recording read = recoverMcap(folder / "a.mcap");
   ASSERT_EQ(read.profile.numFrames(), 300u);
   EXPECT_EQ(read.profile.frame(299).values, profile.frame(299).values);
   EXPECT_EQ(read.profile.frame(297).filtered, profile.frame(297).filtered);
@@ -730,7 +730,7 @@ TEST(McapLiveWriter, whatIsFlushedCanBeReadBeforeTheEnd) {
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
     writer.addTemperatures(profile.temperatures(i));
   writer.finish();
-  const McapRecording whole = readMcap(folder / "a.mcap");
+  const Recording whole = readMcap(folder / "a.mcap");
   EXPECT_EQ(testing::dumped(whole.profile), testing::dumped(profile));
   EXPECT_EQ(whole.events, std::vector<RecordingEvent>{kOddEvent});
 }
@@ -771,7 +771,7 @@ TEST(McapLiveWriter, aFullDiskLeavesTheWholeChunks) {
     ::_exit(0);
   };
   EXPECT_EXIT(full(), ::testing::ExitedWithCode(7), "");
-  const McapRecording read = recoverMcap(folder / "a.mcap");
+  const Recording read = recoverMcap(folder / "a.mcap");
   EXPECT_GT(read.profile.numFrames(), 50u);
   EXPECT_EQ(read.profile.frame(49).values, profile.frame(49).values);
 }

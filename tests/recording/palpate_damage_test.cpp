@@ -304,15 +304,15 @@ TEST(PalpateDamage, whatIsReadableIsGivenAndTheRestTold) {
   const TemporaryFolder folder;
   const fs::path path = folder / "r.palpate";
   writeSamples(path, 60);
-  const ReadableRecording sound = readableRecording(path);
-  EXPECT_EQ(sound.damage, "");
+  const Recording sound = readableRecording(path);
+  EXPECT_EQ(sound.damage.text, "");
   EXPECT_EQ(sound.events.size(), 2u);
   EXPECT_TRUE(dumped(sound.profile) == dumped(openRecording(path)));
   const BlockBytes block = blockBytes(path).at(2);
   std::string bytes = readFile(path);
   bytes[block.end - 1] = static_cast<char>(bytes[block.end - 1] ^ 1);
   writeFile(path, bytes);
-  const ReadableRecording damaged = readableRecording(path);
+  const Recording damaged = readableRecording(path);
   EXPECT_EQ(framesOf(damaged.profile).size(), 60 - block.n);
   ASSERT_EQ(damaged.events.size(), 3u);
   EXPECT_EQ(std::count_if(damaged.events.begin(),
@@ -320,11 +320,11 @@ TEST(PalpateDamage, whatIsReadableIsGivenAndTheRestTold) {
                           [](const RecordingEvent& event) { return event.kind == "gap"; }),
             1)
       << "the lost span, beside the two events of the file";
-  ASSERT_EQ(damaged.notInFile.size(), 1u);
-  EXPECT_EQ(damaged.notInFile[0].kind, "gap");
-  EXPECT_EQ(sound.notInFile.size(), 0u);
-  EXPECT_NE(damaged.damage.find(std::to_string(block.n) + " lost frame"), std::string::npos)
-      << damaged.damage;
+  ASSERT_EQ(damaged.damage.notInFile.size(), 1u);
+  EXPECT_EQ(damaged.damage.notInFile[0].kind, "gap");
+  EXPECT_EQ(sound.damage.notInFile.size(), 0u);
+  EXPECT_NE(damaged.damage.text.find(std::to_string(block.n) + " lost frame"), std::string::npos)
+      << damaged.damage.text;
   writeFile(path, bytes.substr(0, 3000));
   EXPECT_THROW(readableRecording(path), FormatError);
 }
@@ -339,7 +339,7 @@ TEST(PalpateDamage, aFileThatWasCutOffTellsHowMuchIsLost) {
   for (const double share : {0.3, 0.6, 0.9}) {
     writeFile(path,
               bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
-    const ReadableRecording readable = readableRecording(path);
+    const Recording readable = readableRecording(path);
     const std::size_t frames = readable.profile.numFrames();
     ASSERT_GT(frames, 0u) << share;
     ASSERT_LT(frames, whole.numFrames()) << share;
@@ -348,9 +348,10 @@ TEST(PalpateDamage, aFileThatWasCutOffTellsHowMuchIsLost) {
         losses.begin(), losses.end(), [](const auto& loss) { return loss.stream == "tactile"; });
     ASSERT_NE(ofFrames, losses.end()) << share;
     EXPECT_EQ(ofFrames->lost, whole.numFrames() - frames) << share;
-    EXPECT_NE(readable.damage.find(std::to_string(whole.numFrames() - frames) + " lost frames"),
-              std::string::npos)
-        << readable.damage;
+    EXPECT_NE(
+        readable.damage.text.find(std::to_string(whole.numFrames() - frames) + " lost frames"),
+        std::string::npos)
+        << readable.damage.text;
     EXPECT_EQ(readable.meta.at("frames"), std::to_string(whole.numFrames())) << share;
   }
 }
@@ -362,10 +363,11 @@ TEST(PalpateDamage, aDsaIsReadableWhateverLiesInThePlaceOfItsNotes) {
   const fs::path path = folder / "r.dsa";
   saveRecording(openRecording(folder / "r.palpate"), {}, path);
   fs::create_directory(folder / "r.dsa.notes.json");
-  const ReadableRecording readable = readableRecording(path);
+  const Recording readable = readableRecording(path);
   EXPECT_EQ(readable.profile.numFrames(), 60u);
   EXPECT_TRUE(readable.events.empty());
-  EXPECT_NE(readable.damage.find("r.dsa.notes.json"), std::string::npos) << readable.damage;
+  EXPECT_NE(readable.damage.text.find("r.dsa.notes.json"), std::string::npos)
+      << readable.damage.text;
 }
 
 // what info reads, recover saves, whatever bytes are wrong.

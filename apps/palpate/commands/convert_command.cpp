@@ -77,7 +77,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
 
 std::vector<std::string> formNames() {
   std::vector<std::string> names;
-  for (const RecordingForm& form : recordingForms()) names.emplace_back(form.ending + 1);
+  for (const std::string& ending : recordingEndings()) names.push_back(ending.substr(1));
   return names;
 }
 
@@ -114,9 +114,7 @@ int convertBatch(const CommandLine& given) {
     if (given.has(name))
       throw UsageError("--" + std::string(name) +
                        " doesn't go with -o; the ending of the template chooses the form");
-  std::vector<std::string> endings;
-  for (const RecordingForm& form : recordingForms()) endings.emplace_back(form.ending);
-  const BatchTemplate names = batchTemplateOf(given, endings);
+  const BatchTemplate names = batchTemplateOf(given, recordingEndings());
   return runBatchCommand(given, names, convertTaskOf(given, names.ending()));
 }
 

@@ -43,13 +43,13 @@ ValueReport valuesOf(const Profile& profile, const Progress& progress) {
 }
 
 // A detail that the operator entered; empty when there is none.
-std::string saidOf(const ReadableRecording& recording, const std::string& key) {
+std::string saidOf(const Recording& recording, const std::string& key) {
   const auto at = recording.meta.find(key);
   return at == recording.meta.end() ? std::string() : at->second;
 }
 
 // Texts of events "label" and "segment", each once, ordered by time.
-std::vector<std::string> labelsOf(const ReadableRecording& recording) {
+std::vector<std::string> labelsOf(const Recording& recording) {
   std::vector<std::string> texts;
   for (const RecordingEvent& event : recording.events)
     if ((event.kind == "label" || event.kind == "segment") && !event.text.empty() &&
@@ -59,9 +59,9 @@ std::vector<std::string> labelsOf(const ReadableRecording& recording) {
 }
 
 // The warnings of the reader, and the damage.
-std::vector<std::string> warningsOf(const ReadableRecording& recording) {
+std::vector<std::string> warningsOf(const Recording& recording) {
   std::vector<std::string> warnings = recording.profile.info().warnings;
-  if (!recording.damage.empty()) warnings.push_back(recording.damage);
+  if (!recording.damage.text.empty()) warnings.push_back(recording.damage.text);
   return warnings;
 }
 
@@ -77,7 +77,7 @@ Json detailsOf(const RecordingEvent& event) {
   }
 }
 
-Json eventsJson(const ReadableRecording& recording) {
+Json eventsJson(const Recording& recording) {
   return jsonList(recording.events, [](const RecordingEvent& event) {
     return Json::object()
         .set("time_ms", event.tUs / kUsPerMs)
@@ -135,7 +135,7 @@ std::vector<std::string> lossTexts(const std::vector<RecordingEvent>& events) {
 
 // `report` contains the members that come first.
 Json infoJsonOf(Json report,
-                const ReadableRecording& recording,
+                const Recording& recording,
                 const TimingReport& timing,
                 const ValueReport& values) {
   const Profile& profile = recording.profile;
@@ -167,7 +167,7 @@ Json infoJsonOf(Json report,
   Json labels = jsonList(labelsOf(recording));
   report.set("labels", labels)
       .set("events", eventsJson(recording))
-      .set("damaged_events", recording.damagedEvents);
+      .set("damaged_events", recording.damage.events);
   return report;
 }
 
@@ -193,7 +193,7 @@ std::string matricesText(const Profile& profile) {
 }
 
 // The operator's details, then every event with its time since the first frame.
-std::string notesText(const ReadableRecording& recording) {
+std::string notesText(const Recording& recording) {
   const Profile& profile = recording.profile;
   constexpr std::size_t kMostListed = 200;
   std::string text;
@@ -218,13 +218,13 @@ std::string notesText(const ReadableRecording& recording) {
   }
   if (events.size() > kMostListed)
     text += row("", "and " + std::to_string(events.size() - kMostListed) + " more: --json has all");
-  if (recording.damagedEvents > 0)
-    text += row("warning", eventsLeftOutText(recording.damagedEvents));
+  if (recording.damage.events > 0)
+    text += row("warning", eventsLeftOutText(recording.damage.events));
   return text;
 }
 
 std::string plainText(const std::string& file,
-                      const ReadableRecording& recording,
+                      const Recording& recording,
                       const TimingReport& timing,
                       const ValueReport& values) {
   const Profile& profile = recording.profile;
@@ -268,7 +268,7 @@ constexpr const char* kTableHeader =
 
 // One row of the table over several recordings; unknown values are empty.
 std::string tableRow(const std::filesystem::path& file,
-                     const ReadableRecording& recording,
+                     const Recording& recording,
                      const TimingReport& timing,
                      const ValueReport& values) {
   const Profile& profile = recording.profile;
@@ -306,7 +306,7 @@ int infoOfOne(const RecordingList& recordings,
       quiet,
       {},
       [&](const std::filesystem::path& file,
-          const ReadableRecording& recording,
+          const Recording& recording,
           const TextSink& write,
           const Progress& progress) {
         const TimingReport timing = timingOf(recording.profile);
@@ -330,7 +330,7 @@ int infoOfSeveral(const RecordingList& recordings,
       quiet,
       json ? TextFrame{.begin = "\n", .between = ",\n"} : TextFrame{},
       [&](const std::filesystem::path& file,
-          const ReadableRecording& recording,
+          const Recording& recording,
           const TextSink& write,
           const Progress& progress) {
         const TimingReport timing = timingOf(recording.profile);

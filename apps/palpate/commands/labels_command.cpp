@@ -87,7 +87,7 @@ int labelsCommand(const Arguments& words) {
       given.quiet(),
       {.begin = csvLine(header)},
       [&](const std::filesystem::path& file,
-          const ReadableRecording& recording,
+          const Recording& recording,
           const TextSink& write,
           const Progress&) {
         for (std::vector<std::string>& cells : labelRows(recording.events, recording.profile)) {

@@ -170,12 +170,13 @@ struct TextAhead {
 };
 
 std::string damageOf(const Profile& profile) { return lostText(profile); }
-std::string damageOf(const ReadableRecording& recording) {
-  if (!recording.damage.empty() || recording.damagedEvents == 0) return recording.damage;
-  return eventsLeftOutText(recording.damagedEvents);
+std::string damageOf(const Recording& recording) {
+  const Damage& damage = recording.damage;
+  return !damage.text.empty() || damage.events == 0 ? damage.text
+                                                    : eventsLeftOutText(damage.events);
 }
 const Profile& profileOf(const Profile& profile) { return profile; }
-const Profile& profileOf(const ReadableRecording& recording) { return recording.profile; }
+const Profile& profileOf(const Recording& recording) { return recording.profile; }
 
 // Progress of half of the work, starting at `begin`.
 Progress halfOf(const Progress& progress, double begin) {
@@ -199,7 +200,7 @@ int writeTexts(const RecordingList& list,
   };
   // The report on a single readable recording has its warnings.
   const auto notesOf = [&](const fs::path& file, const Content& content) {
-    const bool reported = std::is_same_v<Content, ReadableRecording> && !list.several;
+    const bool reported = std::is_same_v<Content, Recording> && !list.several;
     return reported ? std::vector<std::string>()
                     : notedWarnings(file, profileOf(content), list.several);
   };
@@ -362,9 +363,9 @@ int writeReadableTexts(const RecordingList& list,
                        const ReadableText& work,
                        const std::vector<std::string>& topics) {
   const auto read = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
-    return readableTopics(file, topics, progress, threads);
+    return readableRecording(file, {threads, topics}, progress);
   };
-  return writeTexts<ReadableRecording>(list, quiet, frame, read, work);
+  return writeTexts<Recording>(list, quiet, frame, read, work);
 }
 
 }  // namespace palpate::commands

@@ -48,10 +48,8 @@ using TextSink = std::function<void(const std::string& text)>;
 // These are called from several threads at once, each with another file.
 using ProfileText = std::function<void(
     const std::filesystem::path& file, const Profile&, const TextSink& write, const Progress&)>;
-using ReadableText = std::function<void(const std::filesystem::path& file,
-                                        const ReadableRecording&,
-                                        const TextSink& write,
-                                        const Progress&)>;
+using ReadableText = std::function<void(
+    const std::filesystem::path& file, const Recording&, const TextSink& write, const Progress&)>;
 // Why a recording can't stand in a table whose row of units is that of an earlier one.
 inline constexpr const char* kOtherUnits =
     "its values have another unit than those of the recordings before; give it a table of its own";
@@ -99,7 +97,7 @@ int writeProfileTexts(const RecordingList& list,
                       const TextFrame& frame,
                       const ProfileText& work);
 // The same with every recording read completely; of a damaged one the readable part is used, and
-// the rest is reported. `topics` as of readableTopics().
+// the rest is reported. `topics`: ReadOptions::topics.
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,

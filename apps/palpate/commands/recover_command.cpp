@@ -30,7 +30,7 @@ int recoverCommand(const Arguments& words) {
                             given.words()[1],
                             given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
                             progress.callback(),
-                            given.texts("topic"));
+                            {.topics = given.texts("topic")});
   }();
   if (report.state == RecoverReport::State::kNothing) throw Error(in + ": " + report.message);
   if (!given.quiet()) std::printf("%s\n", escapedLine(in + ": " + report.message).c_str());

@@ -111,12 +111,12 @@ Arguments withoutFoxgloveFlag(const Arguments& words) {
 }
 
 // The readable part of a recording; `damage` describes the rest.
-ReadableRecording streamedRecording(const CommandLine& given, std::string& damage) {
+Recording streamedRecording(const CommandLine& given, std::string& damage) {
   const std::string& file = given.words()[0];
   ProgressLine progress("reading " + file, given.quiet());
-  ReadableRecording readable = readableRecording(file, progress.callback());
+  Recording readable = readableRecording(file, {}, progress.callback());
   if (readable.profile.numFrames() == 0) throw Error(file + ": has no frames");
-  if (!readable.damage.empty()) damage = file + ": " + readable.damage;
+  if (!readable.damage.text.empty()) damage = file + ": " + readable.damage.text;
   return readable;
 }
 
@@ -220,7 +220,7 @@ int streamToPrograms(const CommandLine& given, StreamTargets targets) {
 // Prints the lines of the whole recording as fast as possible.
 int streamLinesOf(const CommandLine& given, StreamKind kind) {
   std::string damage;
-  const ReadableRecording recording = streamedRecording(given, damage);
+  const Recording recording = streamedRecording(given, damage);
   const Profile& profile = recording.profile;
   Lines lines(kind, false);
   ChainOptions options;

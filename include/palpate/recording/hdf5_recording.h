@@ -19,8 +19,7 @@
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
-#include <palpate/recording/exported_series.h>
-#include <palpate/recording/recording_event.h>
+#include <palpate/recording/recording_data.h>
 
 namespace palpate {
 
@@ -42,39 +41,22 @@ struct Hdf5WriteOptions {
   std::size_t threads = 0;
 };
 
-// What is written of a recording. All of it must outlive the call.
-struct Hdf5Content {
-  const Profile& profile;
-  std::span<const RecordingEvent> events;
-  // As readRecordingMeta(); what the profile says by itself (hand, serial number, ..) is added.
-  const std::map<std::string, std::string>& meta;
-  const ExportExtras& extras;  // its series are read to their end
-};
-
 // Writes PATH, whole or not at all. Memory is bounded, whatever the length of the recording. Throws
 // FileError, Cancelled, std::invalid_argument (a level out of range), and what reading throws.
-void writeHdf5(const Hdf5Content& content,
+void writeHdf5(const RecordingContent& content,
                const std::filesystem::path& path,
                Overwrite overwrite = Overwrite::kRefuse,
                const Progress& progress = {},
                const Hdf5WriteOptions& options = {});
 
-// A recording in an HDF5 file. A part of its stamps lies in memory; frames, angles and temperatures
-// are read when they are asked for, and the profile is safe from several threads. The process that
-// reads it lives as long as the profile.
-struct Hdf5Recording {
-  Profile profile;
-  std::vector<RecordingEvent> events;
-  std::map<std::string, std::string> meta;
-  Provenance provenance;
-};
-
-// Opens what writeHdf5() has made. The whole file is read once for its checksum. While a profile of
-// the file exists, the file is not opened again. Throws FileError (also when palpate_hdf5 can't be
+// Opens what writeHdf5() has made. The whole file is read once for its checksum. A part of the
+// stamps lies in memory; frames, angles and temperatures are read when they are asked for, and the
+// profile is safe from several threads. The process that reads it lives as long as the profile.
+// Throws FileError (also when palpate_hdf5 can't be
 // started); FormatError where it is damaged, cut off or changed, another program's (palpate import
 // reads those), of a newer layout, refers to other files, claims more than it holds, is compressed
 // by a filter that is not there, or libhdf5 could not read it: it crashed, took more than 2 s of a
 // processor for one step, or more than 256 MB of memory.
-Hdf5Recording readHdf5(const std::filesystem::path& path);
+Recording readHdf5(const std::filesystem::path& path);
 
 }  // namespace palpate

@@ -3,15 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <span>
-#include <string>
 
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
-#include <palpate/model/profile.h>
-#include <palpate/recording/exported_series.h>
-#include <palpate/recording/recording_event.h>
+#include <palpate/recording/recording_data.h>
 
 namespace palpate {
 
@@ -23,10 +18,7 @@ namespace palpate {
 // A MAT file of version 5 holds at most 2 GB per variable, here per structure. Throws FileError
 // (also where a structure would be larger: nothing is written then), Cancelled, and what reading
 // throws.
-void writeMat(const Profile& profile,
-              std::span<const RecordingEvent> events,
-              const std::map<std::string, std::string>& meta,
-              const ExportExtras& extras,
+void writeMat(const RecordingContent& content,
               const std::filesystem::path& path,
               Overwrite overwrite = Overwrite::kRefuse,
               const Progress& progress = {});

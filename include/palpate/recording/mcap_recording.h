@@ -18,8 +18,7 @@
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
-#include <palpate/recording/exported_series.h>
-#include <palpate/recording/recording_event.h>
+#include <palpate/recording/recording_data.h>
 
 namespace palpate {
 
@@ -49,18 +48,9 @@ struct McapWriteOptions {
   void validate() const;
 };
 
-// What is written of a recording. All of it must outlive the call.
-struct McapContent {
-  const Profile& profile;
-  std::span<const RecordingEvent> events;
-  // As readRecordingMeta(); what the profile says by itself (hand, serial number, ..) is added.
-  const std::map<std::string, std::string>& meta;
-  const ExportExtras& extras;  // its series are read to their end
-};
-
 // Writes PATH, whole or not at all. Memory is bounded, whatever the length of the recording. Throws
 // FileError, Cancelled, std::invalid_argument (options out of range), and what reading throws.
-void writeMcap(const McapContent& content,
+void writeMcap(const RecordingContent& content,
                const std::filesystem::path& path,
                Overwrite overwrite = Overwrite::kRefuse,
                const Progress& progress = {},
@@ -105,21 +95,9 @@ constexpr std::size_t kMaxMcapEventsBytes = 64u << 20;
 // "32 events beyond the 64 MB that are read were left out".
 std::string mcapEventsLeftOutText(std::size_t count);
 
-// A recording in an MCAP file. Stamps lie in memory; frames, angles and temperatures are read when
-// they are asked for, and the profile is safe from several threads.
-struct McapRecording {
-  Profile profile;
-  std::vector<RecordingEvent> events;  // the first 64 MB
-  std::map<std::string, std::string> meta;
-  Provenance provenance;
-  std::string damage;             // one line: what is missing; empty: nothing
-  std::size_t eventsLeftOut = 0;  // that are more than are read: no damage
-  // One line: messages and values of another program's file that are not used, with their count;
-  // empty: none. readMcap() also adds it to the warnings of the profile (lostText()).
-  std::string lost = {};
-};
-
-// Reads a whole MCAP file through, all its checksums, and opens it. Of another program's file each
+// Reads a whole MCAP file through, all its checksums, and opens it. Stamps lie in memory; frames,
+// angles and temperatures are read when they are asked for, and the profile is safe from several
+// threads. Of the events the first 64 MB are read. Of another program's file each
 // topic of images becomes a matrix of a plain hand, in the order of the topics' names: messages
 // sensor_msgs/msg/Image (CDR) and foxglove.RawImage (protobuf) of the encodings mono8, mono16,
 // 8UC1, 16UC1, 32FC1, at most 256 x 256. A frame is made at every stamp of any of them and holds
@@ -127,25 +105,26 @@ struct McapRecording {
 // the names of the joints; each sample has the last value of each joint. Where the stamps of a
 // topic don't ascend, all times are log times. What is left out as it can't be tactile data, and
 // what is guessed, is in info().warnings of the profile; messages and values that are lost are in
-// `lost`. `topics`: reads only these topics of another program's file. Throws FileError
+// Damage::unused, and in the warnings, too (lostText()). `topics`: reads only these topics of
+// another program's file. Throws FileError
 // (`topics` for a recording of Palpate's); FormatError where it is cut off, damaged, compressed in
 // another way, of a newer layout, where it has no images or one of `topics` can't be read;
 // Cancelled.
-McapRecording readMcap(const std::filesystem::path& path,
-                       const Progress& progress = {},
-                       std::size_t threads = 0,
-                       const std::vector<std::string>& topics = {});
+Recording readMcap(const std::filesystem::path& path,
+                   const Progress& progress = {},
+                   std::size_t threads = 0,
+                   const std::vector<std::string>& topics = {});
 // Reads what can be read of a file that is cut off or damaged: without chunks whose checksum is
-// wrong, and up to where it was cut. Throws FileError, FormatError (nothing can be read),
-// Cancelled.
-McapRecording recoverMcap(const std::filesystem::path& path,
-                          const Progress& progress = {},
-                          std::size_t threads = 0,
-                          const std::vector<std::string>& topics = {});
+// wrong, and up to where it was cut; what is lost isn't in the warnings. Throws FileError,
+// FormatError (nothing can be read), Cancelled.
+Recording recoverMcap(const std::filesystem::path& path,
+                      const Progress& progress = {},
+                      std::size_t threads = 0,
+                      const std::vector<std::string>& topics = {});
 // The events, or the meta data, of a file that Palpate has written; of other files none.
 // Only what they need is read. Throw as readMcap(). Events beyond kMaxMcapEventsBytes are left out
 // and counted.
 EventsReport readMcapEvents(const std::filesystem::path& path);
-std::map<std::string, std::string> readMcapMeta(const std::filesystem::path& path);
+RecordingMeta readMcapMeta(const std::filesystem::path& path);
 
 }  // namespace palpate

@@ -7,32 +7,19 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <string>
 
 #include <palpate/core/progress.h>
-#include <palpate/model/profile.h>
-#include <palpate/recording/recording_event.h>
+#include <palpate/recording/recording_data.h>
 
 namespace palpate {
 
-// Throws FileError, FormatError (no native recording, or so damaged that its index or layout is
-// gone; 'palpate recover' may help), Cancelled. A block whose checksum is wrong is found when it is
-// read: Profile::readFrame then throws FormatError; it is never shown as data.
-Profile readPalpate(const std::filesystem::path& path, const Progress& progress = {});
+// Reads a native recording as a whole, by one opening: an unfinished one is copied at each. Throws
+// FileError, FormatError (no native recording, or so damaged that its index or layout is gone;
+// 'palpate recover' may help), Cancelled. A block whose checksum is wrong is found when it is read:
+// Profile::readFrame then throws FormatError; it is never shown as data.
+Recording readPalpate(const std::filesystem::path& path, const Progress& progress = {});
 
 // The event table of a recording. Throws FileError, FormatError.
 EventsReport readPalpateEvents(const std::filesystem::path& path);
-
-// A native recording as a whole, read by one opening: an unfinished one is copied at each opening.
-struct PalpateContent {
-  Profile profile;
-  EventsReport events;
-  std::string eventsFault;                  // why the events can't be read; empty if they could
-  std::map<std::string, std::string> meta;  // as readRecordingMeta()
-};
-
-// Throws as readPalpate(); if the events can't be read, eventsFault says why instead.
-PalpateContent readPalpateContent(const std::filesystem::path& path, const Progress& progress);
 
 }  // namespace palpate

@@ -267,21 +267,20 @@ MatValue matProvenanceOf(const Provenance& from, const Profile& profile) {
 
 }  // namespace
 
-void writeMat(const Profile& profile,
-              std::span<const RecordingEvent> events,
-              const std::map<std::string, std::string>& meta,
-              const ExportExtras& extras,
+void writeMat(const RecordingContent& content,
               const std::filesystem::path& path,
               Overwrite overwrite,
               const Progress& progress) {
+  const Profile& profile = content.profile;
+  const ExportExtras& extras = content.extras;
   MatFile file(path, overwrite, extras.provenance.program);
-  MatExport content(profile, progress);
+  MatExport samples(profile, progress);
   file.add("provenance", matProvenanceOf(extras.provenance, profile));
-  file.add("meta", matMetaOf(profile, meta));
-  file.add("tactile", content.tactile());
-  file.add("joints", content.angles());
-  file.add("temperatures", content.temperatures());
-  file.add("events", matEventsOf(events));
+  file.add("meta", matMetaOf(profile, content.meta));
+  file.add("tactile", samples.tactile());
+  file.add("joints", samples.angles());
+  file.add("temperatures", samples.temperatures());
+  file.add("events", matEventsOf(content.events));
   for (const auto& series : extras.series) file.add(series->name(), MatExport::series(*series));
   file.commit();
 }

@@ -573,25 +573,6 @@ void requirePalpateLayout(Hdf5Process& file) {
                           std::to_string(kHdf5LayoutVersion));
 }
 
-// What is the same as long as nobody writes a file.
-struct Hdf5FileIdentity {
-  dev_t device;
-  ino_t node;
-  off_t bytes;
-  std::int64_t changedNs;
-  bool operator==(const Hdf5FileIdentity&) const = default;
-};
-
-Hdf5FileIdentity hdf5IdentityOf(const fs::path& path, int descriptor) {
-  struct stat found {};
-  if (::fstat(descriptor, &found) != 0)
-    throw FileError(path, "can't be read: " + std::generic_category().message(errno));
-  return {found.st_dev,
-          found.st_ino,
-          found.st_size,
-          std::int64_t{found.st_mtim.tv_sec} * 1'000'000'000 + found.st_mtim.tv_nsec};
-}
-
 // A file whose checksum doesn't fit is not read at all.
 void requireUndamaged(const fs::path& path, int descriptor) {
   if (::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK)
@@ -613,42 +594,23 @@ void requireUndamaged(const fs::path& path, int descriptor) {
         "fit");
 }
 
-// Files that are open, so that events and meta of a recording are not another opening.
-struct OpenHdf5File {
-  Hdf5FileIdentity identity;
-  std::weak_ptr<const Hdf5Storage> storage;
-};
-
 std::shared_ptr<const Hdf5Storage> openedHdf5(const fs::path& path) {
-  static std::mutex mutex;
-  static std::vector<OpenHdf5File> open;
   std::error_code failure;
   if (!fs::is_regular_file(path, failure))
     throw FileError(path, failure ? "can't be read: " + failure.message() : "is not a file");
   const FileDescriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (descriptor.get() < 0)
     throw FileError(path, "can't be read: " + std::generic_category().message(errno));
-  const Hdf5FileIdentity identity = hdf5IdentityOf(path, descriptor.get());
-  {
-    const std::lock_guard lock(mutex);
-    std::erase_if(open, [](const OpenHdf5File& file) { return file.storage.expired(); });
-    for (const OpenHdf5File& file : open)
-      if (file.identity == identity)
-        if (auto storage = file.storage.lock()) return storage;
-  }
   requireUndamaged(path, descriptor.get());
   // The very file that was checked, whatever the name stands for by now.
   auto file = std::make_unique<Hdf5Process>(path, descriptor.get(), Hdf5Use::kRecording);
   requirePalpateLayout(*file);
-  auto storage = std::make_shared<const Hdf5Storage>(std::move(file));
-  const std::lock_guard lock(mutex);
-  open.push_back({identity, storage});
-  return storage;
+  return std::make_shared<const Hdf5Storage>(std::move(file));
 }
 
 }  // namespace
 
-Hdf5Recording readHdf5(const fs::path& path) {
+Recording readHdf5(const fs::path& path) {
   const std::shared_ptr<const Hdf5Storage> storage = openedHdf5(path);
   auto meta = storage->meta();
   ProfileInfo info = readInfo(meta, "hdf5", storage->counts());
@@ -656,10 +618,10 @@ Hdf5Recording readHdf5(const fs::path& path) {
                                       storage->layout(),
                                       storage->angleSeries().width(),
                                       storage->temperatureSeries().width());
-  return {Profile(std::move(info), std::move(hand), storage),
-          storage->events(),
-          std::move(meta),
-          storage->provenance()};
+  return {.profile = Profile(std::move(info), std::move(hand), storage),
+          .events = storage->events(),
+          .meta = std::move(meta),
+          .provenance = storage->provenance()};
 }
 
 }  // namespace palpate

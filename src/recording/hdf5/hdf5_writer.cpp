@@ -57,7 +57,7 @@ void put(Bytes& bytes, std::size_t index, Number value) {
 
 class Hdf5Writer {
  public:
-  Hdf5Writer(const Hdf5Content& content,
+  Hdf5Writer(const RecordingContent& content,
              const std::filesystem::path& path,
              Overwrite overwrite,
              const Progress& progress,
@@ -627,7 +627,7 @@ class Hdf5Writer {
     }
   }
 
-  const Hdf5Content& content_;
+  const RecordingContent& content_;
   const Profile& profile_;
   const Progress& progress_;
   const Hdf5WriteOptions options_;
@@ -640,7 +640,7 @@ class Hdf5Writer {
 
 }  // namespace
 
-void writeHdf5(const Hdf5Content& content,
+void writeHdf5(const RecordingContent& content,
                const std::filesystem::path& path,
                Overwrite overwrite,
                const Progress& progress,

@@ -4,7 +4,7 @@
 
 namespace palpate {
 
-void writeHdf5(const Hdf5Content&,
+void writeHdf5(const RecordingContent&,
                const std::filesystem::path& path,
                Overwrite,
                const Progress&,

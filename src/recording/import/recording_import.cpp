@@ -65,7 +65,7 @@ void readPreviewRows(TableSource& source, ImportPreview& preview) {
 
 void requireImportable(const fs::path& data, const HandDescription& hand, const fs::path& out) {
   if (!hand.layout) throw std::invalid_argument("importRecording: the hand has no layout");
-  if (formatOf(out) != RecordingFormat::kPalpate)
+  if (formatOf(out).name != std::string_view("palpate"))
     throw FileError(out, "an import is written as .palpate; convert it afterwards");
   std::error_code ignored;
   if (fs::exists(out, ignored)) requireOther(data, out);

@@ -374,7 +374,7 @@ class ForeignReader {
         progress_(progress),
         salvage_(salvage) {}
 
-  McapRecording read() {
+  Recording read() {
     for (std::size_t i = 0; i < chunks_.size(); ++i) {
       reportProgress(progress_, i, chunks_.size());
       findIn(i);
@@ -914,7 +914,7 @@ class ForeignReader {
     return listed > kMaxListed ? text + "; and more" : text;
   }
 
-  McapRecording built() {
+  Recording built() {
     const std::vector<std::size_t> order = matrixTopics();
     std::vector<MatrixLayout> matrices;
     std::size_t cells = 0;
@@ -940,13 +940,9 @@ class ForeignReader {
     std::string lost = lostOfTopics(storage->numEarly());
     if (!lost.empty() && !salvage_) info.warnings.push_back(std::string(kLostWarning) + lost);
     const std::size_t axes = storage->numAngles() > 0 ? numColumns : 0;
-    return {Profile(std::move(info), withSeriesOf(std::move(hand), axes, 0), std::move(storage)),
-            {},
-            {},
-            {},
-            std::move(damage_),
-            0,
-            std::move(lost)};
+    return {.profile = Profile(
+                std::move(info), withSeriesOf(std::move(hand), axes, 0), std::move(storage)),
+            .damage = {.text = std::move(damage_), .unused = std::move(lost)}};
   }
 
   ForeignChunks chunks_;
@@ -978,11 +974,11 @@ class ForeignReader {
 
 }  // namespace
 
-McapRecording readForeignMcap(McapFile file,
-                              McapStructure structure,
-                              const std::vector<std::string>& topics,
-                              const Progress& progress,
-                              bool salvage) {
+Recording readForeignMcap(McapFile file,
+                          McapStructure structure,
+                          const std::vector<std::string>& topics,
+                          const Progress& progress,
+                          bool salvage) {
   return ForeignReader(std::move(file), std::move(structure), topics, progress, salvage).read();
 }
 

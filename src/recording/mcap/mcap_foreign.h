@@ -10,10 +10,10 @@ namespace palpate {
 
 // As readMcap() says; `topics`: the only ones that are read, or empty: all. In a salvage, damaged
 // chunks are left out. Throws FormatError, FileError, Cancelled.
-McapRecording readForeignMcap(McapFile file,
-                              McapStructure structure,
-                              const std::vector<std::string>& topics,
-                              const Progress& progress,
-                              bool salvage);
+Recording readForeignMcap(McapFile file,
+                          McapStructure structure,
+                          const std::vector<std::string>& topics,
+                          const Progress& progress,
+                          bool salvage);
 
 }  // namespace palpate

@@ -659,11 +659,11 @@ bool isOwnMcap(const McapStructure& structure) {
   return structure.metadata.contains(mcap_format::kAboutRecord);
 }
 
-McapRecording openOwnMcap(McapFile file,
-                          McapStructure structure,
-                          const Progress& progress,
-                          std::size_t threads,
-                          bool salvage) {
+Recording openOwnMcap(McapFile file,
+                      McapStructure structure,
+                      const Progress& progress,
+                      std::size_t threads,
+                      bool salvage) {
   const fs::path path = file.path();
   McapOwnFile own(path, structure);
   auto storage =
@@ -679,27 +679,21 @@ McapRecording openOwnMcap(McapFile file,
               mcapDamagedChunksText(damaged, storage->firstFault(), "samples");
   const std::size_t leftOut = storage->events().leftOut();
   std::vector<RecordingEvent> events = storage->events().take();
-  return {Profile(std::move(info), std::move(hand), std::move(storage)),
-          std::move(events),
-          std::move(meta),
-          mcapProvenanceOf(structure),
-          std::move(damage),
-          leftOut};
+  return {.profile = Profile(std::move(info), std::move(hand), std::move(storage)),
+          .events = std::move(events),
+          .meta = std::move(meta),
+          .provenance = mcapProvenanceOf(structure),
+          .damage = {.text = std::move(damage), .events = leftOut}};
 }
 
-McapRecording openMcap(const fs::path& path,
-                       const std::vector<std::string>& topics,
-                       const Progress& progress,
-                       std::size_t threads,
-                       bool salvage) {
-  const auto part = [&](double begin, double share) -> Progress {
-    if (!progress) return {};
-    return
-        [&progress, begin, share](double fraction) { return progress(begin + share * fraction); };
-  };
+Recording openMcap(const fs::path& path,
+                   const std::vector<std::string>& topics,
+                   const Progress& progress,
+                   std::size_t threads,
+                   bool salvage) {
   constexpr double kWalk = 0.3;  // share of the time
   McapFile file(path);
-  McapStructure structure = readMcapStructure(file, true, part(0.0, kWalk));
+  McapStructure structure = readMcapStructure(file, true, partOf(progress, 0.0, kWalk));
   if (!structure.damage.empty() && !salvage) {
     // Names the chunk that is damaged, if it is one.
     if (structure.checksumWrong)
@@ -712,24 +706,24 @@ McapRecording openMcap(const fs::path& path,
                     "is a recording of Palpate's, which is read as a whole: leave out --topic");
   if (isOwnMcap(structure))
     return openOwnMcap(
-        std::move(file), std::move(structure), part(kWalk, 1.0 - kWalk), threads, salvage);
+        std::move(file), std::move(structure), partOf(progress, kWalk, 1.0), threads, salvage);
   return readForeignMcap(
-      std::move(file), std::move(structure), topics, part(kWalk, 1.0 - kWalk), salvage);
+      std::move(file), std::move(structure), topics, partOf(progress, kWalk, 1.0), salvage);
 }
 
 }  // namespace
 
-McapRecording readMcap(const fs::path& path,
-                       const Progress& progress,
-                       std::size_t threads,
-                       const std::vector<std::string>& topics) {
+Recording readMcap(const fs::path& path,
+                   const Progress& progress,
+                   std::size_t threads,
+                   const std::vector<std::string>& topics) {
   return openMcap(path, topics, progress, threads, false);
 }
 
-McapRecording recoverMcap(const fs::path& path,
-                          const Progress& progress,
-                          std::size_t threads,
-                          const std::vector<std::string>& topics) {
+Recording recoverMcap(const fs::path& path,
+                      const Progress& progress,
+                      std::size_t threads,
+                      const std::vector<std::string>& topics) {
   return openMcap(path, topics, progress, threads, true);
 }
 

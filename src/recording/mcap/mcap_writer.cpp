@@ -99,7 +99,7 @@ class McapRunningSeries {
 
 }  // namespace
 
-void writeMcap(const McapContent& content,
+void writeMcap(const RecordingContent& content,
                const fs::path& path,
                Overwrite overwrite,
                const Progress& progress,

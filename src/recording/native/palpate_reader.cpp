@@ -169,22 +169,22 @@ Profile profileOf(std::shared_ptr<PalpateStorage> storage) {
 
 }  // namespace
 
-Profile readPalpate(const fs::path& path, const Progress& progress) {
-  return profileOf(std::make_shared<PalpateStorage>(path, progress));
-}
-
-PalpateContent readPalpateContent(const fs::path& path, const Progress& progress) {
+Recording readPalpate(const fs::path& path, const Progress& progress) {
   EventsReport events;
-  std::string fault;
+  Damage damage;
   auto storage = std::make_shared<PalpateStorage>(path, progress, [&](SqliteDatabase& database) {
     try {
       events = readEventRows(database);
-    } catch (const FormatError& error) {
-      fault = error.what();
+      damage.events = events.damaged;
+    } catch (const FormatError&) {
+      damage.eventsError = std::current_exception();
     }
   });
-  std::map<std::string, std::string> meta = storage->access().meta().values;
-  return {profileOf(std::move(storage)), std::move(events), std::move(fault), std::move(meta)};
+  RecordingMeta meta = storage->access().meta().values;
+  return {.profile = profileOf(std::move(storage)),
+          .events = std::move(events.events),
+          .meta = std::move(meta),
+          .damage = std::move(damage)};
 }
 
 EventsReport readPalpateEvents(const fs::path& path) {

@@ -73,7 +73,7 @@ inline Profile pad() {
 class CompareWindowFixture : public WindowTest {
  protected:
   CompareWindowFixture() {
-    environment_.read = [](const std::filesystem::path& path, const Progress&) {
+    environment_.read = asRecording([](const std::filesystem::path& path, const Progress&) {
       const std::string name = path.stem().string();
       if (name == "early") return grasped(60, 10, 500.0F);
       if (name == "late") return grasped(80, 30, 300.0F, 3'600'000);
@@ -85,7 +85,7 @@ class CompareWindowFixture : public WindowTest {
       if (name == "pad") return pad();
       if (name == "empty") return profileWithStamps({});
       return twentyFrames();
-    };
+    });
     // The figures below are of means.
     WindowTest::choose("signalsPlotted", 0);
   }

@@ -60,9 +60,9 @@ void compare(const QImage& picture, const std::string& name) {
 class GoldenPicturesTest : public WindowTest {
  protected:
   GoldenPicturesTest() {
-    environment_.read = [](const std::filesystem::path&, const Progress&) {
+    environment_.read = asRecording([](const std::filesystem::path&, const Progress&) {
       return synthesize({.durationS = 12.0, .grasps = 3});
-    };
+    });
   }
   void show(const QSize& size, ThemeChoice theme) {
     window().state().appearance.setTheme(theme);

@@ -31,7 +31,7 @@ struct Heard {
 TEST(RecordingOpener, DeliversTheRecordingWithItsSignals) {
   RecordingOpener opener([](const auto&, const Progress& progress) {
     progress(0.5);
-    return twentyFrames();
+    return Recording{twentyFrames()};
   });
   Heard heard(opener);
   opener.open("a.dsa");
@@ -61,7 +61,7 @@ TEST(RecordingOpener, TellsWhatIsWrongAndGoesOnWithTheNext) {
   RecordingOpener opener([](const std::filesystem::path& path, const Progress&) {
     if (path == "bad.dsa") throw FormatError(path, "cut short", 12);
     if (path == "big.dsa") throw std::bad_alloc();
-    return twentyFrames();
+    return Recording{twentyFrames()};
   });
   Heard heard(opener);
   for (const char* name : {"bad.dsa", "big.dsa", "good.dsa"}) opener.open(name);
@@ -72,7 +72,7 @@ TEST(RecordingOpener, TellsWhatIsWrongAndGoesOnWithTheNext) {
   EXPECT_EQ(heard.opened.size(), 1);
 }
 
-Profile endless(const std::filesystem::path&, const Progress& progress) {
+Recording endless(const std::filesystem::path&, const Progress& progress) {
   while (progress(0.3)) {
   }
   throw Cancelled();
@@ -109,7 +109,7 @@ TEST(RecordingOpener, LeavingDoesNotWaitForAFileThatDoesNotAnswer) {
   {
     RecordingOpener opener([end](const auto&, const Progress&) {
       end->wait();
-      return twentyFrames();
+      return Recording{twentyFrames()};
     });
     opener.open("a.dsa");
   }

@@ -1,8 +1,12 @@
 #include "gui/testing/sample_profiles.h"
 
+#include <utility>
+
 #include "palpate/device/sdh2.h"
+#include <palpate/core/error.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/profile_builder.h>
+#include <palpate/recording/recording.h>
 
 namespace palpate::gui {
 namespace {
@@ -36,6 +40,23 @@ Profile twentyFrames() {
   std::vector<std::int64_t> stamps;
   for (std::int64_t i = 0; i < 20; ++i) stamps.push_back(50 * i);
   return profileWithStamps(stamps);
+}
+
+std::function<Recording(const std::filesystem::path&, const Progress&)> asRecording(
+    std::function<Profile(const std::filesystem::path&, const Progress&)> read) {
+  return [read = std::move(read)](const std::filesystem::path& path, const Progress& progress) {
+    Recording recording{.profile = read(path, progress)};
+    if (!std::filesystem::exists(path)) return recording;
+    try {
+      const EventsReport report = readEvents(path);
+      recording.events = report.events;
+      recording.damage.events = report.damaged;
+      recording.meta = readRecordingMeta(path);
+    } catch (const Error&) {
+      recording.damage.eventsError = std::current_exception();
+    }
+    return recording;
+  };
 }
 
 }  // namespace palpate::gui

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <vector>
 
+#include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/recording_data.h>
 
 namespace palpate::gui {
 
@@ -15,6 +19,10 @@ Profile profileWithStamps(const std::vector<std::int64_t>& stampsMs);
 Profile twentyFrames();
 // Three frames whose times count from 0.
 Profile undatedFrames();
+// A reader of recordings that makes up their samples. Their events are those of the file, if it is
+// there.
+std::function<Recording(const std::filesystem::path&, const Progress&)> asRecording(
+    std::function<Profile(const std::filesystem::path&, const Progress&)> read);
 // One frame of the SDH-2, all zero.
 TactileFrame emptyFrame();
 

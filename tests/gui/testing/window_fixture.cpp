@@ -32,7 +32,7 @@ WindowTest::WindowTest() {
   environment_ = {.dataFolder = folder_.path(),
                   .settingsPath = settingsFile(),
                   .clock = &clock_,
-                  .read = read,
+                  .read = asRecording(read),
                   .ask = &ask_};
 }
 

@@ -722,8 +722,8 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
   window().settle();
   ASSERT_EQ(ask_.newFiles.began.size(), 1);
   EXPECT_TRUE(ask_.newFiles.began[0].endsWith("grasps_copy.palpate"));
-  for (const RecordingForm& form : recordingForms())
-    EXPECT_TRUE(ask_.newFiles.filters[0].contains(form.ending)) << form.ending;
+  for (const std::string& ending : recordingEndings())
+    EXPECT_TRUE(ask_.newFiles.filters[0].contains(ending.c_str())) << ending;
   const Profile copy = openRecording(folder_ / "copy.palpate");
   const Profile all = openRecording(path_);
   ASSERT_EQ(copy.numFrames(), all.numFrames());

@@ -23,12 +23,13 @@ class WindowStateTest : public ::testing::Test {
  protected:
   WindowStateTest() {
     windowState_ = std::make_unique<WindowState>(
-        WindowEnvironment{
-            .dataFolder = testing::dataFolder(),
-            .settingsPath = QString::fromStdString((folder_ / "p.ini").string()),
-            .clock = &clock_,
-            .read = [](const std::filesystem::path&, const Progress&) { return twentyFrames(); },
-            .ask = &ask_},
+        WindowEnvironment{.dataFolder = testing::dataFolder(),
+                          .settingsPath = QString::fromStdString((folder_ / "p.ini").string()),
+                          .clock = &clock_,
+                          .read = asRecording([](const std::filesystem::path&, const Progress&) {
+                            return twentyFrames();
+                          }),
+                          .ask = &ask_},
         &actionsOf_);
     windowState_->menus = {.edit = new QMenu(&actionsOf_),
                            .connections = new QMenu(&actionsOf_),

@@ -219,14 +219,12 @@ QString countsText(const BatchStatus& status) {
 namespace {
 
 void batchFields(SettingsTable& table, BatchChoices& choices) {
-  const auto forms = recordingForms();
   table.texts("paths", choices.paths);
   table.number("work", choices.work, 0, static_cast<int>(BatchWork::kRender));
   table.text("filters", choices.filters);
-  table.text("form", choices.form, [&](const QString& text) {
-    return std::any_of(forms.begin(), forms.end(), [&](const RecordingForm& form) {
-      return text == form.ending + 1;
-    });
+  table.text("form", choices.form, [](const QString& text) {
+    const auto endings = recordingEndings();
+    return std::find(endings.begin(), endings.end(), "." + text.toStdString()) != endings.end();
   });
   table.flag("eachGrasp", choices.eachGrasp);
   table.text("picture", choices.picture, [](const QString& text) {

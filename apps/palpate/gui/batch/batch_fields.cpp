@@ -43,8 +43,9 @@ QDoubleSpinBox* limitBox(const char* name, double least, double most, const QStr
 
 std::vector<std::pair<QString, QString>> formItems() {
   std::vector<std::pair<QString, QString>> items;
-  for (const RecordingForm& form : recordingForms())
-    items.emplace_back(QString("%1: %2").arg(form.ending, form.purpose), form.ending + 1);
+  for (const RecordingFormat* format : recordingFormats())
+    for (const char* ending : format->endings)
+      items.emplace_back(QString("%1: %2").arg(ending, format->purpose), ending + 1);
   return items;
 }
 

@@ -24,12 +24,6 @@ constexpr const char* kBatchMovie = "mp4";
 constexpr double kBatchMovieDpi = 96.0;  // one pixel per unit
 constexpr double kBatchReading = 0.2;    // part of the progress
 
-Progress batchPicturePart(const Progress& progress, double from, double to) {
-  return [&progress, from, to](double fraction) {
-    return !progress || progress(from + (to - from) * fraction);
-  };
-}
-
 FramePictures::Paint batchPainter(const Profile& profile, const MatricesPictureOptions& options) {
   return [profile, options](QPainter& painter, std::size_t frame) {
     MatricesPictureOptions now = options;
@@ -56,8 +50,7 @@ BatchAnswer drawBatchPicture(const BatchPictureOptions& batch,
                              Overwrite overwrite,
                              const Progress& progress,
                              std::size_t threads) {
-  const Profile whole =
-      openRecording(item.source, batchPicturePart(progress, 0.0, kBatchReading), threads);
+  const Profile whole = openRecording(item.source, partOf(progress, 0.0, kBatchReading), threads);
   const Profile profile = filteredRecording(batch.filters, whole, item.source);
   const std::string lost = lostText(whole);
   const std::string problem = lost.empty() ? lost : item.source.string() + ": " + lost;
@@ -87,7 +80,7 @@ BatchAnswer drawBatchPicture(const BatchPictureOptions& batch,
              batchPainter(profile, options),
              paper,
              overwrite,
-             batchPicturePart(progress, kBatchReading, 1.0));
+             partOf(progress, kBatchReading, 1.0));
   return {.said = counted(span.count(), "frame"), .problem = problem};
 }
 

@@ -88,7 +88,7 @@ void StartScene::showEvent(QShowEvent* event) {
                         ratio = devicePixelRatioF(),
                         font = this->font(),
                         film = film_](const Progress& progress) {
-      const OpenedRecordingPtr recording = makeOpenedRecording(path, openRecording(path), progress);
+      const OpenedRecordingPtr recording = makeOpenedRecording(path, readRecording(path), progress);
       HandPictureOptions options;
       MatricesPictureOptions& page = options.page;
       page.size = {size.width() * (1.0 - kHandShare), size.height()};

@@ -25,17 +25,16 @@ OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
                                      const Progress& progress) {
   // A recipe that needs all frames at once filters in a first pass, before the signals are
   // computed.
-  const auto part = [&](double from, double to) -> Progress {
-    if (!progress) return {};
-    return
-        [&progress, from, to](double fraction) { return progress(from + (to - from) * fraction); };
-  };
-  const Profile profile = filteredProfile(
-      source->profile, recipe, {settingsTimesUs(source->events.events)}, part(0.0, 0.5));
-  const OpenedRecordingPtr made = makeOpenedRecording(source->path, profile, part(0.5, 1.0));
+  const Profile profile = filteredProfile(source->profile,
+                                          recipe,
+                                          {settingsTimesUs(source->events.events)},
+                                          partOf(progress, 0.0, 0.5));
+  const OpenedRecordingPtr made =
+      makeOpenedRecording(source->path, profile, partOf(progress, 0.5, 1.0));
   auto filtered = std::make_shared<OpenedRecording>(*made);
   filtered->timing = source->timing;
   filtered->events = source->events;
+  filtered->meta = source->meta;
   filtered->eventsFailure = source->eventsFailure;
   filtered->saturatedFrames = source->saturatedFrames;
   return filtered;

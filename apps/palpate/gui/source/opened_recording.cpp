@@ -143,17 +143,6 @@ void addGapsOfEvents(OpenedRecording& opened) {
   for (const Gap& gap : gaps) opened.gapFrames.push_back(gap.frame);
 }
 
-void readTheirEvents(OpenedRecording& opened) {
-  std::error_code failure;
-  if (!std::filesystem::exists(opened.path, failure)) return;
-  try {
-    opened.events = readEvents(opened.path);
-    opened.meta = readRecordingMeta(opened.path);
-  } catch (const std::exception& error) {
-    opened.eventsFailure = error.what();
-  }
-}
-
 }  // namespace
 
 QString fileNameOf(const OpenedRecording& recording) {
@@ -290,24 +279,16 @@ std::shared_ptr<OpenedRecording> computed(std::filesystem::path path,
 }  // namespace
 
 OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
-                                       Profile profile,
+                                       Recording recording,
                                        const Progress& progress,
                                        std::size_t longFrom) {
-  const auto opened = computed(std::move(path), std::move(profile), {}, progress, longFrom);
-  readTheirEvents(*opened);
-  addGapsOfEvents(*opened);
-  return opened;
-}
-
-OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
-                                       ReadableRecording readable,
-                                       const Progress& progress,
-                                       std::size_t longFrom) {
+  Damage& damage = recording.damage;
   const auto opened = computed(
-      std::move(path), std::move(readable.profile), std::move(readable.damage), progress, longFrom);
-  opened->events = {std::move(readable.events), readable.damagedEvents};
-  opened->notInFile = std::move(readable.notInFile);
-  opened->meta = std::move(readable.meta);
+      std::move(path), std::move(recording.profile), std::move(damage.text), progress, longFrom);
+  if (opened->damage.empty()) opened->eventsFailure = damage.eventsFault();
+  opened->events = {std::move(recording.events), damage.events};
+  opened->notInFile = std::move(damage.notInFile);
+  opened->meta = std::move(recording.meta);
   addGapsOfEvents(*opened);
   return opened;
 }

@@ -101,16 +101,20 @@ inline constexpr double kEndOfTimeS = std::numeric_limits<double>::max();
 // The file name without its folder, as the window shows it.
 QString fileNameOf(const OpenedRecording& recording);
 
-// Computes everything that the profile doesn't contain itself. Throws Cancelled.
+// Computes everything that a recording, or the readable part of a damaged one, doesn't contain
+// itself. Throws Cancelled.
 OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
-                                       Profile profile,
+                                       Recording recording,
                                        const Progress& progress = {},
                                        std::size_t longFrom = OpenedRecording::kLongFrom);
-// The same of the readable part of a damaged recording.
-OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
-                                       ReadableRecording readable,
-                                       const Progress& progress = {},
-                                       std::size_t longFrom = OpenedRecording::kLongFrom);
+// The same without events and meta data.
+inline OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
+                                              Profile profile,
+                                              const Progress& progress = {},
+                                              std::size_t longFrom = OpenedRecording::kLongFrom) {
+  return makeOpenedRecording(
+      std::move(path), Recording{.profile = std::move(profile)}, progress, longFrom);
+}
 // Whether the recording was never finished: its writer ended before it could.
 bool isUnfinished(const OpenedRecording& recording);
 

@@ -26,8 +26,8 @@ OpenedRecordingPtr openedBy(const RecordingOpener::Read& read,
       return makeOpenedRecording(path, read(path, reading), computing);
     } catch (const FormatError& error) {
       if (!readDamaged) throw;
-      ReadableRecording readable = readDamaged(path, reading);
-      if (readable.damage.empty()) readable.damage = error.what();
+      Recording readable = readDamaged(path, reading);
+      if (readable.damage.text.empty()) readable.damage.text = error.what();
       return makeOpenedRecording(path, std::move(readable), computing);
     }
   } catch (const std::bad_alloc&) {
@@ -39,9 +39,9 @@ OpenedRecordingPtr openedBy(const RecordingOpener::Read& read,
 
 RecordingOpener::RecordingOpener(QObject* parent)
     : RecordingOpener([](const std::filesystem::path& path,
-                         const Progress& progress) { return openRecording(path, progress); },
+                         const Progress& progress) { return readRecording(path, {}, progress); },
                       [](const std::filesystem::path& path, const Progress& progress) {
-                        return readableRecording(path, progress);
+                        return readableRecording(path, {}, progress);
                       },
                       parent) {}
 

@@ -17,10 +17,9 @@ class RecordingOpener : public QObject {
   Q_OBJECT
  public:
   // How a file is read; tests supply their own function.
-  using Read = std::function<Profile(const std::filesystem::path&, const Progress&)>;
+  using Read = std::function<Recording(const std::filesystem::path&, const Progress&)>;
   // How the readable part of a damaged file is read.
-  using ReadDamaged =
-      std::function<ReadableRecording(const std::filesystem::path&, const Progress&)>;
+  using ReadDamaged = Read;
 
   explicit RecordingOpener(QObject* parent = nullptr);
   // Without `readDamaged` a damaged file fails.

@@ -18,22 +18,20 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kCropFolder = "recent/crop_folder";
+constexpr std::string_view kCropEnding = ".palpate";
 
 // The filter of a file dialogue: each format that a recording can be saved in, its own first.
 QString formatFilter() {
   QStringList formats;
-  for (const RecordingForm& form : recordingForms())
-    formats.insert(form.format == RecordingFormat::kPalpate ? 0 : formats.size(),
-                   QString("%1 (*%2)").arg(form.purpose, form.ending));
+  for (const RecordingFormat* format : recordingFormats())
+    for (const char* ending : format->endings)
+      formats.insert(ending == kCropEnding ? 0 : formats.size(),
+                     QString("%1 (*%2)").arg(format->purpose, ending));
   return formats.join(";;");
 }
 
 // Whether a file of this format can be opened as a recording.
-bool canBeOpened(const QString& path) {
-  const RecordingFormat format = formatOf(path.toStdString());
-  return format == RecordingFormat::kPalpate || format == RecordingFormat::kDsa ||
-         format == RecordingFormat::kHdf5 || format == RecordingFormat::kMcap;
-}
+bool canBeOpened(const QString& path) { return formatOf(path.toStdString()).reader != nullptr; }
 
 }  // namespace
 
@@ -66,12 +64,9 @@ SaveExtras CropJob::extrasOf(const OpenedRecording& recording,
                              const Profile& profile,
                              const std::filesystem::path& out,
                              bool isPart) {
-  const RecordingFormat format = formatOf(out);
   SaveExtras extras;
   // The file of the recording may be damaged, or gone since it was opened.
-  if (format == RecordingFormat::kHdf5 || format == RecordingFormat::kMat ||
-      format == RecordingFormat::kMcap)
-    extras = exportExtras({}, recording.path, out, profile, {});
+  if (formatOf(out).takesSeries) extras = exportExtras({}, recording.path, out, profile, {});
   extras.meta = recording.meta;
   if (isPart) extras.meta.erase("settings");
   return extras;

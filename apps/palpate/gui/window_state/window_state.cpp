@@ -22,7 +22,7 @@ const Clock& clockOf(const WindowEnvironment& environment) {
 RecordingOpener::Read readerOf(const WindowEnvironment& environment) {
   if (environment.read) return environment.read;
   return [](const std::filesystem::path& path, const Progress& progress) {
-    return openRecording(path, progress);
+    return readRecording(path, {}, progress);
   };
 }
 
@@ -30,7 +30,7 @@ RecordingOpener::Read readerOf(const WindowEnvironment& environment) {
 RecordingOpener::ReadDamaged damagedReaderOf(const WindowEnvironment& environment) {
   if (environment.read) return {};
   return [](const std::filesystem::path& path, const Progress& progress) {
-    return readableRecording(path, progress);
+    return readableRecording(path, {}, progress);
   };
 }
 

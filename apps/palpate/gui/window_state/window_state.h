@@ -49,7 +49,7 @@ struct WindowEnvironment {
   QString settingsPath;
   // Null: the system's clock.
   const Clock* clock = nullptr;
-  // How a recording is read; empty: openRecording().
+  // How a recording is read; empty: readRecording().
   RecordingOpener::Read read = {};
   // Joint angles assumed for recordings that have none [deg]; empty: none.
   std::vector<double> assumedAnglesDeg = {};
