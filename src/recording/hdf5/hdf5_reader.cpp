@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -26,6 +25,7 @@
 #include "palpate/recording/hdf5_recording.h"
 #include "palpate/recording/palpate_schema.h"
 
+#include "recording/block_cache.h"
 #include "recording/hdf5/hdf5_layout.h"
 #include "recording/hdf5_process.h"
 #include "recording/profile_meta.h"
@@ -174,22 +174,15 @@ class StampSeries {
   // The lock is held.
   const std::vector<std::int64_t>& pieceWith(std::size_t index) const {
     const std::size_t first = index - index % kPiece;
-    for (auto it = pieces_.begin(); it != pieces_.end(); ++it)
-      if (it->first == first) {
-        if (it != pieces_.begin()) pieces_.splice(pieces_.begin(), pieces_, it);
-        return pieces_.front().second;
-      }
-    pieces_.emplace_front(first, array_->integers(first, std::min(kPiece, size_ - first)));
-    if (pieces_.size() > kPieces) pieces_.pop_back();
-    return pieces_.front().second;
+    if (const auto* kept = pieces_.find(first)) return *kept;
+    return pieces_.add(first, 1, array_->integers(first, std::min(kPiece, size_ - first)));
   }
 
   std::optional<ReadArray> array_;
   std::size_t size_ = 0;
   std::vector<std::int64_t> firstsUs_;  // of the pieces
   mutable std::mutex mutex_;
-  // First index and stamps; the last used one first.
-  mutable std::list<std::pair<std::size_t, std::vector<std::int64_t>>> pieces_;
+  mutable BlockCache<std::vector<std::int64_t>> pieces_{kPieces};  // by first index
 };
 
 // Joint angles or temperatures: stamps, and values in blocks of rows. Safe from several threads.
@@ -484,15 +477,8 @@ class Hdf5Storage final : public ProfileStorage {
   std::shared_ptr<const FrameBlock> blockWith(std::size_t frame) const {
     const std::size_t first = frame / framesPerBlock_ * framesPerBlock_;
     const std::lock_guard lock(mutex_);
-    for (auto it = cache_.begin(); it != cache_.end(); ++it)
-      if ((*it)->first == first) {
-        cache_.splice(cache_.begin(), cache_, it);
-        return cache_.front();
-      }
-    auto block = readBlock(first);
-    cache_.push_front(block);
-    if (cache_.size() > kCachedFrameBlocks) cache_.pop_back();
-    return block;
+    if (const auto* kept = cache_.find(first)) return *kept;
+    return cache_.add(first, 1, readBlock(first));
   }
 
   std::shared_ptr<const FrameBlock> readBlock(std::size_t first) const {
@@ -554,8 +540,8 @@ class Hdf5Storage final : public ProfileStorage {
   std::vector<ReadArray> kept_;
   bool counts_ = true;
   std::size_t framesPerBlock_ = 1;
-  mutable std::mutex mutex_;                                    // over the cache
-  mutable std::list<std::shared_ptr<const FrameBlock>> cache_;  // the last used one first
+  mutable std::mutex mutex_;  // over the cache
+  mutable BlockCache<std::shared_ptr<const FrameBlock>> cache_{kCachedFrameBlocks};
 };
 
 void requirePalpateLayout(Hdf5Process& file) {

@@ -1,24 +1,25 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <optional>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#include <zlib.h>
 
-#include "palpate/core/bounded_queue.h"
 #include "palpate/core/error.h"
+#include "palpate/core/ordered_work.h"
 #include "palpate/core/time.h"
 #include "palpate/model/active_taxels.h"
 #include "palpate/recording/hdf5_recording.h"
 
-#include "recording/hdf5/chunk_compression.h"
 #include "recording/hdf5/hdf5_layout.h"
 #include "recording/hdf5/hdf5_output.h"
 #include "recording/profile_meta.h"
+#include "recording/running_series.h"
 
 namespace palpate {
 namespace {
@@ -29,6 +30,7 @@ using Shape = std::vector<hsize_t>;
 constexpr std::size_t kMaxChunkBytes = 256u << 10;
 constexpr std::size_t kMaxChunkFrames = 1024;
 constexpr std::size_t kMaxChunkRows = 4096;
+constexpr std::size_t kMostWaitingChunks = 48;
 
 // The kinds of numbers that are written.
 struct NumberType {
@@ -55,6 +57,23 @@ void put(Bytes& bytes, std::size_t index, Number value) {
   std::memcpy(bytes.data() + index * sizeof value, &value, sizeof value);
 }
 
+// The bytes that HDF5's filters `shuffle` and `deflate` make of a chunk: the first bytes of all
+// elements, then the second ones, and so on, compressed as a zlib stream.
+Bytes shuffledAndDeflated(const Bytes& raw, std::size_t elementBytes, int level) {
+  Bytes shuffled(raw.size());
+  const std::size_t count = raw.size() / elementBytes;
+  for (std::size_t byte = 0; byte < elementBytes; ++byte)
+    for (std::size_t i = 0; i < count; ++i)
+      shuffled[byte * count + i] = raw[i * elementBytes + byte];
+  uLongf size = compressBound(static_cast<uLong>(raw.size()));
+  Bytes packed(size);
+  if (compress2(packed.data(), &size, shuffled.data(), static_cast<uLong>(raw.size()), level) !=
+      Z_OK)
+    throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
+}
+
 class Hdf5Writer {
  public:
   Hdf5Writer(const RecordingContent& content,
@@ -67,9 +86,7 @@ class Hdf5Writer {
         progress_(progress),
         options_(options),
         out_(path, overwrite),
-        work_((options.threads != 0 ? options.threads
-                                    : std::max(1u, std::thread::hardware_concurrency())) -
-              1) {}
+        work_(otherThreads(options.threads), kMostWaitingChunks) {}
 
   void write() {
     {
@@ -108,23 +125,11 @@ class Hdf5Writer {
   }
 
  private:
-  // A series that is being computed by a thread of its own, and where its rows go.
-  struct RowBlock {
-    std::size_t first = 0;
-    Bytes times;
-    std::vector<Bytes> columns;
-    std::exception_ptr failure;
-  };
-  struct RunningSeries {
-    explicit RunningSeries(ExportedSeries& given) : series(given) {}
-    ~RunningSeries() { queue.close(); }
-    ExportedSeries& series;
+  // A series, and where its rows go.
+  struct WrittenSeries {
     ChunkedArray* times = nullptr;
     ChunkedArray* values = nullptr;
-    std::size_t rowsPerBlock = 1;
-    std::size_t taken = 0;
-    BoundedQueue<RowBlock> queue{2};
-    std::jthread thread;  // last: it ends before what it uses
+    std::unique_ptr<RunningSeries> rows;
   };
 
   // -- Objects of the file; the lock is held. --
@@ -483,9 +488,9 @@ class Hdf5Writer {
     for (std::size_t first = 0; first < count; first += frames.perChunk) {
       reportProgress(progress_, first, count);
       writeFrameChunk(frames, first, std::min(count, first + frames.perChunk), frame);
-      for (const auto& series : series_) takeRows(*series, first + frames.perChunk);
+      for (const auto& series : series_) takeRows(series, first + frames.perChunk);
     }
-    for (const auto& series : series_) takeRows(*series, series->series.numRows());
+    for (const auto& series : series_) takeRows(series, std::numeric_limits<std::size_t>::max());
   }
 
   void writeFrameChunk(FrameArrays& frames,
@@ -558,10 +563,10 @@ class Hdf5Writer {
   // -- Series --
 
   void startSeries(ExportedSeries& series) {
-    auto running = std::make_unique<RunningSeries>(series);
     const std::size_t count = series.numRows();
     const std::size_t width = series.columns().size();
-    running->rowsPerBlock = std::clamp<std::size_t>(count, 1, kMaxChunkRows);
+    const std::size_t perChunk = std::clamp<std::size_t>(count, 1, kMaxChunkRows);
+    WrittenSeries written;
     {
       const auto lock = hdf5Lock();
       const std::string& group = series.name();
@@ -572,58 +577,33 @@ class Hdf5Writer {
         names.push_back(column.name);
         units.push_back(column.unit);
       }
-      running->times = &timeArray(group, count, running->rowsPerBlock);
-      running->values =
-          &chunkedArray(group + "/values", f64(), {count, width}, {running->rowsPerBlock, 1});
-      attribute(running->values->id.get(), "column_units", units);
+      written.times = &timeArray(group, count, perChunk);
+      written.values = &chunkedArray(group + "/values", f64(), {count, width}, {perChunk, 1});
+      attribute(written.values->id.get(), "column_units", units);
       const Hdf5Id column = textArray(group + "/column", names);
       makeScale(column.get(), "column");
-      attachScale(running->values->id.get(), running->times->id.get(), 0);
-      attachScale(running->values->id.get(), column.get(), 1);
+      attachScale(written.values->id.get(), written.times->id.get(), 0);
+      attachScale(written.values->id.get(), column.get(), 1);
     }
-    running->thread = std::jthread([&to = *running] { computeRows(to); });
-    series_.push_back(std::move(running));
+    written.rows = std::make_unique<RunningSeries>(series, "writeHdf5");
+    series_.push_back(std::move(written));
   }
 
-  static void computeRows(RunningSeries& to) {
-    const std::size_t width = to.series.columns().size();
-    std::vector<double> row(width);
-    RowBlock block;
-    std::size_t inBlock = 0;
-    const auto begin = [&](std::size_t first) {
-      block = {first, Bytes(to.rowsPerBlock * 8), std::vector<Bytes>(width), {}};
-      for (Bytes& column : block.columns) column.resize(to.rowsPerBlock * 8);
-      inBlock = 0;
-    };
-    try {
-      begin(0);
-      std::int64_t timeUs = 0;
-      for (std::size_t i = 0; to.series.next(timeUs, row); ++i) {
-        put(block.times, inBlock, timeUs);
-        for (std::size_t c = 0; c < width; ++c) put(block.columns[c], inBlock, row[c]);
-        if (++inBlock < to.rowsPerBlock) continue;
-        if (!to.queue.push(std::move(block))) return;
-        begin(i + 1);
+  // Writes the chunks that begin before row `until`.
+  void takeRows(const WrittenSeries& series, std::size_t until) {
+    RunningSeries& rows = *series.rows;
+    const std::size_t perChunk = series.times->chunk[0];
+    while (rows.taken() < until && rows.nextUs()) {
+      const hsize_t first = rows.taken();
+      Bytes times(perChunk * 8);
+      std::vector<Bytes> columns(series.values->shape[1], Bytes(perChunk * 8));
+      for (std::size_t i = 0; i < perChunk && rows.nextUs(); ++i, rows.advance()) {
+        put(times, i, *rows.nextUs());
+        for (std::size_t c = 0; c < columns.size(); ++c) put(columns[c], i, rows.row()[c]);
       }
-      if (inBlock > 0) to.queue.push(std::move(block));
-    } catch (...) {
-      block = {};
-      block.failure = std::current_exception();
-      to.queue.push(std::move(block));
-    }
-    to.queue.close();
-  }
-
-  // Writes the blocks that begin before row `until`.
-  void takeRows(RunningSeries& from, std::size_t until) {
-    while (from.taken < std::min(until, from.series.numRows())) {
-      auto block = from.queue.pop();
-      if (!block) throw std::logic_error("writeHdf5: a series has fewer rows than it says");
-      if (block->failure) std::rethrow_exception(block->failure);
-      addChunk(*from.times, {block->first}, std::move(block->times));
-      for (std::size_t c = 0; c < block->columns.size(); ++c)
-        addChunk(*from.values, {block->first, c}, std::move(block->columns[c]));
-      from.taken += from.rowsPerBlock;
+      addChunk(*series.times, {first}, std::move(times));
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        addChunk(*series.values, {first, c}, std::move(columns[c]));
     }
   }
 
@@ -635,7 +615,7 @@ class Hdf5Writer {
   std::vector<std::unique_ptr<ChunkedArray>> arrays_;
   bool anyFiltered_ = false;  // frames that were written so far
   OrderedWork work_;
-  std::vector<std::unique_ptr<RunningSeries>> series_;
+  std::vector<WrittenSeries> series_;
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <numeric>
 #include <stdexcept>
-#include <thread>
 
 #include "recording/mcap/mcap_compression.h"
 #include "recording/mcap/mcap_format.h"
@@ -46,8 +45,7 @@ McapFileWriter::McapFileWriter(Write write,
                                const McapWriteOptions& options)
     : write_(std::move(write)),
       options_(options),
-      threads_(options.threads != 0 ? options.threads
-                                    : std::max(1u, std::thread::hardware_concurrency())) {
+      work_(otherThreads(options.threads), 2 * otherThreads(options.threads)) {
   options.validate();
   put(mcap_format::kMagic);
   std::string header;
@@ -139,7 +137,7 @@ std::uint16_t McapFileWriter::addChannel(std::uint16_t schema,
 
 std::string& McapFileWriter::beginMessage(std::uint16_t channel, std::uint64_t timeNs) {
   if (!chunk_) {
-    chunk_ = std::make_unique<Chunk>();
+    chunk_ = std::make_shared<Chunk>();
     chunk_->raw.reserve(options_.chunkBytes + options_.chunkBytes / 8);
     chunk_->startNs = chunk_->endNs = timeNs;
   }
@@ -177,18 +175,11 @@ void McapFileWriter::compress(Chunk& chunk) const {
 
 void McapFileWriter::endChunk() {
   if (!chunk_) return;
-  Chunk& chunk = *chunk_;
-  compressing_.push_back(std::move(chunk_));
-  if (threads_ > 1)
-    chunk.done = std::async(std::launch::async, [this, &chunk] { compress(chunk); });
-  else
-    compress(chunk);
-  while (compressing_.size() > 2 * (threads_ - 1)) writeFront();
+  const std::shared_ptr<Chunk> chunk = std::move(chunk_);
+  work_.add([this, chunk] { compress(*chunk); }, [this, chunk] { write(*chunk); });
 }
 
-void McapFileWriter::writeFront() {
-  Chunk& chunk = *compressing_.front();
-  if (chunk.done.valid()) chunk.done.get();
+void McapFileWriter::write(const Chunk& chunk) {
   const bool plain = options_.compression == McapCompression::kNone;
   const std::string& packed = plain ? chunk.raw : chunk.packed;
   std::string head;
@@ -235,12 +226,11 @@ void McapFileWriter::writeFront() {
   startNs_ = std::min(startNs_, chunk.startNs);
   endNs_ = std::max(endNs_, chunk.endNs);
   chunkIndexes_.push_back(std::move(index));
-  compressing_.pop_front();
 }
 
 void McapFileWriter::flush() {
   endChunk();
-  while (!compressing_.empty()) writeFront();
+  work_.finishAll();
 }
 
 void McapFileWriter::finish() {

@@ -4,9 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
-#include <future>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "palpate/core/ordered_work.h"
 #include "palpate/recording/mcap_recording.h"
 
 namespace palpate {
@@ -63,23 +62,20 @@ class McapFileWriter {
     std::uint64_t startNs = 0;
     std::uint64_t endNs = 0;
     std::vector<std::vector<IndexEntry>> index;  // by channel
-    std::future<void> done;
   };
 
   void put(std::string_view bytes);
   void putRecord(std::uint8_t opcode, std::string_view content);
   void endChunk();
-  void writeFront();
   void compress(Chunk& chunk) const;
+  void write(const Chunk& chunk);
 
   const Write write_;
   const McapWriteOptions options_;
-  const std::size_t threads_;
   std::uint64_t position_ = 0;
   std::uint32_t crc_ = 0;
-  std::unique_ptr<Chunk> chunk_;  // the one that is filled
+  std::shared_ptr<Chunk> chunk_;  // the one that is filled
   std::size_t messageAt_ = 0;     // begin of the message's record in it
-  std::deque<std::unique_ptr<Chunk>> compressing_;
 
   // For the summary: contents of its records.
   std::vector<std::string> schemas_;
@@ -90,6 +86,7 @@ class McapFileWriter {
   std::vector<std::uint64_t> messages_;  // by channel
   std::uint64_t startNs_ = 0;
   std::uint64_t endNs_ = 0;
+  OrderedWork work_;  // last: it ends before what it uses
 };
 
 }  // namespace palpate

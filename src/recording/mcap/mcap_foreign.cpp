@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <list>
 #include <mutex>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <span>
-#include <unordered_map>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -20,6 +18,7 @@
 #include "palpate/recording/palpate_schema.h"
 #include "palpate/recording/recording.h"
 
+#include "recording/block_cache.h"
 #include "recording/mcap/mcap_format.h"
 #include "recording/mcap/mcap_messages.h"
 
@@ -64,18 +63,19 @@ class ForeignChunks {
   // Records of a piece; nothing of a damaged one in a salvage.
   Records of(std::size_t piece) {
     if (bad_[piece]) return nullptr;
-    if (keeps(piece)) return kept_.front().second;
+    if (const Records* kept = kept_.find(piece)) return *kept;
+    kept_.makeRoom(keptBytesOf(piece));
     try {
-      kept_.front().second =
-          std::make_shared<const std::string>(readMcapPiece(file_, pieces_[piece], piece));
+      return kept_.add(
+          piece,
+          keptBytesOf(piece),
+          std::make_shared<const std::string>(readMcapPiece(file_, pieces_[piece], piece)));
     } catch (const Error& error) {
-      forget(kept_.begin());
       if (!salvage_ || !dynamic_cast<const FormatError*>(&error)) throw;
       bad_[piece] = true;
       if (numBad_++ == 0) firstFault_ = mcapFaultOf(path(), error);
       return nullptr;
     }
-    return kept_.front().second;
   }
 
   // Throws FormatError where messages in this order can't be read in a bearable time; Cancelled.
@@ -84,12 +84,15 @@ class ForeignChunks {
     std::uint64_t all = 0;
     for (const McapPiece& piece : pieces_) all += piece.rawSize;
     std::uint64_t again = 0;
-    forgetAll();
+    kept_.clear();
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (progress && i % kPlacesPerReport == 0 && !progress(1.0)) throw Cancelled();
-      if (!keeps(places[i].piece)) again += pieces_[places[i].piece].rawSize;
+      const std::size_t piece = places[i].piece;
+      if (kept_.find(piece)) continue;
+      kept_.add(piece, keptBytesOf(piece), nullptr);
+      again += pieces_[piece].rawSize;
     }
-    forgetAll();
+    kept_.clear();
     if (again > std::max(kForeignUnpackedAgain, 4 * all))
       throw FormatError(path(),
                         "has its messages in too many chunks at a time to be read in order; write "
@@ -97,32 +100,8 @@ class ForeignChunks {
   }
 
  private:
-  using Kept = std::list<std::pair<std::size_t, Records>>;
-
-  // Puts a piece in front. Returns false where it was not kept: it is empty then.
-  bool keeps(std::size_t piece) {
-    if (const auto found = places_.find(piece); found != places_.end()) {
-      kept_.splice(kept_.begin(), kept_, found->second);
-      return true;
-    }
-    keptBytes_ += keptBytesOf(piece);
-    while (!kept_.empty() && keptBytes_ > kKeptForeignBytes) forget(std::prev(kept_.end()));
-    kept_.emplace_front(piece, nullptr);
-    places_[piece] = kept_.begin();
-    return false;
-  }
   std::uint64_t keptBytesOf(std::size_t piece) const {
     return pieces_[piece].rawSize + kKeptForeignPieceBytes;
-  }
-  void forget(Kept::iterator entry) {
-    keptBytes_ -= keptBytesOf(entry->first);
-    places_.erase(entry->first);
-    kept_.erase(entry);
-  }
-  void forgetAll() {
-    kept_.clear();
-    places_.clear();
-    keptBytes_ = 0;
   }
 
   McapFile file_;
@@ -130,10 +109,8 @@ class ForeignChunks {
   bool salvage_ = false;
   std::vector<bool> bad_;
   std::size_t numBad_ = 0;
-  std::string firstFault_;                                  // of a damaged piece
-  Kept kept_;                                               // the latest used first
-  std::unordered_map<std::size_t, Kept::iterator> places_;  // of pieces in it
-  std::uint64_t keptBytes_ = 0;
+  std::string firstFault_;  // of a damaged piece
+  BlockCache<Records> kept_{kKeptForeignBytes};
 };
 
 // What a message of joints says; positions in rad or m.

@@ -3,7 +3,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <list>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -19,6 +18,7 @@
 #include "palpate/recording/mcap_recording.h"
 #include "palpate/recording/palpate_schema.h"
 
+#include "recording/block_cache.h"
 #include "recording/mcap/mcap_foreign.h"
 #include "recording/mcap/mcap_format.h"
 #include "recording/mcap/mcap_messages.h"
@@ -456,7 +456,7 @@ class McapStorage final : public ProfileStorage {
       std::uint64_t raw = pieces_[first].rawSize;
       count = 1;
       while (count < std::min(largestBatch, pieces_.size() - first) &&
-             areSmallMcapPieces(raw += pieces_[first + count].rawSize))
+             (raw += pieces_[first + count].rawSize) <= kSmallMcapPiecesBytes)
         ++count;
       std::vector<McapBlock> blocks(count);
       std::vector<std::string> faults(count);
@@ -588,21 +588,11 @@ class McapStorage final : public ProfileStorage {
   // A block from the cache, or read now.
   std::shared_ptr<const McapBlock> blockOf(std::size_t piece) const {
     const std::lock_guard lock(mutex_);
-    for (auto it = cache_.begin(); it != cache_.end(); ++it)
-      if (it->first == piece) {
-        cache_.splice(cache_.begin(), cache_, it);
-        return cache_.front().second;
-      }
-    // Of large chunks one at a time is in memory.
-    std::uint64_t raw = pieces_[piece].rawSize;
-    for (const auto& [cached, block] : cache_) raw += pieces_[cached].rawSize;
-    for (; !cache_.empty() && (cache_.size() >= kCachedMcapBlocks || !areSmallMcapPieces(raw));
-         cache_.pop_back())
-      raw -= pieces_[cache_.back().first].rawSize;
+    if (const auto* kept = cache_.find(piece)) return *kept;
+    cache_.makeRoom(pieces_[piece].rawSize);  // of large chunks one at a time is in memory
     auto block = std::make_shared<McapBlock>(readBlock(piece));
     block->events = {};
-    cache_.emplace_front(piece, std::move(block));
-    return cache_.front().second;
+    return cache_.add(piece, pieces_[piece].rawSize, std::move(block));
   }
 
   McapFile file_;
@@ -618,7 +608,8 @@ class McapStorage final : public ProfileStorage {
   std::size_t continued_ = 0;  // images that frames have taken from chunks to come
   bool anyFloat_ = false;
   mutable std::mutex mutex_;
-  mutable std::list<std::pair<std::size_t, std::shared_ptr<const McapBlock>>> cache_;
+  mutable BlockCache<std::shared_ptr<const McapBlock>> cache_{kSmallMcapPiecesBytes,
+                                                              kCachedMcapBlocks};
 };
 
 std::map<std::string, std::string> mcapRestored(const std::map<std::string, std::string>& texts) {

@@ -29,8 +29,6 @@ constexpr std::uint64_t kLargestMcapRecordBytes = 16u << 20;  // of other record
 // compress, can't do more than 1032; frames of a hand compress to a twentieth.
 constexpr std::uint64_t kMcapUnpackedBytes = 512u << 20;
 constexpr std::uint64_t kMcapUnpackedPerByte = 1032;
-// Of chunks that are read at once.
-constexpr std::uint64_t kSmallMcapPiecesBytes = 16u << 20;
 constexpr std::uint64_t kLoosePieceBytes = 1u << 20;  // messages outside of chunks
 constexpr std::size_t kMcapPieceOfFile = 1u << 20;    // read at once for a checksum
 
@@ -399,10 +397,6 @@ std::string mcapDamagedChunksText(std::size_t count,
                                   const char* lost) {
   return counted(count, "damaged chunk") + ", whose " + lost +
          " are lost (the first: " + firstFault + ")";
-}
-
-bool areSmallMcapPieces(std::uint64_t rawBytes) noexcept {
-  return rawBytes <= kSmallMcapPiecesBytes;
 }
 
 bool forEachMcapRecord(std::string_view records,

@@ -112,9 +112,8 @@ std::string mcapDamagedChunksText(std::size_t count,
                                   const std::string& firstFault,
                                   const char* lost);
 
-// Returns whether unpacking some pieces at once takes little memory: of others one at a time is
-// read.
-bool areSmallMcapPieces(std::uint64_t rawBytes) noexcept;
+// Pieces that take more than this when they are unpacked are read one at a time.
+inline constexpr std::uint64_t kSmallMcapPiecesBytes = 16u << 20;
 
 // Calls visit(opcode, content) for each record. Returns false where they are damaged.
 bool forEachMcapRecord(std::string_view records,

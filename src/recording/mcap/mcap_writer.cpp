@@ -1,16 +1,13 @@
 // writeMcap() and McapLiveWriter of mcap_recording.h.
 #include <algorithm>
 #include <cerrno>
-#include <exception>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "palpate/core/bounded_queue.h"
 #include "palpate/core/error.h"
 #include "palpate/core/file_descriptor.h"
 #include "palpate/core/file_id.h"
@@ -20,78 +17,13 @@
 
 #include "recording/mcap/mcap_recording_writer.h"
 #include "recording/profile_meta.h"
+#include "recording/running_series.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMcapRowsPerBlock = 1024;
 constexpr std::size_t kMcapFramesPerReport = 1024;
-
-// A series that is being computed by a thread of its own.
-class McapRunningSeries {
- public:
-  explicit McapRunningSeries(ExportedSeries& series)
-      : series_(series), width_(series.columns().size()), left_(series.numRows()) {
-    thread_ = std::jthread([this] { compute(); });
-  }
-  ~McapRunningSeries() { queue_.close(); }
-
-  // Time of the next row; empty after the last one.
-  std::optional<std::int64_t> nextUs() {
-    if (left_ == 0) return std::nullopt;
-    if (at_ == block_.times.size()) take();
-    return block_.times[at_];
-  }
-  std::span<const double> row() const { return {block_.values.data() + at_ * width_, width_}; }
-  void advance() {
-    ++at_;
-    --left_;
-  }
-
- private:
-  struct Block {
-    std::vector<std::int64_t> times;
-    std::vector<double> values;
-    std::exception_ptr failure;
-  };
-
-  void take() {
-    auto block = queue_.pop();
-    if (!block) throw std::logic_error("writeMcap: a series has fewer rows than it says");
-    if (block->failure) std::rethrow_exception(block->failure);
-    block_ = std::move(*block);
-    at_ = 0;
-  }
-
-  void compute() {
-    Block block;
-    try {
-      std::vector<double> row(width_);
-      std::int64_t timeUs = 0;
-      while (series_.next(timeUs, row)) {
-        block.times.push_back(timeUs);
-        block.values.insert(block.values.end(), row.begin(), row.end());
-        if (block.times.size() < kMcapRowsPerBlock) continue;
-        if (!queue_.push(std::exchange(block, {}))) return;
-      }
-      if (!block.times.empty()) queue_.push(std::move(block));
-    } catch (...) {
-      block = {};
-      block.failure = std::current_exception();
-      queue_.push(std::move(block));
-    }
-    queue_.close();
-  }
-
-  ExportedSeries& series_;
-  const std::size_t width_;
-  std::size_t left_;
-  Block block_;
-  std::size_t at_ = 0;
-  BoundedQueue<Block> queue_{4};
-  std::jthread thread_;  // last: it ends before what it uses
-};
 
 [[noreturn]] void throwMcapCantWrite(const fs::path& path, int error) {
   throw FileError(path, "can't be written: " + writeFailureText(error));
@@ -115,10 +47,10 @@ void writeMcap(const RecordingContent& content,
                              options);
   if (profile.numAngles() > 0) writer.beginAngles(profile.angles(0).deg.size());
   if (profile.numTemperatures() > 0) writer.beginTemperatures(profile.temperatures(0).degC.size());
-  std::vector<std::pair<std::uint16_t, std::unique_ptr<McapRunningSeries>>> series;
+  std::vector<std::pair<std::uint16_t, std::unique_ptr<RunningSeries>>> series;
   for (const auto& one : content.extras.series)
     series.emplace_back(writer.beginSeries(one->name(), one->columns()),
-                        std::make_unique<McapRunningSeries>(*one));
+                        std::make_unique<RunningSeries>(*one, "writeMcap"));
 
   // All series in order of time; at equal times what is first here.
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();

@@ -8,8 +8,6 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kCachedBytes = 2u << 20;  // of blocks, per profile
-
 // From the first to the last item of a block [us]. Unsigned, since a damaged index may claim any
 // two times.
 std::uint64_t spanUs(const BlockEntry& place) {
@@ -109,12 +107,8 @@ BlockStorage::OpenItem BlockStorage::open(Stream stream, std::size_t item) const
   if (lastWith(stream, item)) return {last, item - last->first};
   const BlockEntry& place = placeOf(stream, item);
   const std::size_t within = item - static_cast<std::size_t>(place.first);
-  const auto cached = cache_.find(place.id);
-  if (cached != cache_.end()) {
-    last = cached->second;
-    return {last, within};
-  }
-  last = loaded(stream, place);
+  const auto* cached = cache_.find(place.id);
+  last = cached ? *cached : loaded(stream, place);
   return {last, within};
 }
 
@@ -136,16 +130,7 @@ std::shared_ptr<const BlockStorage::OpenBlock> BlockStorage::loaded(Stream strea
     damaged_.emplace(place.id, error);
     throw;
   }
-  cachedBytes_ += opened->block.data.size();
-  while (cachedBytes_ > kCachedBytes && !order_.empty()) {
-    const auto oldest = cache_.find(order_.front());
-    cachedBytes_ -= oldest->second->block.data.size();
-    cache_.erase(oldest);
-    order_.pop_front();
-  }
-  order_.push_back(place.id);
-  cache_.emplace(place.id, opened);
-  return opened;
+  return cache_.add(place.id, opened->block.data.size(), opened);
 }
 
 std::shared_ptr<const BlockStorage::OpenBlock> BlockStorage::readable(Stream stream,

@@ -5,7 +5,6 @@
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,6 +17,8 @@
 #include "palpate/model/profile.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
+
+#include "recording/block_cache.h"
 
 namespace palpate {
 
@@ -79,6 +80,8 @@ class BlockStorage : public ProfileStorage {
     std::size_t item;
   };
 
+  static constexpr std::size_t kCachedBytes = 2u << 20;  // of blocks, per profile
+
   const Series& of(Stream stream) const { return series_[static_cast<std::size_t>(stream)]; }
   const BlockEntry& placeOf(Stream stream, std::size_t item) const;
   std::int64_t timeUs(Stream stream, std::size_t item) const;
@@ -95,9 +98,7 @@ class BlockStorage : public ProfileStorage {
   Loader loader_;
   std::array<Series, 3> series_;
   mutable std::mutex mutex_;  // over loader and cache
-  mutable std::unordered_map<std::int64_t, std::shared_ptr<const OpenBlock>> cache_;  // by id
-  mutable std::list<std::int64_t> order_;                                             // of entering
-  mutable std::size_t cachedBytes_ = 0;
+  mutable BlockCache<std::shared_ptr<const OpenBlock>> cache_{kCachedBytes};  // by id
   mutable std::unordered_map<std::int64_t, FormatError> damaged_;  // by id: not read again
   mutable std::array<std::shared_ptr<const OpenBlock>, 3> last_;   // read last, per stream
 };
