@@ -4,12 +4,14 @@
 #include <condition_variable>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/in_time_order.h"
 
 namespace palpate {
 namespace {
@@ -40,7 +42,7 @@ struct Replay::Impl {
   }
 
   void rewind() {
-    frame = angle = temperature = event = 0;
+    order.emplace(profile, events);
     warned = false;
     const std::lock_guard lock(mutex);
     status = {};
@@ -50,38 +52,14 @@ struct Replay::Impl {
     ended = false;
   }
 
-  // Stamp of the next item; kNever at the end. Samples whose stamps can't be read are skipped.
-  std::int64_t nextUs() { return std::min({eventUs(), temperatureUs(), angleUs(), frameUs()}); }
-  std::int64_t frameUs() {
-    return stampUs(
-        frame, profile.numFrames(), true, [this](std::size_t i) { return profile.frameTimeUs(i); });
-  }
-  std::int64_t angleUs() {
-    return stampUs(angle, profile.numAngles(), false, [this](std::size_t i) {
-      return profile.angleTimeUs(i);
-    });
-  }
-  std::int64_t temperatureUs() {
-    return stampUs(temperature, profile.numTemperatures(), false, [this](std::size_t i) {
-      return profile.temperatureTimeUs(i);
-    });
-  }
-  std::int64_t eventUs() const { return event < events.size() ? events[event].tUs : kNever; }
-
-  template <typename TimeOf>
-  std::int64_t stampUs(std::size_t& next, std::size_t count, bool tactile, TimeOf timeOf) {
-    for (; next < count; ++next) {
-      try {
-        return timeOf(next);
-      } catch (const Error& error) {
-        closeAfterError(lastUs, tactile, error.what());
-      }
-    }
-    return kNever;
+  // Stamp of the next item; kNever at the end.
+  std::int64_t nextUs() const {
+    const auto item = order->next();
+    return item ? item->timeUs : kNever;
   }
 
   // Counts a sample that can't be read; the first one is reported.
-  void closeAfterError(std::int64_t atUs, bool tactile, const std::string& fault) {
+  void countUnreadable(std::int64_t atUs, bool tactile, const std::string& fault) {
     {
       const std::lock_guard lock(mutex);
       PortStatus& port = tactile ? status.tactile : *status.motion;
@@ -93,34 +71,27 @@ struct Replay::Impl {
     sink->onEvent({atUs, atUs, "alarm", {}, fault, ""});
   }
 
-  // Delivers the next items, with the stamp `atUs`.
-  void deliver(std::int64_t atUs) {
-    if (eventUs() == atUs) {
-      const RecordingEvent& noted = events[event++];
-      sink->onEvent({noted.tUs, noted.t1Us, noted.kind, noted.matrix, noted.text, noted.json});
-    } else if (temperatureUs() == atUs) {
-      const std::size_t index = temperature++;
-      read(atUs, false, [&] { sink->onTemperatures(profile.temperatures(index)); });
-    } else if (angleUs() == atUs) {
-      const std::size_t index = angle++;
-      read(atUs, false, [&] { sink->onAngles(profile.angles(index)); });
-    } else {
-      const std::size_t index = frame++;
-      read(atUs, true, [&] { sink->onFrame(profile.frame(index)); });
+  void deliver(const InTimeOrder::Item& item) {
+    if (item.kind == InTimeOrder::Kind::kEvent) {
+      const RecordingEvent& noted = events[item.index];
+      return sink->onEvent(
+          {noted.tUs, noted.t1Us, noted.kind, noted.matrix, noted.text, noted.json});
     }
-  }
-
-  template <typename Read>
-  void read(std::int64_t atUs, bool tactile, Read delivers) {
+    const bool tactile = item.kind == InTimeOrder::Kind::kFrame;
     try {
-      delivers();
+      if (tactile)
+        sink->onFrame(profile.frame(item.index));
+      else if (item.kind == InTimeOrder::Kind::kAngles)
+        sink->onAngles(profile.angles(item.index));
+      else
+        sink->onTemperatures(profile.temperatures(item.index));
     } catch (const Error& error) {
-      return closeAfterError(atUs, tactile, error.what());
+      return countUnreadable(item.timeUs, tactile, error.what());
     }
     const std::lock_guard lock(mutex);
     PortStatus& port = tactile ? status.tactile : *status.motion;
     ++port.items;
-    port.lastItemUs = atUs;
+    port.lastItemUs = item.timeUs;
   }
 
   // No exception in the delivering thread may end the process: it ends the replay instead.
@@ -166,7 +137,7 @@ struct Replay::Impl {
         end();
         return false;
       }
-      deliver(at);
+      deliver(*order->take());
       lastUs = at;
     }
     return true;
@@ -213,11 +184,8 @@ struct Replay::Impl {
   DeviceSink* sink = nullptr;
 
   // Used by the delivering thread.
-  std::size_t frame = 0;
-  std::size_t angle = 0;
-  std::size_t temperature = 0;
-  std::size_t event = 0;
-  std::int64_t lastUs = 0;  // stamp of the last item delivered
+  std::optional<InTimeOrder> order;  // of what comes next
+  std::int64_t lastUs = 0;           // stamp of the last item delivered
   bool warned = false;
   std::int64_t handUs = 0;  // kManual: position in the recording's time
   std::int64_t firstUs = 0;

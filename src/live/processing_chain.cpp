@@ -9,6 +9,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
 #include "palpate/core/time.h"
+#include "palpate/model/in_time_order.h"
 
 namespace palpate {
 namespace {
@@ -17,7 +18,6 @@ constexpr std::chrono::milliseconds kLook{100};  // longest wait without an item
 // Capacity for samples per waiting frame: at 250 Hz and 15 frames/s there are 17.
 constexpr std::size_t kMotionPerFrame = 32;
 constexpr std::size_t kProgressEvery = 256;
-constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
@@ -165,30 +165,24 @@ void ProcessingChain::runOver(const Profile& profile,
   reset();
   std::stable_sort(
       events.begin(), events.end(), [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
-  std::size_t event = 0, temperature = 0, angle = 0;
-  const auto bringUpTo = [&](std::int64_t untilUs) {
-    while (true) {
-      const std::int64_t eventUs = event < events.size() ? events[event].tUs : kNever;
-      const std::int64_t temperatureUs =
-          temperature < profile.numTemperatures() ? profile.temperatureTimeUs(temperature) : kNever;
-      const std::int64_t angleUs =
-          angle < profile.numAngles() ? profile.angleTimeUs(angle) : kNever;
-      const std::int64_t nextUs = std::min({eventUs, temperatureUs, angleUs});
-      if (nextUs > untilUs || nextUs == kNever) return;
-      if (eventUs == nextUs)
-        process(events[event++]);
-      else if (temperatureUs == nextUs)
-        process(profile.temperatures(temperature++));
-      else
-        process(profile.angles(angle++));
+  InTimeOrder order(profile, events);
+  while (const auto item = order.take()) {
+    switch (const std::size_t i = item->index; item->kind) {
+      case InTimeOrder::Kind::kEvent:
+        process(events[i]);
+        break;
+      case InTimeOrder::Kind::kTemperatures:
+        process(profile.temperatures(i));
+        break;
+      case InTimeOrder::Kind::kAngles:
+        process(profile.angles(i));
+        break;
+      case InTimeOrder::Kind::kFrame:
+        reportProgress(progress, i, profile.numFrames(), kProgressEvery);
+        processFrame(std::make_shared<const TactileFrame>(profile.frame(i)));
+        break;
     }
-  };
-  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    reportProgress(progress, i, profile.numFrames(), kProgressEvery);
-    bringUpTo(profile.frameTimeUs(i));
-    processFrame(std::make_shared<const TactileFrame>(profile.frame(i)));
   }
-  bringUpTo(kNever);
 }
 
 ChainStats ProcessingChain::stats() const {

@@ -10,6 +10,7 @@
 
 #include "recording/exchange/mat_file.h"
 #include "recording/profile_meta.h"
+#include "recording/sample_columns.h"
 
 namespace palpate {
 namespace {
@@ -64,69 +65,23 @@ class MatExport {
     return MatValue::structure(std::move(fields));
   }
 
-  template <typename ValuesOf, typename TimeOf>
-  MatValue samples(const std::string& name,
-                   std::size_t count,
-                   ValuesOf valuesOf,
-                   TimeOf timeOf,
-                   std::vector<std::string> names,
-                   std::vector<std::string> units) {
-    const std::size_t width = count > 0 ? valuesOf(0).size() : names.size();
-    names.resize(width);
-    units.resize(width);
+  // Joint angles or temperatures.
+  static MatValue samples(const std::string& name, const WrittenSamples& from) {
     return MatValue::structure({{name,
                                  MatValue::numbers(MatNumber::kF64,
-                                                   {width, count},
-                                                   [=](const MatSink& sink) {
-                                                     for (std::size_t i = 0; i < count; ++i)
-                                                       sink(matBytesOf(valuesOf(i)));
+                                                   {from.columns.size(), from.count},
+                                                   [from](const MatSink& sink) {
+                                                     for (std::size_t i = 0; i < from.count; ++i)
+                                                       sink(matBytesOf(from.values(i)));
                                                    })},
-                                {"column", MatValue::texts(names)},
-                                {"units", MatValue::texts(units)},
-                                {"time_us", stampsOf(count, timeOf)}});
-  }
-
-  MatValue angles() {
-    std::vector<std::string> names;
-    std::vector<std::string> units;
-    for (const AxisDescription& axis : profile_.hand().axes) {
-      names.push_back(axis.name);
-      units.emplace_back(axis.unit());
-    }
-    return samples(
-        "angles",
-        profile_.numAngles(),
-        [this](std::size_t i) { return profile_.angles(i).deg; },
-        [this](std::size_t i) { return profile_.angleTimeUs(i); },
-        std::move(names),
-        std::move(units));
-  }
-
-  MatValue temperatures() {
-    std::vector<std::string> names;
-    for (const TemperatureSensorDescription& sensor : profile_.hand().temperatureSensors)
-      names.push_back(sensor.name);
-    std::vector<std::string> units(
-        profile_.numTemperatures() > 0 ? profile_.temperatures(0).degC.size() : names.size(),
-        "degC");
-    return samples(
-        "values",
-        profile_.numTemperatures(),
-        [this](std::size_t i) { return profile_.temperatures(i).degC; },
-        [this](std::size_t i) { return profile_.temperatureTimeUs(i); },
-        std::move(names),
-        std::move(units));
+                                {"column", MatValue::texts(columnNames(from.columns))},
+                                {"units", MatValue::texts(columnUnits(from.columns))},
+                                {"time_us", stampsOf(from.count, from.timeUs)}});
   }
 
   static MatValue series(ExportedSeries& from) {
-    std::vector<std::string> names;
-    std::vector<std::string> units;
-    for (const ExportedSeries::Column& column : from.columns()) {
-      names.push_back(column.name);
-      units.push_back(column.unit);
-    }
     const auto times = std::make_shared<std::vector<std::int64_t>>();
-    const std::size_t width = names.size();
+    const std::size_t width = from.columns().size();
     return MatValue::structure(
         {{"values",
           MatValue::numbers(MatNumber::kF64,
@@ -139,8 +94,8 @@ class MatExport {
                                 sink(matBytesOf(row));
                               }
                             })},
-         {"column", MatValue::texts(names)},
-         {"units", MatValue::texts(units)},
+         {"column", MatValue::texts(columnNames(from.columns()))},
+         {"units", MatValue::texts(columnUnits(from.columns()))},
          {"time_us",
           MatValue::numbers(MatNumber::kI64, {from.numRows(), 1}, [times](const MatSink& sink) {
             sink(matBytesOf(*times));
@@ -223,26 +178,13 @@ class MatExport {
 };
 
 MatValue matEventsOf(std::span<const RecordingEvent> events) {
-  std::vector<std::int64_t> times;
-  std::vector<std::int64_t> ends;
-  std::vector<double> matrices;
-  std::vector<std::string> kinds;
-  std::vector<std::string> texts;
-  std::vector<std::string> jsons;
-  for (const RecordingEvent& event : events) {
-    times.push_back(event.tUs);
-    ends.push_back(event.t1Us);
-    matrices.push_back(event.matrix ? static_cast<double>(*event.matrix) : -1.0);
-    kinds.push_back(event.kind);
-    texts.push_back(event.text);
-    jsons.push_back(event.json);
-  }
-  return MatValue::structure({{"time_us", MatValue::column(times)},
-                              {"end_us", MatValue::column(ends)},
-                              {"kind", MatValue::texts(kinds)},
-                              {"matrix", MatValue::column(matrices)},
-                              {"text", MatValue::texts(texts)},
-                              {"json", MatValue::texts(jsons)}});
+  const EventColumns<double> columns(events, -1.0);
+  return MatValue::structure({{"time_us", MatValue::column(columns.timesUs)},
+                              {"end_us", MatValue::column(columns.endsUs)},
+                              {"kind", MatValue::texts(columns.kinds)},
+                              {"matrix", MatValue::column(columns.matrices)},
+                              {"text", MatValue::texts(columns.texts)},
+                              {"json", MatValue::texts(columns.jsons)}});
 }
 
 MatValue matMetaOf(const Profile& profile, const std::map<std::string, std::string>& said) {
@@ -278,8 +220,8 @@ void writeMat(const RecordingContent& content,
   file.add("provenance", matProvenanceOf(extras.provenance, profile));
   file.add("meta", matMetaOf(profile, content.meta));
   file.add("tactile", samples.tactile());
-  file.add("joints", samples.angles());
-  file.add("temperatures", samples.temperatures());
+  file.add("joints", MatExport::samples("angles", writtenAngles(profile)));
+  file.add("temperatures", MatExport::samples("values", writtenTemperatures(profile)));
   file.add("events", matEventsOf(content.events));
   for (const auto& series : extras.series) file.add(series->name(), MatExport::series(*series));
   file.commit();

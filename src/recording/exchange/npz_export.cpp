@@ -12,6 +12,7 @@
 #include "palpate/recording/table_export.h"
 
 #include "recording/event_sidecar.h"
+#include "recording/sample_columns.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -222,16 +223,14 @@ void writeTimes(ZipWriter& zip, const std::string& name, std::size_t count, Time
   us.end();
 }
 
-template <typename ValuesOf>
-void npzExportWriteSamples(ZipWriter& zip,
-                           const std::string& name,
-                           std::size_t count,
-                           std::size_t width,
-                           ValuesOf valuesOf) {
-  NpyArray array(zip, name, "<f8", 8, {count, width});
-  for (std::size_t i = 0; i < count; ++i)
-    for (double value : valuesOf(i)) array.f64(value);
+// Arrays NAMEs and NAME_time of joint angles or temperatures.
+void npzExportWriteSamples(ZipWriter& zip, const std::string& name, const WrittenSamples& samples) {
+  const std::size_t width = samples.count > 0 ? samples.columns.size() : 0;
+  NpyArray array(zip, name + "s", "<f8", 8, {samples.count, width});
+  for (std::size_t i = 0; i < samples.count; ++i)
+    for (double value : samples.values(i)) array.f64(value);
   array.end();
+  writeTimes(zip, name + "_time", samples.count, samples.timeUs);
 }
 
 std::vector<std::size_t> shapeOf(const Profile& profile, std::size_t m) {
@@ -321,22 +320,8 @@ void writeNpz(const Profile& profile,
     filtered = writeMatrix(zip, profile, m, progress) || filtered;
   for (std::size_t m = 0; filtered && m < profile.layout().numMatrices(); ++m)
     writeActive(zip, profile, m);
-  const std::size_t axes = profile.numAngles() > 0 ? profile.angles(0).deg.size() : 0;
-  npzExportWriteSamples(zip, "angles", profile.numAngles(), axes, [&](std::size_t i) {
-    return profile.angles(i).deg;
-  });
-  writeTimes(zip, "angle_time", profile.numAngles(), [&](std::size_t i) {
-    return profile.angleTimeUs(i);
-  });
-  const std::size_t sensors =
-      profile.numTemperatures() > 0 ? profile.temperatures(0).degC.size() : 0;
-  npzExportWriteSamples(
-      zip, "temperatures", profile.numTemperatures(), sensors, [&](std::size_t i) {
-        return profile.temperatures(i).degC;
-      });
-  writeTimes(zip, "temperature_time", profile.numTemperatures(), [&](std::size_t i) {
-    return profile.temperatureTimeUs(i);
-  });
+  npzExportWriteSamples(zip, "angle", writtenAngles(profile));
+  npzExportWriteSamples(zip, "temperature", writtenTemperatures(profile));
   NpyArray mask(zip, "static_mask", "|u1", 1, {profile.layout().numCells()});
   for (const MatrixLayout& matrix : profile.layout().matrices())
     for (auto on : matrix.staticMask) mask.u8(on);

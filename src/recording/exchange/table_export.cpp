@@ -1,11 +1,12 @@
 #include "palpate/recording/table_export.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
 #include "palpate/core/time.h"
+
+#include "recording/sample_columns.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -24,68 +25,39 @@ void appendInteger(std::string& text, std::int64_t value) {
   text += ',';
 }
 
+// "sample,time_ms,axis0_deg,..,time_us", and the row of units below it.
+std::string sampleHeader(const WrittenSamples& samples, const std::string& name, bool unitsRow) {
+  std::vector<std::string> names{"sample", "time_ms"};
+  std::vector<std::string> units{"", "ms"};
+  for (std::size_t i = 0; i < samples.columns.size(); ++i) {
+    const std::string& known = samples.columns[i].unit;
+    units.push_back(known.empty() ? "deg" : known);
+    names.push_back(name + std::to_string(i) + (known == "degC" ? "_degc" : "_" + units.back()));
+  }
+  names.emplace_back("time_us");
+  units.emplace_back("us");
+  return unitsRow ? csvLine(names) + csvLine(units) : csvLine(names);
+}
+
 // One row per sample: time [ms], a column per value, named with its unit, and the time [us].
-template <typename TimeOf, typename ValuesOf>
 void tableExportWriteSamples(OutputFile& out,
-                             const std::string& header,
-                             std::size_t count,
-                             TimeOf timeOf,
-                             ValuesOf valuesOf) {
-  std::string text = header;
-  for (std::size_t i = 0; i < count; ++i) {
-    appendNumber(text, static_cast<std::int64_t>(i));
-    text += ',';
-    appendNumber(text, floorMs(timeOf(i)));
-    for (double value : valuesOf(i)) {
+                             const WrittenSamples& samples,
+                             const std::string& name,
+                             bool unitsRow) {
+  std::string text = sampleHeader(samples, name, unitsRow);
+  for (std::size_t i = 0; i < samples.count; ++i) {
+    appendInteger(text, static_cast<std::int64_t>(i));
+    appendNumber(text, floorMs(samples.timeUs(i)));
+    for (double value : samples.values(i)) {
       text += ',';
       appendNumber(text, value);
     }
     text += ',';
-    appendNumber(text, timeOf(i));
+    appendNumber(text, samples.timeUs(i));
     text += '\n';
     writePiece(out, text);
   }
   writePiece(out, text, true);
-}
-
-// "sample,time_ms,axis0_deg,..,time_us", and the row of units below it.
-std::string sampleHeader(const std::vector<std::string>& columns,
-                         const std::vector<std::string>& units,
-                         bool unitsRow) {
-  std::vector<std::string> names{"sample", "time_ms"};
-  names.insert(names.end(), columns.begin(), columns.end());
-  names.emplace_back("time_us");
-  if (!unitsRow) return csvLine(names);
-  std::vector<std::string> below{"", "ms"};
-  below.insert(below.end(), units.begin(), units.end());
-  below.emplace_back("us");
-  return csvLine(names) + csvLine(below);
-}
-
-std::string numberedName(const char* name, std::size_t index, const std::string& unit) {
-  return name + std::to_string(index) + "_" + unit;
-}
-
-// "deg", or "mm" of a sliding axis.
-std::vector<std::string> angleUnits(const Profile& profile) {
-  std::vector<std::string> units(profile.angles(0).deg.size(), "deg");
-  const std::vector<AxisDescription>& axes = profile.hand().axes;
-  for (std::size_t i = 0; i < std::min(units.size(), axes.size()); ++i) units[i] = axes[i].unit();
-  return units;
-}
-
-std::string angleHeader(const Profile& profile, bool unitsRow) {
-  const std::vector<std::string> units = angleUnits(profile);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < units.size(); ++i) names.push_back(numberedName("axis", i, units[i]));
-  return sampleHeader(names, units, unitsRow);
-}
-
-std::string temperatureHeader(const Profile& profile, bool unitsRow) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < profile.temperatures(0).degC.size(); ++i)
-    names.push_back(numberedName("sensor", i, "degc"));
-  return sampleHeader(names, std::vector<std::string>(names.size(), "degC"), unitsRow);
 }
 
 fs::path tableExportWithEnding(const fs::path& path, const char* ending) {
@@ -136,20 +108,9 @@ void writeCsv(const Profile& profile,
     writePiece(taxels, text);
   }
   writePiece(taxels, text, true);
-  if (angles)
-    tableExportWriteSamples(
-        *angles,
-        angleHeader(profile, unitsRow),
-        profile.numAngles(),
-        [&](std::size_t i) { return profile.angleTimeUs(i); },
-        [&](std::size_t i) { return profile.angles(i).deg; });
+  if (angles) tableExportWriteSamples(*angles, writtenAngles(profile), "axis", unitsRow);
   if (temperatures)
-    tableExportWriteSamples(
-        *temperatures,
-        temperatureHeader(profile, unitsRow),
-        profile.numTemperatures(),
-        [&](std::size_t i) { return profile.temperatureTimeUs(i); },
-        [&](std::size_t i) { return profile.temperatures(i).degC; });
+    tableExportWriteSamples(*temperatures, writtenTemperatures(profile), "sensor", unitsRow);
   std::vector<OutputFile*> files{&taxels};
   if (angles) files.push_back(&*angles);
   if (temperatures) files.push_back(&*temperatures);

@@ -20,6 +20,7 @@
 #include "recording/hdf5/hdf5_output.h"
 #include "recording/profile_meta.h"
 #include "recording/running_series.h"
+#include "recording/sample_columns.h"
 
 namespace palpate {
 namespace {
@@ -98,24 +99,8 @@ class Hdf5Writer {
       makeGroup("joints");
       makeGroup("temperatures");
     }
-    writeSamples(
-        "joints",
-        "angles",
-        profile_.numAngles(),
-        [&](std::size_t i) { return profile_.angleTimeUs(i); },
-        [&](std::size_t i) { return profile_.angles(i).deg; },
-        axisNames(),
-        axisUnits());
-    const std::size_t sensors =
-        profile_.numTemperatures() > 0 ? profile_.temperatures(0).degC.size() : 0;
-    writeSamples(
-        "temperatures",
-        "values",
-        profile_.numTemperatures(),
-        [&](std::size_t i) { return profile_.temperatureTimeUs(i); },
-        [&](std::size_t i) { return profile_.temperatures(i).degC; },
-        sensorNames(sensors),
-        std::vector<std::string>(sensors, "degC"));
+    writeSamples("joints", "angles", writtenAngles(profile_));
+    writeSamples("temperatures", "values", writtenTemperatures(profile_));
     writeFrames();
     work_.finishAll();
     writeVersion();
@@ -291,68 +276,32 @@ class Hdf5Writer {
   }
 
   void writeEvents() {
-    std::vector<std::int64_t> times;
-    std::vector<std::int64_t> ends;
-    std::vector<std::int32_t> matrices;
-    std::vector<std::string> kinds;
-    std::vector<std::string> texts;
-    std::vector<std::string> jsons;
-    for (const RecordingEvent& event : content_.events) {
-      times.push_back(event.tUs);
-      ends.push_back(event.t1Us);
-      matrices.push_back(event.matrix.value_or(hdf5_layout::kNoMatrix));
-      kinds.push_back(event.kind);
-      texts.push_back(event.text);
-      jsons.push_back(event.json);
-    }
+    const EventColumns<std::int32_t> events(content_.events, hdf5_layout::kNoMatrix);
     makeGroup("events");
-    const Shape count{times.size()};
-    const Hdf5Id time = smallArray("events/time_us", i64(), count, times.data());
+    const Shape count{events.timesUs.size()};
+    const Hdf5Id time = smallArray("events/time_us", i64(), count, events.timesUs.data());
     attribute(time.get(), "units", std::string("us"));
     attribute(time.get(), "epoch", std::string("1970-01-01T00:00:00Z"));
     std::vector<Hdf5Id> columns;
-    columns.push_back(smallArray("events/end_us", i64(), count, ends.data()));
+    columns.push_back(smallArray("events/end_us", i64(), count, events.endsUs.data()));
     attribute(columns.back().get(), "units", std::string("us"));
-    columns.push_back(textArray("events/kind", kinds));
-    columns.push_back(smallArray("events/matrix", i32(), count, matrices.data()));
-    columns.push_back(textArray("events/text", texts));
-    columns.push_back(textArray("events/json", jsons));
-    if (times.empty()) return;
+    columns.push_back(textArray("events/kind", events.kinds));
+    columns.push_back(smallArray("events/matrix", i32(), count, events.matrices.data()));
+    columns.push_back(textArray("events/text", events.texts));
+    columns.push_back(textArray("events/json", events.jsons));
+    if (events.timesUs.empty()) return;
     makeScale(time.get(), "time");
     for (const Hdf5Id& column : columns) attachScale(column.get(), time.get(), 0);
   }
 
-  std::vector<std::string> axisNames() const {
-    std::vector<std::string> names;
-    for (const AxisDescription& axis : profile_.hand().axes) names.push_back(axis.name);
-    return names;
-  }
-  std::vector<std::string> axisUnits() const {
-    std::vector<std::string> units;
-    for (const AxisDescription& axis : profile_.hand().axes) units.emplace_back(axis.unit());
-    return units;
-  }
-  std::vector<std::string> sensorNames(std::size_t count) const {
-    std::vector<std::string> names;
-    for (const TemperatureSensorDescription& sensor : profile_.hand().temperatureSensors)
-      names.push_back(sensor.name);
-    names.resize(count);
-    return names;
-  }
-
   // Joint angles or temperatures: times, and a column per value.
-  template <typename TimeOf, typename ValuesOf>
   void writeSamples(const std::string& group,
                     const std::string& name,
-                    std::size_t count,
-                    TimeOf timeOf,
-                    ValuesOf valuesOf,
-                    std::vector<std::string> names,
-                    std::vector<std::string> units) {
+                    const WrittenSamples& samples) {
+    const std::size_t count = samples.count;
     if (count == 0) return;
-    const std::size_t width = valuesOf(0).size();
-    names.resize(width);
-    units.resize(width);
+    const std::size_t width = samples.columns.size();
+    const std::vector<std::string> units = columnUnits(samples.columns);
     const std::size_t perChunk = std::min(count, kMaxChunkRows);
     ChunkedArray* times = nullptr;
     ChunkedArray* values = nullptr;
@@ -364,7 +313,7 @@ class Hdf5Writer {
       attribute(
           values->id.get(), "units", sameUnit ? units.front() : std::string("see column_units"));
       attribute(values->id.get(), "column_units", units);
-      const Hdf5Id column = textArray(group + "/column", names);
+      const Hdf5Id column = textArray(group + "/column", columnNames(samples.columns));
       makeScale(column.get(), "column");
       attachScale(values->id.get(), times->id.get(), 0);
       attachScale(values->id.get(), column.get(), 1);
@@ -374,8 +323,8 @@ class Hdf5Writer {
       Bytes valueBytes(perChunk * width * 8);
       const std::size_t end = std::min(count, first + perChunk);
       for (std::size_t i = first; i < end; ++i) {
-        put(timeBytes, i - first, timeOf(i));
-        const std::vector<double> row = valuesOf(i);
+        put(timeBytes, i - first, samples.timeUs(i));
+        const std::vector<double> row = samples.values(i);
         if (row.size() != width)
           throw std::invalid_argument("writeHdf5: samples of several widths");
         std::memcpy(valueBytes.data() + (i - first) * width * 8, row.data(), width * 8);
@@ -571,16 +520,10 @@ class Hdf5Writer {
       const auto lock = hdf5Lock();
       const std::string& group = series.name();
       makeGroup(group);
-      std::vector<std::string> names;
-      std::vector<std::string> units;
-      for (const ExportedSeries::Column& column : series.columns()) {
-        names.push_back(column.name);
-        units.push_back(column.unit);
-      }
       written.times = &timeArray(group, count, perChunk);
       written.values = &chunkedArray(group + "/values", f64(), {count, width}, {perChunk, 1});
-      attribute(written.values->id.get(), "column_units", units);
-      const Hdf5Id column = textArray(group + "/column", names);
+      attribute(written.values->id.get(), "column_units", columnUnits(series.columns()));
+      const Hdf5Id column = textArray(group + "/column", columnNames(series.columns()));
       makeScale(column.get(), "column");
       attachScale(written.values->id.get(), written.times->id.get(), 0);
       attachScale(written.values->id.get(), column.get(), 1);

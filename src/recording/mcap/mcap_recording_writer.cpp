@@ -14,6 +14,7 @@
 #include "recording/mcap/mcap_format.h"
 #include "recording/mcap/mcap_messages.h"
 #include "recording/profile_meta.h"
+#include "recording/sample_columns.h"
 
 namespace palpate {
 namespace {
@@ -137,10 +138,7 @@ std::uint16_t McapRecordingWriter::valuesChannel(
 }
 
 void McapRecordingWriter::beginAngles(std::size_t width) {
-  std::vector<ExportedSeries::Column> columns(width);
-  for (std::size_t i = 0; i < width && i < hand_.axes.size(); ++i)
-    columns[i] = {hand_.axes[i].name, hand_.axes[i].unit()};
-  angles_ = valuesChannel(mcap_format::kAngles, columns);
+  angles_ = valuesChannel(mcap_format::kAngles, angleColumns(hand_, width));
   numAngles_ = width;
   const McapSchemaText schema = mcapJointStateSchema();
   jointStates_ = file_.addChannel(file_.addSchema(schema.name, schema.encoding, schema.data),
@@ -159,11 +157,7 @@ void McapRecordingWriter::beginAngles(std::size_t width) {
 }
 
 void McapRecordingWriter::beginTemperatures(std::size_t width) {
-  std::vector<ExportedSeries::Column> columns(width);
-  for (std::size_t i = 0; i < width; ++i)
-    columns[i] = {i < hand_.temperatureSensors.size() ? hand_.temperatureSensors[i].name : "",
-                  "degC"};
-  temperatures_ = valuesChannel(mcap_format::kTemperatures, columns);
+  temperatures_ = valuesChannel(mcap_format::kTemperatures, temperatureColumns(hand_, width));
   numTemperatures_ = width;
 }
 

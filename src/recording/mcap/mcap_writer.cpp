@@ -1,7 +1,7 @@
 // writeMcap() and McapLiveWriter of mcap_recording.h.
 #include <algorithm>
 #include <cerrno>
-#include <limits>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +13,7 @@
 #include "palpate/core/file_id.h"
 #include "palpate/core/output_file.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/model/in_time_order.h"
 #include "palpate/recording/mcap_recording.h"
 
 #include "recording/mcap/mcap_recording_writer.h"
@@ -52,38 +53,6 @@ void writeMcap(const RecordingContent& content,
     series.emplace_back(writer.beginSeries(one->name(), one->columns()),
                         std::make_unique<RunningSeries>(*one, "writeMcap"));
 
-  // All series in order of time; at equal times what is first here.
-  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-  std::size_t event = 0;
-  std::size_t temperature = 0;
-  std::size_t angle = 0;
-  const auto writeUntil = [&](std::int64_t endUs, bool all) {
-    const auto isDue = [&](std::int64_t timeUs) { return all || timeUs <= endUs; };
-    const auto eventUs = [&] {
-      return event < content.events.size() ? content.events[event].tUs : kNever;
-    };
-    const auto temperatureUs = [&] {
-      return temperature < profile.numTemperatures() ? profile.temperatureTimeUs(temperature)
-                                                     : kNever;
-    };
-    const auto angleUs = [&] {
-      return angle < profile.numAngles() ? profile.angleTimeUs(angle) : kNever;
-    };
-    while (true) {
-      const bool anyEvent = event < content.events.size() && isDue(eventUs());
-      const bool anyTemperature = temperature < profile.numTemperatures() && isDue(temperatureUs());
-      const bool anyAngle = angle < profile.numAngles() && isDue(angleUs());
-      if (anyEvent && (!anyTemperature || eventUs() <= temperatureUs()) &&
-          (!anyAngle || eventUs() <= angleUs()))
-        writer.addEvent(content.events[event++]);
-      else if (anyTemperature && (!anyAngle || temperatureUs() <= angleUs()))
-        writer.addTemperatures(profile.temperatures(temperature++));
-      else if (anyAngle)
-        writer.addAngles(profile.angles(angle++));
-      else
-        break;
-    }
-  };
   const auto writeRows = [&](std::int64_t endUs, bool all) {
     for (auto& [channel, rows] : series)
       for (auto next = rows->nextUs(); next && (all || *next <= endUs); next = rows->nextUs()) {
@@ -92,14 +61,26 @@ void writeMcap(const RecordingContent& content,
       }
   };
   TactileFrame frame;
-  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    reportProgress(progress, i, profile.numFrames(), kMcapFramesPerReport);
-    profile.readFrame(i, frame);
-    writeUntil(frame.hostUs, false);
-    writer.addFrame(frame);
-    writeRows(frame.hostUs, false);
+  InTimeOrder order(profile, content.events);
+  while (const auto item = order.take()) {
+    switch (const std::size_t i = item->index; item->kind) {
+      case InTimeOrder::Kind::kEvent:
+        writer.addEvent(content.events[i]);
+        break;
+      case InTimeOrder::Kind::kTemperatures:
+        writer.addTemperatures(profile.temperatures(i));
+        break;
+      case InTimeOrder::Kind::kAngles:
+        writer.addAngles(profile.angles(i));
+        break;
+      case InTimeOrder::Kind::kFrame:
+        reportProgress(progress, i, profile.numFrames(), kMcapFramesPerReport);
+        profile.readFrame(i, frame);
+        writer.addFrame(frame);
+        writeRows(frame.hostUs, false);
+        break;
+    }
   }
-  writeUntil(0, true);
   writeRows(0, true);
   writer.file().finish();
   out.commit();

@@ -129,12 +129,6 @@ class TemporaryNeighbour {
   fs::path folder_;
 };
 
-// Calls add() for the samples of one stream up to a time, from where it stopped last.
-template <typename TimeOf, typename Add>
-void addUntil(std::size_t& next, std::size_t count, std::int64_t untilUs, TimeOf timeOf, Add add) {
-  while (next < count && timeOf(next) <= untilUs) add(next++);
-}
-
 void writeAll(const Profile& profile,
               std::span<const RecordingEvent> events,
               PalpateWriter& writer,
@@ -142,19 +136,14 @@ void writeAll(const Profile& profile,
   constexpr std::size_t kFramesPerReport = 256;
   std::size_t angle = 0;
   std::size_t temperature = 0;
+  // All angles, then all temperatures: which samples a block has depends on this order.
   const auto addBefore = [&](std::int64_t untilUs) {
-    addUntil(
-        angle,
-        profile.numAngles(),
-        untilUs,
-        [&](std::size_t i) { return profile.angleTimeUs(i); },
-        [&](std::size_t i) { writer.addAngles(profile.angles(i)); });
-    addUntil(
-        temperature,
-        profile.numTemperatures(),
-        untilUs,
-        [&](std::size_t i) { return profile.temperatureTimeUs(i); },
-        [&](std::size_t i) { writer.addTemperatures(profile.temperatures(i)); });
+    for (; angle < profile.numAngles() && profile.angleTimeUs(angle) <= untilUs; ++angle)
+      writer.addAngles(profile.angles(angle));
+    for (; temperature < profile.numTemperatures() &&
+           profile.temperatureTimeUs(temperature) <= untilUs;
+         ++temperature)
+      writer.addTemperatures(profile.temperatures(temperature));
   };
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {

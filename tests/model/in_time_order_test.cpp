@@ -1,0 +1,64 @@
+#include "palpate/model/in_time_order.h"
+
+#include "palpate/model/profile_builder.h"
+
+#include "testing/testing.h"
+
+namespace palpate::in_time_order_test {
+namespace {
+
+using Kind = InTimeOrder::Kind;
+
+struct Event {
+  std::int64_t tUs;
+};
+
+Profile profileAt(const std::vector<std::int64_t>& framesUs,
+                  const std::vector<std::int64_t>& anglesUs,
+                  const std::vector<std::int64_t>& temperaturesUs) {
+  const std::vector<double> value{1.0};
+  ProfileBuilder builder(
+      std::make_shared<SensorLayout>(std::vector{MatrixLayout::full(1, 1, 1.0)}));
+  for (const std::int64_t us : framesUs) builder.addFrame(us, std::vector<float>{0.0F});
+  for (const std::int64_t us : anglesUs) builder.addAngles(us, value);
+  for (const std::int64_t us : temperaturesUs) builder.addTemperatures(us, value);
+  return builder.finish({});
+}
+
+std::vector<InTimeOrder::Item> allOf(InTimeOrder order) {
+  std::vector<InTimeOrder::Item> items;
+  while (const auto item = order.next()) {
+    items.push_back(*item);
+    EXPECT_EQ(order.take(), item);
+  }
+  EXPECT_EQ(order.take(), std::nullopt);
+  return items;
+}
+
+TEST(InTimeOrder, ofEqualTimesEventsTemperaturesAnglesFrames) {
+  EXPECT_EQ(allOf({profileAt({10, 20}, {5, 20}, {20, 30}), std::vector<Event>{{20}, {40}}}),
+            (std::vector<InTimeOrder::Item>{{Kind::kAngles, 0, 5},
+                                            {Kind::kFrame, 0, 10},
+                                            {Kind::kEvent, 0, 20},
+                                            {Kind::kTemperatures, 0, 20},
+                                            {Kind::kAngles, 1, 20},
+                                            {Kind::kFrame, 1, 20},
+                                            {Kind::kTemperatures, 1, 30},
+                                            {Kind::kEvent, 1, 40}}));
+}
+
+TEST(InTimeOrder, eventsKeepTheirOrder) {
+  EXPECT_EQ(allOf({profileAt({10, 20}, {}, {}), std::vector<Event>{{15}, {5}}}),
+            (std::vector<InTimeOrder::Item>{{Kind::kFrame, 0, 10},
+                                            {Kind::kEvent, 0, 15},
+                                            {Kind::kEvent, 1, 5},
+                                            {Kind::kFrame, 1, 20}}));
+}
+
+TEST(InTimeOrder, mayBeEmptyAndReachTheEndOfTime) {
+  EXPECT_TRUE(allOf({profileAt({}, {}, {}), std::vector<Event>{}}).empty());
+  EXPECT_EQ(allOf({profileAt({}, {}, {}), std::vector<Event>{{INT64_MAX}}}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace palpate::in_time_order_test
