@@ -1,18 +1,15 @@
 #include "palpate/batch/batch_plan.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <string_view>
 #include <system_error>
-
-#include <time.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/parallel.h"
+#include "palpate/core/time.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_folder.h"
 
@@ -21,39 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostNameBytes = 255;
-constexpr std::array kFieldNames = {"name", "folder", "ending", "date", "time"};
-
-struct LocalBegin {
-  std::string date;  // 2014-11-27
-  std::string time;  // 10-31-05
-};
-LocalBegin localBegin(std::int64_t timeUs) {
-  constexpr std::int64_t kUsPerS = 1'000'000;
-  const auto seconds = static_cast<time_t>(timeUs / kUsPerS - (timeUs % kUsPerS < 0 ? 1 : 0));
-  struct tm parts {};
-  ::localtime_r(&seconds, &parts);
-  char text[64];
-  LocalBegin begin;
-  begin.date.assign(text, std::strftime(text, sizeof text, "%Y-%m-%d", &parts));
-  begin.time.assign(text, std::strftime(text, sizeof text, "%H-%M-%S", &parts));
-  return begin;
-}
-
-void requireFields(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t open = text.find_first_of("{}", at);
-    if (open == std::string_view::npos) return;
-    const std::size_t close = text.find_first_of("{}", open + 1);
-    if (text[open] == '}' || close == std::string_view::npos || text[close] == '{')
-      throw std::invalid_argument("template '" + shortened(text) +
-                                  "': a brace without its partner");
-    const std::string_view field = text.substr(open + 1, close - open - 1);
-    if (std::find(kFieldNames.begin(), kFieldNames.end(), field) == kFieldNames.end())
-      throw std::invalid_argument("template '" + shortened(text) + "': {" + shortened(field) +
-                                  "} isn't known; use {name}, {folder}, {ending}, {date}, {time}");
-    at = close + 1;
-  }
-}
 
 std::string joinedFolders(const fs::path& folder) {
   std::string text;
@@ -61,25 +25,36 @@ std::string joinedFolders(const fs::path& folder) {
   return text;
 }
 
-// `text` with its fields replaced. An empty field takes the "_" or "-" behind it along.
-std::string filledText(std::string_view text, const BatchNameFields& fields, bool isFolder) {
+// `text` with its fields replaced. An empty field takes the "_" or "-" behind it along. Throws
+// std::invalid_argument for an unknown field and a brace without its partner.
+std::string filledText(const std::string& text, const BatchNameFields& fields, bool isFolder) {
   std::string filled;
-  while (!text.empty()) {
-    const std::size_t open = std::min(text.find('{'), text.size());
-    filled += text.substr(0, open);
-    text.remove_prefix(open);
-    if (text.empty()) break;
-    const std::size_t close = text.find('}');
-    const std::string_view field = text.substr(1, close - 1);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t open = std::min(text.find_first_of("{}", at), text.size());
+    filled += text.substr(at, open - at);
+    if (open == text.size()) break;
+    const std::size_t close = text.find_first_of("{}", open + 1);
+    if (text[open] == '}' || close == std::string::npos || text[close] == '{')
+      throw std::invalid_argument("template '" + shortened(text) +
+                                  "': a brace without its partner");
+    const std::string field = text.substr(open + 1, close - open - 1);
     std::string value;
-    if (field == "name") value = fields.name;
-    if (field == "folder") value = isFolder ? fields.folder.string() : joinedFolders(fields.folder);
-    if (field == "ending") value = fields.ending;
-    if (field == "date") value = localBegin(fields.timeUs).date;
-    if (field == "time") value = localBegin(fields.timeUs).time;
+    if (field == "name")
+      value = fields.name;
+    else if (field == "folder")
+      value = isFolder ? fields.folder.string() : joinedFolders(fields.folder);
+    else if (field == "ending")
+      value = fields.ending;
+    else if (field == "date")
+      value = localText(fields.timeUs, "%Y-%m-%d");
+    else if (field == "time")
+      value = localText(fields.timeUs, "%H-%M-%S");
+    else
+      throw std::invalid_argument("template '" + shortened(text) + "': {" + shortened(field) +
+                                  "} isn't known; use {name}, {folder}, {ending}, {date}, {time}");
     filled += value;
-    text.remove_prefix(close + 1);
-    if (value.empty() && !text.empty() && (text[0] == '_' || text[0] == '-')) text.remove_prefix(1);
+    at = close + 1;
+    if (value.empty() && at < text.size() && (text[at] == '_' || text[at] == '-')) ++at;
   }
   return filled;
 }
@@ -177,7 +152,7 @@ BatchTemplate::BatchTemplate(const std::string& text) {
   if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
     throw std::invalid_argument("template '" + shortened(text) +
                                 "': control characters aren't allowed in names");
-  requireFields(text);
+  filledText(text, {}, false);  // throws
   const fs::path path(text);
   name_ = path.filename().string();
   if (name_.empty() || fs::path(name_).extension().string().size() < 2 ||

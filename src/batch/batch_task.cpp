@@ -1,14 +1,10 @@
 #include "palpate/batch/batch_task.h"
 
-#include <stdexcept>
 #include <vector>
 
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/text_table.h"
-#include "palpate/filter/filtered_profile.h"
-#include "palpate/model/timing.h"
+#include "palpate/recognition/filtered_recording.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/signal_filter.h"
 #include "palpate/signals/signal_rows.h"
@@ -33,22 +29,13 @@ std::string filtersText(const Recipe& filters) {
   return filters.empty() ? "" : "; " + recipeText(filters);
 }
 
-void requireMatrix(const fs::path& file,
-                   const Profile& profile,
-                   const std::optional<std::int64_t>& matrix) {
-  const auto matrices = static_cast<std::int64_t>(profile.layout().numMatrices());
-  if (matrix && *matrix >= matrices)
-    throw Error(file.string() + ": has no matrix " + std::to_string(*matrix) + ", only 0.." +
-                std::to_string(matrices - 1));
-}
-
 // The recording of an item, filtered; the first half of the progress.
 Profile openFiltered(const BatchItem& item,
                      const Recipe& filters,
                      const Progress& progress,
                      std::size_t threads) {
   const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.5), threads);
-  return filteredRecording(filters, whole, item.source, partOf(progress, 0.5, 0.5));
+  return filteredBy(filters, whole, item.source, partOf(progress, 0.5, 0.5));
 }
 
 // Why the result of an item has only a part of its recording; else empty.
@@ -153,7 +140,7 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
             const std::vector<GraspFrames> grasps = graspFrames(whole, events.events);
             if (grasps.empty()) throw FileError(item.source, "has no grasp");
             const Profile profile =
-                filteredRecording(options.filters, whole, item.source, partOf(progress, 0.3, 0.5));
+                filteredBy(options.filters, whole, item.source, partOf(progress, 0.3, 0.5));
             BatchNameFields fields = nameFieldsOf(item);
             fields.timeUs = whole.frameTimeUs(0);
             BatchAnswer answer{.said = counted(grasps.size(), "grasp")};
@@ -190,7 +177,7 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
                           const Progress& progress,
                           std::size_t threads) {
             const Profile profile = openFiltered(item, table.filters, progress, threads);
-            requireMatrix(item.source, profile, table.matrix);
+            requireMatrix(item.source, profile.layout(), table.matrix);
             requireBelowHalfRate(table.smooth, profile, item.source);
             TableFile out(item.target, overwrite);
             out.write(std::string(kSignalColumns) + "\n");
@@ -206,36 +193,6 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
             return BatchAnswer{.said = counted(profile.numFrames(), "frame"),
                                .problem = partText(item, profile)};
           }};
-}
-
-void setSlipMethod(SlipRowsOptions& table, std::string_view name) {
-  const auto method = slipMethodNamed(name);
-  if (!method) throw std::invalid_argument("there is no method '" + shortened(name) + "' of slip");
-  table.pass.detector.method = *method;
-  table.pass.detector.hypothesisAlarm = *method == SlipMethod::kHypotheses;
-}
-
-void setSlipReference(SlipRowsOptions& table, const std::string& word) {
-  SlipDetectorOptions& detector = table.pass.detector;
-  if (word == "first") {
-    detector.reference = SlipReference::kFirst;
-  } else if (word == "rest") {
-    detector.reference = SlipReference::kWhenAtRest;
-  } else if (const auto frame = parseInteger(word); frame && *frame >= 0) {
-    detector.reference = SlipReference::kGiven;
-    table.pass.referenceFrame = static_cast<std::size_t>(*frame);
-  } else {
-    throw std::invalid_argument("'" + shortened(word) +
-                                "'; it is first, rest, or the number of a frame");
-  }
-}
-
-void requireThere(const fs::path& file, const Profile& profile, const SlipRowsOptions& table) {
-  requireMatrix(file, profile, table.matrix);
-  if (table.pass.detector.reference == SlipReference::kGiven &&
-      table.pass.referenceFrame >= profile.numFrames())
-    throw Error(file.string() + ": has no frame " + std::to_string(table.pass.referenceFrame) +
-                " to be the reference; it has " + std::to_string(profile.numFrames()));
 }
 
 BatchTask slipTask(const SlipRowsOptions& table) {
@@ -295,44 +252,6 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
             if (!table.problems.empty()) answer.problem = table.problems.front();
             return answer;
           }};
-}
-
-std::string featureHeaderLine(const FeatureTable& table) {
-  std::vector<std::string> header = {"class", "file", "begin", "end", "initial_frame", "end_frame"};
-  header.insert(header.end(), table.names.begin(), table.names.end());
-  return csvLine(header);
-}
-
-std::string featureLine(const FeatureRow& row) {
-  std::vector<std::string> cells = {row.className,
-                                    row.file.string(),
-                                    std::to_string(row.begin),
-                                    std::to_string(row.end),
-                                    std::to_string(row.initialFrame),
-                                    std::to_string(row.endFrame)};
-  for (const double value : row.values) cells.push_back(numberText(value));
-  return csvLine(cells);
-}
-
-void requireBelowHalfRate(const Recipe& recipe, const Profile& profile, const fs::path& file) {
-  if (!recipe.dependsOnRate()) return;
-  try {
-    recipe.validateForRate(timingOf(profile).rateHz);
-  } catch (const std::invalid_argument& error) {
-    throw Error(file.string() + ": " + error.what());
-  }
-}
-
-Profile filteredRecording(const Recipe& recipe,
-                          const Profile& profile,
-                          const fs::path& file,
-                          const Progress& progress) {
-  if (recipe.empty()) return profile;
-  try {
-    return filteredProfile(profile, recipe, {settingsTimesUs(readEvents(file).events)}, progress);
-  } catch (const std::invalid_argument& error) {
-    throw Error(file.string() + ": " + error.what());
-  }
 }
 
 }  // namespace palpate

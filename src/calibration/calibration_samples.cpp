@@ -26,11 +26,8 @@ void gatherRow(const PressureTableRow& row,
   const std::filesystem::path file = row.file.is_absolute() ? row.file : folder / row.file;
   try {
     const CalibrationSource source = open(file, progress);
-    const std::size_t numMatrices = source.profile.layout().numMatrices();
     if (!all.matrix) all.matrix = loadedMatrix(source.profile);
-    if (*all.matrix >= numMatrices)
-      throw Error(file.string() + ": has no matrix " + std::to_string(*all.matrix) + ", only 0.." +
-                  std::to_string(numMatrices - 1));
+    requireMatrix(file, source.profile.layout(), *all.matrix);
     all.taxelAreaMm2 = source.profile.layout().matrix(*all.matrix).taxelAreaMm2();
     if (all.hand.empty()) {
       all.hand = source.profile.hand().name;

@@ -7,11 +7,10 @@
 #include <system_error>
 #include <vector>
 
-#include <time.h>
-
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -38,26 +37,8 @@ std::string harmless(std::string_view text) {
   return name;
 }
 
-struct LocalTime {
-  std::string date;
-  std::string time;
-};
-LocalTime localTime(std::int64_t timeUs) {
-  const auto seconds = static_cast<time_t>(timeUs / 1'000'000 - (timeUs % 1'000'000 < 0 ? 1 : 0));
-  struct tm parts {};
-  ::localtime_r(&seconds, &parts);
-  char text[64];
-  LocalTime local;
-  std::snprintf(
-      text, sizeof text, "%04d-%02d-%02d", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday);
-  local.date = text;
-  std::snprintf(text, sizeof text, "%02d-%02d-%02d", parts.tm_hour, parts.tm_min, parts.tm_sec);
-  local.time = text;
-  return local;
-}
-
 std::string valueOf(std::string_view placeholder, const RecordingNameFields& fields) {
-  if (placeholder == "date") return localTime(fields.timeUs).date;
+  if (placeholder == "date") return localText(fields.timeUs, "%Y-%m-%d");
   if (placeholder == "time") return {kTimeMark};
   if (placeholder == "operator") return fileNamePart(fields.operatorName);
   if (placeholder == "object") return fileNamePart(fields.object);
@@ -109,7 +90,7 @@ std::string filled(const std::string& marked, const RecordingNameFields& fields,
   std::string name;
   for (const char c : marked) {
     if (c == kTimeMark)
-      name += localTime(fields.timeUs).time;
+      name += localText(fields.timeUs, "%H-%M-%S");
     else if (c == kRunMark)
       name += runText(run);
     else

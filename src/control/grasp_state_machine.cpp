@@ -59,15 +59,10 @@ std::int64_t microsecondsOf(double seconds) { return std::llround(seconds * 1e6)
 
 // The largest taxel of each matrix, into `peaks`; returns the largest of all.
 TaxelPeak taxelPeaks(const TactileFrame& frame, std::vector<TaxelPeak>& peaks) {
-  peaks.assign(frame.layout->numMatrices(), {});
+  peaks.resize(frame.layout->numMatrices());
   TaxelPeak largest;
   for (std::size_t m = 0; m < peaks.size(); ++m) {
-    const ConstMatrixMap values = frame.matrix(m);
-    peaks[m].matrix = m;
-    for (Eigen::Index row = 0; row < values.rows(); ++row)
-      for (Eigen::Index column = 0; column < values.cols(); ++column)
-        if (values(row, column) > peaks[m].counts)
-          peaks[m] = {m, static_cast<int>(row), static_cast<int>(column), values(row, column)};
+    peaks[m] = taxelPeak(frame, m);
     if (peaks[m].counts > largest.counts) largest = peaks[m];
   }
   return largest;

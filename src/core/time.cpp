@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <iomanip>
+#include <sstream>
 
 namespace palpate {
 namespace {
@@ -57,6 +59,16 @@ std::string utcText(std::int64_t hostUs) {
                 static_cast<int>(clock.seconds().count()),
                 static_cast<int>(clock.subseconds().count()));
   return text;
+}
+
+std::string localText(std::int64_t hostUs, const char* format) {
+  const std::time_t seconds =
+      std::chrono::floor<std::chrono::seconds>(std::chrono::microseconds(hostUs)).count();
+  std::tm parts{};
+  ::localtime_r(&seconds, &parts);
+  std::ostringstream text;
+  text << std::put_time(&parts, format);
+  return text.str();
 }
 
 }  // namespace palpate

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "palpate/core/error.h"
+
 namespace palpate {
 namespace {
 constexpr int kMaxSide = 256;
@@ -72,6 +74,15 @@ std::size_t SensorLayout::numTaxels() const noexcept {
   std::size_t count = 0;
   for (const MatrixLayout& matrix : matrices_) count += matrix.numTaxels();
   return count;
+}
+
+void requireMatrix(const std::filesystem::path& file,
+                   const SensorLayout& layout,
+                   std::optional<std::int64_t> matrix) {
+  const auto last = static_cast<std::int64_t>(layout.numMatrices()) - 1;
+  if (matrix && *matrix > last)
+    throw Error(file.string() + ": has no matrix " + std::to_string(*matrix) + ", only 0.." +
+                std::to_string(last));
 }
 
 }  // namespace palpate

@@ -45,4 +45,21 @@ bool TactileFrame::isCounts(float maxCounts) const noexcept {
   });
 }
 
+TaxelPeak taxelPeak(const TactileFrame& frame) {
+  TaxelPeak largest;
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m)
+    if (const TaxelPeak peak = taxelPeak(frame, m); peak.counts > largest.counts) largest = peak;
+  return largest;
+}
+
+TaxelPeak taxelPeak(const TactileFrame& frame, std::size_t matrix) {
+  TaxelPeak peak{.matrix = matrix};
+  const ConstMatrixMap values = frame.matrix(matrix);
+  for (Eigen::Index row = 0; row < values.rows(); ++row)
+    for (Eigen::Index column = 0; column < values.cols(); ++column)
+      if (values(row, column) > peak.counts)
+        peak = {matrix, static_cast<int>(row), static_cast<int>(column), values(row, column)};
+  return peak;
+}
+
 }  // namespace palpate

@@ -8,8 +8,9 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/parallel.h"
-#include "palpate/filter/filtered_profile.h"
+#include "palpate/core/text_table.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/recognition/filtered_recording.h"
 #include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_folder.h"
@@ -40,16 +41,6 @@ std::string spanText(const GraspFeatures& grasp) {
   return "grasp " + std::to_string(grasp.begin) + ".." + std::to_string(grasp.end);
 }
 
-// Events "settings" restart the filters over time.
-Profile filteredFirst(const Recipe& filters, const Profile& profile, const fs::path& file) {
-  if (filters.empty()) return profile;
-  try {
-    return filteredProfile(profile, filters, {settingsTimesUs(readEvents(file).events)});
-  } catch (const std::invalid_argument& error) {
-    throw Error(file.string() + ": " + error.what());
-  }
-}
-
 // `alone`: no other recording is read at the same time.
 Gathered gather(const Source& source, const FeatureExtractionOptions& options, bool alone) {
   Gathered out;
@@ -58,9 +49,9 @@ Gathered gather(const Source& source, const FeatureExtractionOptions& options, b
   };
   try {
     const Profile profile =
-        filteredFirst(options.filters,
-                      openRecording(source.file, {}, alone ? 0 : threadsBesideOthers(source.file)),
-                      source.file);
+        filteredBy(options.filters,
+                   openRecording(source.file, {}, alone ? 0 : threadsBesideOthers(source.file)),
+                   source.file);
     if (const std::string lost = lostText(profile); !lost.empty()) say(lost);
     out.set = options.set.value_or(defaultFeatureSet(profile.hand()));
     out.sensor = sensorText(profile.layout());
@@ -231,6 +222,23 @@ FeatureTable extractFeatures(const std::vector<fs::path>& paths,
   }
   if (table.rows.empty()) table.sensor.clear();
   return table;
+}
+
+std::string featureHeaderLine(const FeatureTable& table) {
+  std::vector<std::string> header = {"class", "file", "begin", "end", "initial_frame", "end_frame"};
+  header.insert(header.end(), table.names.begin(), table.names.end());
+  return csvLine(header);
+}
+
+std::string featureLine(const FeatureRow& row) {
+  std::vector<std::string> cells = {row.className,
+                                    row.file.string(),
+                                    std::to_string(row.begin),
+                                    std::to_string(row.end),
+                                    std::to_string(row.initialFrame),
+                                    std::to_string(row.endFrame)};
+  for (const double value : row.values) cells.push_back(numberText(value));
+  return csvLine(cells);
 }
 
 }  // namespace palpate

@@ -1,19 +1,11 @@
 #include "palpate/recording/recording_search.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <ctime>
+
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
-
-std::string localDate(std::int64_t us) {
-  const std::time_t seconds = static_cast<std::time_t>(us / 1'000'000);
-  std::tm parts{};
-  char text[32] = "";
-  if (::localtime_r(&seconds, &parts)) std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &parts);
-  return text;
-}
 
 std::string pathWithin(const std::filesystem::path& path, const std::filesystem::path& folder) {
   const std::string& whole = path.native();
@@ -40,7 +32,7 @@ SearchableText searchableText(const RecordingDetails& details,
   field(SearchKey::kRun) = details.run;
   field(SearchKey::kNotes) = details.notes;
   for (const std::string& label : details.labels) field(SearchKey::kLabel) += label + '\n';
-  if (details.startUs) field(SearchKey::kDate) = localDate(*details.startUs);
+  if (details.startUs) field(SearchKey::kDate) = localText(*details.startUs, "%Y-%m-%d %H:%M");
   field(SearchKey::kForm) = details.form;
   field(SearchKey::kState) = nameOf(details.state);
   for (std::string& part : text) part = folded(part);

@@ -3,7 +3,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "palpate/core/error.h"
 #include "palpate/filter/filter_chain.h"
+#include "palpate/model/timing.h"
 
 namespace palpate {
 
@@ -58,5 +60,16 @@ void SignalFilter::push(std::int64_t hostUs, std::span<const CharacteristicSigna
 }
 void SignalFilter::restart() { impl_->chain().restart(); }
 void SignalFilter::finish() { impl_->chain().finish(); }
+
+void requireBelowHalfRate(const Recipe& recipe,
+                          const Profile& profile,
+                          const std::filesystem::path& file) {
+  if (!recipe.dependsOnRate()) return;
+  try {
+    recipe.validateForRate(timingOf(profile).rateHz);
+  } catch (const std::invalid_argument& error) {
+    throw Error(file.string() + ": " + error.what());
+  }
+}
 
 }  // namespace palpate

@@ -1,7 +1,10 @@
 #include "palpate/slip/slip_rows.h"
 
+#include <stdexcept>
 #include <vector>
 
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 
@@ -44,6 +47,38 @@ const char* const kSlipSegmentColumns =
     "begin,end,begin_ms,end_ms,matrix,path_taxels,rotation_deg,confidence";
 
 const char* const kSlipSegmentUnits = ",,ms,ms,,taxels,deg,";
+
+void setSlipMethod(SlipRowsOptions& table, std::string_view name) {
+  const auto method = slipMethodNamed(name);
+  if (!method) throw std::invalid_argument("there is no method '" + shortened(name) + "' of slip");
+  table.pass.detector.method = *method;
+  table.pass.detector.hypothesisAlarm = *method == SlipMethod::kHypotheses;
+}
+
+void setSlipReference(SlipRowsOptions& table, const std::string& word) {
+  SlipDetectorOptions& detector = table.pass.detector;
+  if (word == "first") {
+    detector.reference = SlipReference::kFirst;
+  } else if (word == "rest") {
+    detector.reference = SlipReference::kWhenAtRest;
+  } else if (const auto frame = parseInteger(word); frame && *frame >= 0) {
+    detector.reference = SlipReference::kGiven;
+    table.pass.referenceFrame = static_cast<std::size_t>(*frame);
+  } else {
+    throw std::invalid_argument("'" + shortened(word) +
+                                "'; it is first, rest, or the number of a frame");
+  }
+}
+
+void requireThere(const std::filesystem::path& file,
+                  const Profile& profile,
+                  const SlipRowsOptions& table) {
+  requireMatrix(file, profile.layout(), table.matrix);
+  if (table.pass.detector.reference == SlipReference::kGiven &&
+      table.pass.referenceFrame >= profile.numFrames())
+    throw Error(file.string() + ": has no frame " + std::to_string(table.pass.referenceFrame) +
+                " to be the reference; it has " + std::to_string(profile.numFrames()));
+}
 
 void appendSlipCell(std::string& row, bool known, double value) {
   row += ',';

@@ -149,25 +149,6 @@ TEST_F(BatchTasks, UnitsStandInTheSecondRow) {
   EXPECT_NE(convertTask({.choices = {.unitsRow = true}}).options, convertTask().options);
 }
 
-TEST_F(BatchTasks, TheWordsOfSlipAreThoseOfTheCommand) {
-  SlipRowsOptions table;
-  setSlipMethod(table, "register");
-  EXPECT_EQ(table.pass.detector.method, SlipMethod::kRegister);
-  EXPECT_FALSE(table.pass.detector.hypothesisAlarm);
-  setSlipMethod(table, "contest");
-  EXPECT_TRUE(table.pass.detector.hypothesisAlarm);
-  EXPECT_THROW(setSlipMethod(table, "guess"), std::invalid_argument);
-  setSlipReference(table, "rest");
-  EXPECT_EQ(table.pass.detector.reference, SlipReference::kWhenAtRest);
-  setSlipReference(table, "17");
-  EXPECT_EQ(table.pass.detector.reference, SlipReference::kGiven);
-  EXPECT_EQ(table.pass.referenceFrame, 17u);
-  setSlipReference(table, "first");
-  EXPECT_EQ(table.pass.detector.reference, SlipReference::kFirst);
-  for (const char* word : {"", "-1", "1.5", "later"})
-    EXPECT_THROW(setSlipReference(table, word), std::invalid_argument) << word;
-}
-
 TEST_F(BatchTasks, FiltersAreApplied) {
   const std::vector<std::string> median = {"median"};
   const Recipe recipe = parseRecipe(median);

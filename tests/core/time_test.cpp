@@ -1,5 +1,6 @@
 #include "palpate/core/time.h"
 
+#include <cstdlib>
 #include <ctime>
 
 #include "testing/testing.h"
@@ -35,6 +36,16 @@ TEST(UtcText, WritesDatesLikePeople) {
   EXPECT_EQ(utcText(0), "1970-01-01 00:00:00.000");
   EXPECT_EQ(utcText(1'417'170'971'302'000), "2014-11-28 10:36:11.302");  // date -u -d @1417170971
   EXPECT_EQ(utcText(-1'000), "1969-12-31 23:59:59.999");
+}
+
+// Expected: TZ=UTC-3 date -d @1417084265
+TEST(LocalText, IsInTheTimeOfTheMachine) {
+  ::setenv("TZ", "UTC-3", 1);  // three hours east
+  ::tzset();
+  EXPECT_EQ(localText(1'417'084'265'999'999, "%Y-%m-%d %H-%M-%S"), "2014-11-27 13-31-05");
+  EXPECT_EQ(localText(-1, "%Y-%m-%d %H:%M:%S"), "1970-01-01 02:59:59");
+  ::unsetenv("TZ");
+  ::tzset();
 }
 
 // C-A13: stamps go on while the machine sleeps.

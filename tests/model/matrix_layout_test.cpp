@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "palpate/core/error.h"
+
 #include "testing/testing.h"
 
 namespace palpate::matrix_layout_test {
@@ -43,6 +45,18 @@ TEST(SensorLayout, PutsMatricesOneAfterTheOther) {
   EXPECT_EQ(layout.offset(1), 6u);
   EXPECT_THROW(layout.offset(2), std::out_of_range);
   EXPECT_THROW(SensorLayout(std::vector<MatrixLayout>{}), std::invalid_argument);
+}
+
+TEST(RequireMatrix, SaysWhichTheSensorHas) {
+  const SensorLayout layout({MatrixLayout::full(2, 2, 1.0), MatrixLayout::full(3, 3, 1.0)});
+  EXPECT_NO_THROW(requireMatrix("a.dsa", layout, std::nullopt));
+  EXPECT_NO_THROW(requireMatrix("a.dsa", layout, 1));
+  try {
+    requireMatrix("a.dsa", layout, 2);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "a.dsa: has no matrix 2, only 0..1");
+  }
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <stdexcept>
 
+#include "palpate/core/error.h"
 #include "palpate/filter/kalman.h"
+#include "palpate/model/profile_builder.h"
 
 #include "testing/testing.h"
 
@@ -67,6 +69,20 @@ TEST(SignalFilter, RefusesFiltersOverSpace) {
   EXPECT_NO_THROW(SignalFilter(recipeOf("kalman | (box)"), 1, emit));
   SignalFilter filter(recipeOf("kalman"), 2, emit);
   EXPECT_THROW(filter.push(0, std::vector<CharacteristicSignals>(3)), std::invalid_argument);
+}
+
+TEST(RequireBelowHalfRate, NamesTheFile) {
+  ProfileBuilder builder(
+      std::make_shared<const SensorLayout>(std::vector{MatrixLayout::full(1, 1, 1.0)}));
+  for (std::int64_t i = 0; i < 4; ++i) builder.addFrame(i * 100'000, std::vector<float>{1.0F});
+  const Profile profile = builder.finish({});  // 10 frames/s
+  EXPECT_NO_THROW(requireBelowHalfRate(recipeOf("butterworth:cutoff=4"), profile, "a.dsa"));
+  try {
+    requireBelowHalfRate(recipeOf("butterworth:cutoff=6"), profile, "a.dsa");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("a.dsa: ")) << error.what();
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "palpate/slip/slip_rows.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -74,6 +75,40 @@ TEST(SlipRows, HaveAUnitForEachColumn) {
   };
   EXPECT_EQ(cells(kSlipUnits), cells(kSlipColumns));
   EXPECT_EQ(cells(kSlipSegmentUnits), cells(kSlipSegmentColumns));
+}
+
+TEST(SlipRowsOptions, TakesTheWordsOfTheCommand) {
+  SlipRowsOptions table;
+  setSlipMethod(table, "register");
+  EXPECT_EQ(table.pass.detector.method, SlipMethod::kRegister);
+  EXPECT_FALSE(table.pass.detector.hypothesisAlarm);
+  setSlipMethod(table, "contest");
+  EXPECT_TRUE(table.pass.detector.hypothesisAlarm);
+  EXPECT_THROW(setSlipMethod(table, "guess"), std::invalid_argument);
+  setSlipReference(table, "rest");
+  EXPECT_EQ(table.pass.detector.reference, SlipReference::kWhenAtRest);
+  setSlipReference(table, "17");
+  EXPECT_EQ(table.pass.detector.reference, SlipReference::kGiven);
+  EXPECT_EQ(table.pass.referenceFrame, 17u);
+  setSlipReference(table, "first");
+  EXPECT_EQ(table.pass.detector.reference, SlipReference::kFirst);
+  for (const char* word : {"", "-1", "1.5", "later"})
+    EXPECT_THROW(setSlipReference(table, word), std::invalid_argument) << word;
+}
+
+TEST(SlipRowsOptions, NamesAFrameThatIsNotThere) {
+  SlipRowsOptions table;
+  setSlipReference(table, "90");
+  try {
+    requireThere("a.dsa", movedContact(), table);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "a.dsa: has no frame 90 to be the reference; it has 90");
+  }
+  setSlipReference(table, "89");
+  EXPECT_NO_THROW(requireThere("a.dsa", movedContact(), table));
+  table.matrix = 6;
+  EXPECT_THROW(requireThere("a.dsa", movedContact(), table), Error);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "palpate/calibration/calibration.h"
-#include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/output_file.h"
 #include "palpate/core/time.h"
@@ -72,12 +71,6 @@ std::size_t matrixGiven(const CommandLine& given) {
 
 SignalKind signalGiven(const CommandLine& given) {
   return signalChosen(given).value_or(SignalKind::kFilteredMean);
-}
-
-void requireMatrix(const std::filesystem::path& file, std::size_t numMatrices, std::size_t matrix) {
-  if (matrix < numMatrices) return;
-  throw Error(file.string() + ": has no matrix " + std::to_string(matrix) + ", only 0.." +
-              std::to_string(numMatrices - 1));
 }
 
 StepLoss lossGiven(const CommandLine& given) {

@@ -26,9 +26,6 @@ std::size_t matrixGiven(const CommandLine& given);
 // The signal that --signal names, as in `palpate signals`; the filtered mean when the option is
 // missing.
 SignalKind signalGiven(const CommandLine& given);
-// Throws Error, with the file and its number of matrices, when the recording does not have that
-// matrix.
-void requireMatrix(const std::filesystem::path& file, std::size_t numMatrices, std::size_t matrix);
 // The loss function of --loss squares|huber|cauchy.
 StepLoss lossGiven(const CommandLine& given);
 // The common first members of the JSON of one kind: the kind, format version, program version, and

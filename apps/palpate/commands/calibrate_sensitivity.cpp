@@ -63,7 +63,7 @@ int calibrateSensitivity(const Arguments& words) {
   const double threshold = given.number("threshold", 0.0, kLargestFullScale).value_or(100.0);
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openReported(file, progress, given.quiet());
-  requireMatrix(file, profile.layout().numMatrices(), matrix);
+  requireMatrix(file, profile.layout(), matrix);
   requireWithinFullScale("threshold", threshold, profile.hand());
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();

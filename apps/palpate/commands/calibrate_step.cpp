@@ -44,7 +44,7 @@ int calibrateStep(const Arguments& words) {
   if (given.choice("damping", {"over", "any"}) == "any") options.fit.damping = StepDamping::kAny;
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openReported(file, progress, given.quiet());
-  requireMatrix(file, profile.layout().numMatrices(), matrix);
+  requireMatrix(file, profile.layout(), matrix);
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();
   Json json = provenance("step");

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "palpate/batch/batch_task.h"
 #include "palpate/core/number_text.h"
 
 #include "commands/commands.h"
@@ -68,13 +67,6 @@ Recipe recipeOf(const CommandLine& given) {
     throw UsageError(std::string("--filter ") + error.what());
   }
   return recipe;
-}
-
-Profile filteredBy(const Recipe& recipe,
-                   const Profile& profile,
-                   const std::filesystem::path& file,
-                   const Progress& progress) {
-  return filteredRecording(recipe, profile, file, progress);
 }
 
 std::optional<SignalKind> signalChosen(const CommandLine& given) {

@@ -2,13 +2,11 @@
 // --signal.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <vector>
 
-#include <palpate/core/progress.h>
 #include <palpate/filter/recipe.h>
-#include <palpate/model/profile.h>
+#include <palpate/recognition/filtered_recording.h>
 #include <palpate/signals/characteristic_signals.h>
 
 #include "commands/command_line.h"
@@ -23,13 +21,6 @@ std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options);
 // The recipe that the options describe; empty when there are none. Throws UsageError for an invalid
 // text and Error for an invalid file.
 Recipe recipeOf(const CommandLine& given);
-// The filtered recording; the recording itself when the recipe is empty. Events "settings" restart
-// the filters over time. Throws Error (a matrix that the recording does not have; an unreadable
-// file) and Cancelled.
-Profile filteredBy(const Recipe& recipe,
-                   const Profile& profile,
-                   const std::filesystem::path& file,
-                   const Progress& progress = {});
 
 // The characteristic signal of --signal NAME; nothing when the option is missing. Throws UsageError
 // that lists all names.

@@ -80,12 +80,8 @@ TypedSignal typedSignal(const std::string& text,
       throw UsageError(refusal + "; as a formula: " + error.what());
     }
   }
-  const auto numMatrices = static_cast<std::int64_t>(layout.numMatrices());
-  const bool ofMatrix =
-      name->kind == SeriesChoice::Kind::kMatrix || name->kind == SeriesChoice::Kind::kTaxels;
-  if (ofMatrix && name->index.value_or(0) >= numMatrices)
-    throw Error(file + ": has no matrix " + std::to_string(*name->index) + ", only 0.." +
-                std::to_string(numMatrices - 1));
+  if (name->kind == SeriesChoice::Kind::kMatrix || name->kind == SeriesChoice::Kind::kTaxels)
+    requireMatrix(file, layout, name->index);
   if (name->kind == SeriesChoice::Kind::kTaxels)
     return {.choice =
                 taxelOf(layout, static_cast<std::size_t>(*name->index), name->x, name->y, file)};

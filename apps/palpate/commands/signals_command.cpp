@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "palpate/batch/batch_task.h"
-#include "palpate/core/error.h"
 #include "palpate/core/text_table.h"
 #include "palpate/signals/signal_filter.h"
 #include "palpate/signals/signal_rows.h"
@@ -67,26 +66,20 @@ int signalsCommand(const Arguments& words) {
                            std::string(recordings.several ? ",file\n" : "\n")};
   if (unitsRow)
     frame.units = [noUnit](const Profile& profile) { return signalUnits(profile.hand()) + noUnit; };
-  return writeProfileTexts(
-      recordings,
-      given.quiet(),
-      frame,
-      [&](const std::filesystem::path& file,
-          const Profile& unfiltered,
-          const TextSink& write,
-          const Progress& progress) {
-        const Profile profile = filteredBy(recipe, unfiltered, file);
-        requireBelowHalfRate(smooth, profile, file);
-        std::optional<std::size_t> only;
-        if (matrix) {
-          only = static_cast<std::size_t>(*matrix);
-          if (*only >= profile.layout().numMatrices())
-            throw Error(file.string() + ": has no matrix " + std::to_string(*matrix) +
-                        ", only 0.." + std::to_string(profile.layout().numMatrices() - 1));
-        }
-        const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
-        writeSignalRows(profile, only, smooth, lineEnd, write, progress);
-      });
+  return writeProfileTexts(recordings,
+                           given.quiet(),
+                           frame,
+                           [&](const std::filesystem::path& file,
+                               const Profile& unfiltered,
+                               const TextSink& write,
+                               const Progress& progress) {
+                             const Profile profile = filteredBy(recipe, unfiltered, file);
+                             requireBelowHalfRate(smooth, profile, file);
+                             requireMatrix(file, profile.layout(), matrix);
+                             const std::string lineEnd =
+                                 recordings.several ? "," + csvLine({file.string()}) : "\n";
+                             writeSignalRows(profile, matrix, smooth, lineEnd, write, progress);
+                           });
 }
 
 }  // namespace palpate::commands

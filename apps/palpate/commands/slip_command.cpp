@@ -40,6 +40,9 @@ SlipRowsOptions slipOptionsOf(const CommandLine& given) {
   rule.stepTaxels = given.number("step", 1e-3, 100.0).value_or(rule.stepTaxels);
   rule.referenceTaxels = given.number("limit", 1e-3, 100.0).value_or(rule.referenceTaxels);
   rule.rotationDeg = given.number("rotation", 0.1, 360.0).value_or(rule.rotationDeg);
+  request.segments = given.has("segments");
+  request.unitsRow = given.has("units-row");
+  request.filters = recipeOf(given);
   return request;
 }
 
@@ -76,16 +79,9 @@ int slipCommand(const Arguments& words) {
       words);
   if (given.helpShown()) return kDone;
   const SlipRowsOptions request = slipOptionsOf(given);
-  const bool segments = given.has("segments");
-  const bool unitsRow = given.has("units-row");
-  const Recipe recipe = recipeOf(given);
-  if (given.has("output")) {
-    SlipRowsOptions table = request;
-    table.segments = segments;
-    table.unitsRow = unitsRow;
-    table.filters = recipe;
-    return runBatchCommand(given, batchTemplateOf(given, {".csv"}), slipTask(table));
-  }
+  const bool segments = request.segments;
+  if (given.has("output"))
+    return runBatchCommand(given, batchTemplateOf(given, {".csv"}), slipTask(request));
   refuseBatchOptions(given);
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
@@ -94,12 +90,12 @@ int slipCommand(const Arguments& words) {
       recordings,
       given.quiet(),
       [&](const std::filesystem::path& file, const Profile& whole, const Progress& progress) {
-        const Profile profile = filteredBy(recipe, whole, file, progress);
+        const Profile profile = filteredBy(request.filters, whole, file, progress);
         requireThere(file, profile, request);
         if (!headerWritten)
           out.write(std::string(segments ? kSlipSegmentColumns : kSlipColumns) +
                     (recordings.several ? ",file\n" : "\n"));
-        if (!headerWritten && unitsRow)
+        if (!headerWritten && request.unitsRow)
           out.write(std::string(segments ? kSlipSegmentUnits : kSlipUnits) +
                     (recordings.several ? ",\n" : "\n"));
         headerWritten = true;

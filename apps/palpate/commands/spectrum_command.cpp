@@ -34,9 +34,7 @@ TypedSignal choiceOf(const CommandLine& given, const SensorLayout& layout) {
   const std::string& file = given.words().front();
   const auto matrix = given.integer("matrix", 0, INT64_MAX);
   const auto numMatrices = static_cast<std::int64_t>(layout.numMatrices());
-  if (matrix && *matrix >= numMatrices)
-    throw Error(file + ": has no matrix " + std::to_string(*matrix) + ", only 0.." +
-                std::to_string(numMatrices - 1));
+  requireMatrix(file, layout, matrix);
   const auto x = given.integer("x", 0, INT32_MAX), y = given.integer("y", 0, INT32_MAX);
   if (const auto text = given.text("signal")) {
     if (x || y) throw UsageError("give --signal, or --x and --y, not both");

@@ -11,8 +11,9 @@
 #include <palpate/control/limit_feasibility.h>
 #include <palpate/device/device.h>
 #include <palpate/device/sdh2.h>
-#include <palpate/live/live_results.h>
 #include <palpate/model/hand_description.h>
+#include <palpate/model/tactile_frame.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 

@@ -54,6 +54,8 @@ class HostTime {
 
 // Returns a host time [us since 1970] as "2014-11-27 10:31:05.123" in UTC.
 std::string utcText(std::int64_t hostUs);
+// The same in the local time of the machine, by a format of strftime().
+std::string localText(std::int64_t hostUs, const char* format);
 
 // Returns the wall clock in whole seconds, as models and calibrations store the time at which they
 // were made: "2014-11-28T10:36:11Z".

@@ -9,19 +9,11 @@
 
 #include <palpate/capture/capture_queue.h>
 #include <palpate/model/hand_state.h>
+#include <palpate/model/tactile_frame.h>
 #include <palpate/signals/characteristic_signals.h>
 #include <palpate/slip/slip_detector.h>
 
 namespace palpate {
-
-// The taxel with the largest value in a frame; among equal ones the first in protocol order.
-struct TaxelPeak {
-  std::size_t matrix = 0;
-  int row = 0;  // 0 is the fingertip
-  int column = 0;
-  float counts = 0.0F;  // 0: no taxel is active
-};
-TaxelPeak taxelPeak(const TactileFrame& frame);
 
 struct PressureFrame;  // calibration/pressure_map.h
 

@@ -8,6 +8,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +77,10 @@ class SensorLayout {
   std::vector<std::size_t> offsets_;
   std::size_t numPlaces_ = 0;
 };
+// Throws Error, which names the file, when its sensor hasn't the matrix; nothing: all matrices.
+void requireMatrix(const std::filesystem::path& file,
+                   const SensorLayout& layout,
+                   std::optional<std::int64_t> matrix);
 
 // Place of a taxel in a sensor: matrix, row (y) and column (x), each counted from 0.
 struct TaxelPlace {

@@ -58,6 +58,18 @@ struct TactileFrame {
   bool isCounts(float maxCounts = 4095.0F) const noexcept;
 };
 
+// The taxel with the largest value in a frame, or in one of its matrices; among equal ones the
+// first in protocol order.
+struct TaxelPeak {
+  std::size_t matrix = 0;
+  int row = 0;  // 0 is the fingertip
+  int column = 0;
+  float counts = 0.0F;  // 0: no taxel is active
+};
+TaxelPeak taxelPeak(const TactileFrame& frame);
+// Throws std::out_of_range for a matrix that does not exist.
+TaxelPeak taxelPeak(const TactileFrame& frame, std::size_t matrix);
+
 // Whether something presses on a taxel.
 enum class CellTruth : std::uint8_t {
   // Nothing presses on the taxel (less than half a count): when it is active, it is a ghost.

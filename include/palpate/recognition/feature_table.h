@@ -114,4 +114,8 @@ FeatureTable extractFeatures(const std::vector<std::filesystem::path>& paths,
                              const FeatureExtractionOptions& options = {},
                              const Progress& progress = {});
 
+// The table as lines of CSV, each with its line end.
+std::string featureHeaderLine(const FeatureTable& table);
+std::string featureLine(const FeatureRow& row);
+
 }  // namespace palpate

@@ -6,12 +6,14 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include <palpate/filter/recipe.h>
+#include <palpate/model/profile.h>
 #include <palpate/signals/characteristic_signals.h>
 
 namespace palpate {
@@ -42,5 +44,11 @@ class SignalFilter {
   class Impl;
   const std::unique_ptr<Impl> impl_;
 };
+
+// Throws Error when the recipe has a frequency that is not below half of the recording's rate (1 /
+// median interval).
+void requireBelowHalfRate(const Recipe& recipe,
+                          const Profile& profile,
+                          const std::filesystem::path& file);
 
 }  // namespace palpate

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <palpate/core/progress.h>
+#include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
 #include <palpate/slip/slip_segments.h>
 
@@ -32,6 +35,22 @@ void forEachSlipSegmentRow(const Profile& profile,
                            std::optional<std::int64_t> matrix,
                            const std::function<void(const std::string& row)>& sink,
                            const Progress& progress = {});
+struct SlipRowsOptions {
+  SlipRunOptions pass = {};
+  std::optional<std::int64_t> matrix = {};
+  bool segments = false;  // a row per slip instead of one per frame and matrix
+  bool unitsRow = false;  // a second row with the units
+  Recipe filters = {};    // of the frames, first
+};
+// Set the method by its name (slip_method.h), and the reference: "first", "rest", or the number of
+// a frame. Both throw std::invalid_argument.
+void setSlipMethod(SlipRowsOptions& table, std::string_view name);
+void setSlipReference(SlipRowsOptions& table, const std::string& word);
+// Throws Error when the recording hasn't the matrix or the reference frame of the table.
+void requireThere(const std::filesystem::path& file,
+                  const Profile& profile,
+                  const SlipRowsOptions& table);
+
 // Appends ",VALUE", or "," when the value is unknown.
 void appendSlipCell(std::string& row, bool known, double value);
 

@@ -39,7 +39,7 @@ struct BatchChoices {
   QString smooth = {};
   // The only matrix of kSignals and kSlip; below 0: all.
   int matrix = -1;
-  // Of kSlip; see batch_task.h.
+  // Of kSlip; see slip_rows.h.
   QString method = "contest";
   QString reference = "first";
   bool segments = false;

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include <palpate/batch/batch_task.h>
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
+#include <palpate/recognition/filtered_recording.h>
 #include <palpate/recording/recording.h>
 #include <palpate/signals/characteristic_signals.h>
 
@@ -51,7 +51,7 @@ BatchAnswer drawBatchPicture(const BatchPictureOptions& batch,
                              const Progress& progress,
                              std::size_t threads) {
   const Profile whole = openRecording(item.source, partOf(progress, 0.0, kBatchReading), threads);
-  const Profile profile = filteredRecording(batch.filters, whole, item.source);
+  const Profile profile = filteredBy(batch.filters, whole, item.source);
   const std::string lost = lostText(whole);
   const std::string problem = lost.empty() ? lost : item.source.string() + ": " + lost;
   if (profile.numFrames() == 0) throw FileError(item.source, "has no frame to draw");
