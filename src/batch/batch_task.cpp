@@ -15,12 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 // The part of the progress between two fractions.
-Progress partOf(const Progress& progress, double begin, double end) {
-  return [&progress, begin, end](double fraction) {
-    return !progress || progress(begin + (end - begin) * fraction);
-  };
-}
-
 std::string matrixText(const std::optional<std::int64_t>& matrix) {
   return matrix ? "; matrix " + std::to_string(*matrix) : "";
 }
@@ -30,12 +24,14 @@ std::string filtersText(const Recipe& filters) {
 }
 
 // The recording of an item, filtered; the first half of the progress.
-Profile openFiltered(const BatchItem& item,
-                     const Recipe& filters,
-                     const Progress& progress,
-                     std::size_t threads) {
-  const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.5), threads);
-  return filteredBy(filters, whole, item.source, partOf(progress, 0.5, 0.5));
+Recording openFiltered(const BatchItem& item,
+                       const Recipe& filters,
+                       const Progress& progress,
+                       std::size_t threads) {
+  Recording recording =
+      readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, 0.5));
+  recording.profile = filteredBy(filters, recording, item.source, partOf(progress, 0.5, 0.5));
+  return recording;
 }
 
 // Why the result of an item has only a part of its recording; else empty.
@@ -103,26 +99,28 @@ std::string classIn(const BatchItem& item) {
 
 BatchTask convertTask(const ConvertOptions& options) {
   options.filters.validate();
-  return {.options = "convert; " + recipeText(options.filters) + choicesText(options.choices),
-          .work = [options](const BatchItem& item,
-                            Overwrite overwrite,
-                            const Progress& progress,
-                            std::size_t threads) {
-            formatOf(item.target);
-            const Profile profile = openFiltered(item, options.filters, progress, threads);
-            const EventsReport events = readEvents(item.source);
-            const SaveExtras extras =
-                exportExtras(options.choices, item.source, item.target, profile, options.filters);
-            const SaveReport saved = saveRecording(
-                profile, events.events, item.target, overwrite, partOf(progress, 0.5, 1.0), extras);
-            BatchAnswer answer{.said = counted(profile.numFrames(), "frame")};
-            if (saved.movedStamps > 0)
-              answer.said += "; " + std::to_string(saved.movedStamps) +
-                             " time stamps moved behind the one before: whole milliseconds must "
-                             "grow";
-            answer.problem = partText(item, profile, events.damaged);
-            return answer;
-          }};
+  return {
+      .options = "convert; " + recipeText(options.filters) + choicesText(options.choices),
+      .work = [options](const BatchItem& item,
+                        Overwrite overwrite,
+                        const Progress& progress,
+                        std::size_t threads) {
+        formatOf(item.target);
+        const Recording recording = openFiltered(item, options.filters, progress, threads);
+        recording.requireEvents();
+        const Profile& profile = recording.profile;
+        const SaveExtras extras = exportExtras(
+            options.choices, {item.source, recording.meta}, item.target, profile, options.filters);
+        const SaveReport saved = saveRecording(
+            profile, recording.events, item.target, overwrite, partOf(progress, 0.5, 1.0), extras);
+        BatchAnswer answer{.said = counted(profile.numFrames(), "frame")};
+        if (saved.movedStamps > 0)
+          answer.said += "; " + std::to_string(saved.movedStamps) +
+                         " time stamps moved behind the one before: whole milliseconds must "
+                         "grow";
+        answer.problem = partText(item, profile, recording.damage.events);
+        return answer;
+      }};
 }
 
 BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) {
@@ -135,19 +133,20 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
                            const Progress& progress,
                            std::size_t threads) {
             formatOf(item.target);
-            const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.3), threads);
-            const EventsReport events = readEvents(item.source);
-            const std::vector<GraspFrames> grasps = graspFrames(whole, events.events);
+            const Recording whole =
+                readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, 0.3));
+            whole.requireEvents();
+            const std::vector<GraspFrames> grasps = graspFrames(whole.profile, whole.events);
             if (grasps.empty()) throw FileError(item.source, "has no grasp");
             const Profile profile =
                 filteredBy(options.filters, whole, item.source, partOf(progress, 0.3, 0.5));
             BatchNameFields fields = nameFieldsOf(item);
-            fields.timeUs = whole.frameTimeUs(0);
+            fields.timeUs = whole.profile.frameTimeUs(0);
             BatchAnswer answer{.said = counted(grasps.size(), "grasp")};
             for (std::size_t i = 0; i < grasps.size(); ++i)
               answer.results.push_back(names.pathFor(fields, i + 1, grasps.size()));
             GraspFilesOptions files{.overwrite = overwrite, .replaceable = item.earlier};
-            const ExportSource source(item.source);
+            const ExportSource source(item.source, whole.meta);
             files.extras = [&](const Profile& part, const fs::path& out) {
               SaveExtras extras = exportExtras(options.choices, source, out, part, options.filters);
               extras.meta.erase("settings");  // those at the start of the whole recording
@@ -155,12 +154,12 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
             };
             saveGrasps(item.source,
                        profile,
-                       events.events,
+                       whole.events,
                        grasps,
                        answer.results,
                        files,
                        partOf(progress, 0.5, 1.0));
-            answer.problem = partText(item, profile, events.damaged);
+            answer.problem = partText(item, profile, whole.damage.events);
             return answer;
           },
       .namesResults = true};
@@ -176,7 +175,7 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
                           Overwrite overwrite,
                           const Progress& progress,
                           std::size_t threads) {
-            const Profile profile = openFiltered(item, table.filters, progress, threads);
+            const Profile profile = openFiltered(item, table.filters, progress, threads).profile;
             requireMatrix(item.source, profile.layout(), table.matrix);
             requireBelowHalfRate(table.smooth, profile, item.source);
             TableFile out(item.target, overwrite);
@@ -205,7 +204,7 @@ BatchTask slipTask(const SlipRowsOptions& table) {
                           const Progress& progress,
                           std::size_t threads) {
             const Profile profile =
-                openFiltered(item, table.filters, partOf(progress, 0.0, 0.4), threads);
+                openFiltered(item, table.filters, partOf(progress, 0.0, 0.4), threads).profile;
             requireThere(item.source, profile, table);
             TableFile out(item.target, overwrite);
             out.write(std::string(table.segments ? kSlipSegmentColumns : kSlipColumns) + "\n");

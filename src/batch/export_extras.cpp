@@ -7,7 +7,7 @@
 
 namespace palpate {
 
-const std::map<std::string, std::string>& ExportSource::meta() const {
+const RecordingMeta& ExportSource::meta() const {
   if (!meta_) meta_ = readRecordingMeta(file_);
   return *meta_;
 }

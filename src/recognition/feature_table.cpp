@@ -48,10 +48,10 @@ Gathered gather(const Source& source, const FeatureExtractionOptions& options, b
     out.problems.push_back(source.file.string() + ": " + what);
   };
   try {
-    const Profile profile =
-        filteredBy(options.filters,
-                   openRecording(source.file, {}, alone ? 0 : threadsBesideOthers(source.file)),
-                   source.file);
+    const Profile profile = filteredBy(
+        options.filters,
+        readRecording(source.file, {.threads = alone ? 0 : threadsBesideOthers(source.file)}),
+        source.file);
     if (const std::string lost = lostText(profile); !lost.empty()) say(lost);
     out.set = options.set.value_or(defaultFeatureSet(profile.hand()));
     out.sensor = sensorText(profile.layout());

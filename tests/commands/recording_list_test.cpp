@@ -288,21 +288,21 @@ RecordingList smallOnes(const TemporaryFolder& folder, std::size_t count) {
   return list;
 }
 
-ListResult textsOf(const RecordingList& list, const TextFrame& frame, const ProfileText& work) {
+ListResult textsOf(const RecordingList& list, const TextFrame& frame, const OpenedText& work) {
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   ListResult run;
-  run.exitCode = writeProfileTexts(list, true, frame, work);
+  run.exitCode = writeOpenedTexts(list, true, frame, work);
   run.out = ::testing::internal::GetCapturedStdout();
   run.err = ::testing::internal::GetCapturedStderr();
   return run;
 }
 
-TEST(WriteProfileTexts, TheTextsStandInTheOrderOfTheRecordings) {
+TEST(WriteOpenedTexts, TheTextsStandInTheOrderOfTheRecordings) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 40);
   const auto name =
-      [](const fs::path& file, const Profile& profile, const TextSink& write, const Progress&) {
+      [](const fs::path& file, const Recording& profile, const TextSink& write, const Progress&) {
         write(file.stem().string());
         write(" has " + std::to_string(profile.numFrames()));
       };
@@ -317,24 +317,24 @@ TEST(WriteProfileTexts, TheTextsStandInTheOrderOfTheRecordings) {
 }
 
 // The work of each of two recordings waits for that of the other: one thread would never end.
-TEST(WriteProfileTexts, TheWorkOfSmallRecordingsIsDoneSeveralAtATime) {
+TEST(WriteOpenedTexts, TheWorkOfSmallRecordingsIsDoneSeveralAtATime) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 2);
   if (readAheadThreads(2) == 0) GTEST_SKIP() << "this machine runs one thread at a time";
   std::latch both(2);
-  const auto meet = [&](const fs::path&, const Profile&, const TextSink& write, const Progress&) {
+  const auto meet = [&](const fs::path&, const Recording&, const TextSink& write, const Progress&) {
     both.arrive_and_wait();
     write("met\n");
   };
   EXPECT_EQ(textsOf(list, {}, meet).out, "met\nmet\n");
 }
 
-TEST(WriteProfileTexts, WhatWasWrittenBeforeAFailureIsKept) {
+TEST(WriteOpenedTexts, WhatWasWrittenBeforeAFailureIsKept) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 4);
   writeFile(list.files[0], "no recording");
   const auto failing =
-      [&](const fs::path& file, const Profile&, const TextSink& write, const Progress&) {
+      [&](const fs::path& file, const Recording&, const TextSink& write, const Progress&) {
         write(file.stem().string() + "a ");
         if (file == list.files[2]) throw FileError(file, "is broken in the middle");
         write("b\n");
@@ -347,9 +347,9 @@ TEST(WriteProfileTexts, WhatWasWrittenBeforeAFailureIsKept) {
   EXPECT_NE(run.err.find("2 of 4 recordings failed"), std::string::npos) << run.err;
 }
 
-TEST(WriteProfileTexts, TheFrameIsWrittenAlsoWhereNoRecordingHasText) {
+TEST(WriteOpenedTexts, TheFrameIsWrittenAlsoWhereNoRecordingHasText) {
   const TemporaryFolder folder;
-  const auto nothing = [](const fs::path&, const Profile&, const TextSink&, const Progress&) {};
+  const auto nothing = [](const fs::path&, const Recording&, const TextSink&, const Progress&) {};
   const RecordingList list = smallOnes(folder, 3);
   EXPECT_EQ(textsOf(list, {.begin = "header\n", .between = ""}, nothing).out, "header\n");
   for (const fs::path& file : list.files) writeFile(file, "no recording");
@@ -357,12 +357,12 @@ TEST(WriteProfileTexts, TheFrameIsWrittenAlsoWhereNoRecordingHasText) {
 }
 
 // What is too long to be kept is made again when its turn comes.
-TEST(WriteProfileTexts, LongTextsAreWrittenAtTheirTurn) {
+TEST(WriteOpenedTexts, LongTextsAreWrittenAtTheirTurn) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 3);
   const std::string piece(1u << 20, 'x');
   const auto longText =
-      [&](const fs::path&, const Profile&, const TextSink& write, const Progress&) {
+      [&](const fs::path&, const Recording&, const TextSink& write, const Progress&) {
         for (int i = 0; i < 6; ++i) write(piece);
         write("\n");
       };
@@ -373,12 +373,12 @@ TEST(WriteProfileTexts, LongTextsAreWrittenAtTheirTurn) {
   EXPECT_TRUE(run.out == one + "\n" + one + "\n" + one + "\n");
 }
 
-TEST(WriteProfileTexts, WhatIsNoFilesFaultEndsIt) {
+TEST(WriteOpenedTexts, WhatIsNoFilesFaultEndsIt) {
   const TemporaryFolder folder;
-  const auto wrong = [](const fs::path&, const Profile&, const TextSink&, const Progress&) {
+  const auto wrong = [](const fs::path&, const Recording&, const TextSink&, const Progress&) {
     throw UsageError("wrong");
   };
-  EXPECT_THROW(writeProfileTexts(smallOnes(folder, 3), true, {}, wrong), UsageError);
+  EXPECT_THROW(writeOpenedTexts(smallOnes(folder, 3), true, {}, wrong), UsageError);
 }
 
 class FolderOfRecordings : public ::testing::Test {
@@ -420,7 +420,7 @@ TEST_F(FolderOfRecordings, ProgressOfReadingGoesForwardOnly) {
   for (const char* name : {"a.dsa", "sub/died.palpate", "damaged.palpate"}) {
     double last = 0.0;
     bool forward = true;
-    readableRecording(folder_ / name, [&](double fraction) {
+    readableRecording(folder_ / name, {}, [&](double fraction) {
       forward = forward && fraction >= last && fraction <= 1.0;
       last = fraction;
       return true;

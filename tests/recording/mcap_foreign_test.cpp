@@ -272,7 +272,7 @@ TEST_F(McapForeign, AnEmptyFirstImageCostsOnlyItself) {
   EXPECT_EQ(lostText(profile),
             "1 message of the topic \"/pad\" is left out (the first: its images have 0 x 0 pixels "
             "(a matrix has at most 256 x 256 taxels))");
-  EXPECT_EQ(openTopics(file, {"/pad"}).numFrames(), 2u);
+  EXPECT_EQ(readRecording(file, {.topics = {"/pad"}}).profile.numFrames(), 2u);
 }
 
 TEST_F(McapForeign, TopicsCanBeChosen) {
@@ -284,14 +284,14 @@ joints(1, ['x'], [1])
 joints(1, ['y'], [2], topic='/arm')
 w.message('/text', 'std_msgs/msg/String', b'\0\1\0\0', 5)
 )");
-  const Profile profile = openTopics(file, {"/b", "/arm"});
+  const Profile profile = readRecording(file, {.topics = {"/b", "/arm"}}).profile;
   ASSERT_EQ(profile.layout().numMatrices(), 1u);
   EXPECT_EQ(profile.frame(0).values, Values{2});
   EXPECT_EQ(profile.hand().axes.at(0).name, "y");
   expectNoNote(profile);
-  EXPECT_EQ(readableTopics(file, {"/a"}).profile.numAngles(), 0u);
+  EXPECT_EQ(readableRecording(file, {.topics = {"/a"}}).profile.numAngles(), 0u);
   const auto errorOf = [&](const std::vector<std::string>& topics) {
-    return testing::errorOf([&] { openTopics(file, topics); });
+    return testing::errorOf([&] { readRecording(file, {.topics = topics}); });
   };
   EXPECT_NE(errorOf({"/c"}).find("has no topic \"/c\""), std::string::npos) << errorOf({"/c"});
   EXPECT_NE(errorOf({"/c"}).find("\"/text\": std_msgs/msg/String"), std::string::npos);

@@ -92,8 +92,9 @@ int calibrateApply(const Arguments& words) {
   const auto outPath = given.text("output");
   if (outPath) requireOther(file, *outPath);
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openReported(file, progress, given.quiet());
-  CalibratedFrames frames(*choice, file, profile);
+  const Recording recording = openReported(file, progress, given.quiet());
+  const Profile& profile = recording.profile;
+  CalibratedFrames frames(*choice, file, recording);
   // Without the pressures' forces the result is not whole: that is said with --quiet, too.
   const bool noForces = !frames.areaKnown() && !outPath;
   for (const std::string& sentence : frames.assumptions())
@@ -133,7 +134,7 @@ int calibrateApply(const Arguments& words) {
     ProfileInfo info = profile.info();
     info.valueType = ValueType::kFloat;
     saveRecording(builder.finish(info),
-                  readEvents(file).events,
+                  recording.events,
                   *outPath,
                   given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
                   report);

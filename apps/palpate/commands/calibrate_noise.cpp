@@ -35,7 +35,7 @@ int calibrateNoise(const Arguments& words) {
   NoiseFloorOptions options;
   options.bins = static_cast<std::size_t>(given.integer("bins", 2, 1000).value_or(20));
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openReported(file, progress, given.quiet());
+  const Profile profile = openReported(file, progress, given.quiet()).profile;
   const NoiseFloor floor = fitNoiseFloor(profile, options, progress.callback());
   progress.wipe();
   const auto out = given.text("output");

@@ -73,7 +73,7 @@ int calibratePressure(const Arguments& words) {
   {
     ProgressLine line("reading", given.quiet());
     const auto open = [&](const fs::path& file, const Progress& progress) {
-      return CalibrationSource{openReported(file, line, given.quiet(), progress),
+      return CalibrationSource{openReported(file, line, given.quiet(), progress).profile,
                                sha256OfFile(file)};
     };
     all = collectCalibrationSteps(rows, table.parent_path(), open, gather, line.callback());

@@ -62,7 +62,7 @@ int calibrateSensitivity(const Arguments& words) {
   options.fit.loss = lossGiven(given);
   const double threshold = given.number("threshold", 0.0, kLargestFullScale).value_or(100.0);
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openReported(file, progress, given.quiet());
+  const Profile profile = openReported(file, progress, given.quiet()).profile;
   requireMatrix(file, profile.layout(), matrix);
   requireWithinFullScale("threshold", threshold, profile.hand());
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());

@@ -43,7 +43,7 @@ int calibrateStep(const Arguments& words) {
   options.fit.loss = lossGiven(given);
   if (given.choice("damping", {"over", "any"}) == "any") options.fit.damping = StepDamping::kAny;
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openReported(file, progress, given.quiet());
+  const Profile profile = openReported(file, progress, given.quiet()).profile;
   requireMatrix(file, profile.layout(), matrix);
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();

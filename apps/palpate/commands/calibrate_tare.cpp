@@ -75,7 +75,8 @@ int calibrateTare(const Arguments& words) {
   options.maxRestCounts =
       given.number("most", 0.0, kLargestFullScale).value_or(options.maxRestCounts);
   ProgressLine progress("reading " + file.string(), given.quiet());
-  const Profile profile = openReported(file, progress, given.quiet());
+  const Recording recording = openReported(file, progress, given.quiet());
+  const Profile& profile = recording.profile;
   requireWithinFullScale("most", options.maxRestCounts, profile.hand());
   const Tare tare = findTare(profile, options, progress.callback());
   progress.wipe();
@@ -86,7 +87,8 @@ int calibrateTare(const Arguments& words) {
       throw FileError(file,
                       "has no unloaded window, so there is no zero to note; give a larger --most, "
                       "or a recording in which nothing touches the hand");
-    const EventsReport events = readEvents(file);
+    recording.requireEvents();
+    const EventsReport events{recording.events, recording.damage.events};
     std::vector<RecordingEvent> all = withoutTare(events);
     all.push_back(eventOf(tare, profile));
     saveEvents(file, events, all);

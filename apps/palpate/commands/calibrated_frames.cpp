@@ -10,11 +10,11 @@ namespace palpate::commands {
 namespace {
 
 // The tare of the last event "tare"; nothing when there is none.
-std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout& layout) {
+std::optional<Tare> tareIn(const std::filesystem::path& file, const Recording& recording) {
   std::optional<Tare> tare;
-  for (const RecordingEvent& event : readEvents(file).events)
+  for (const RecordingEvent& event : recording.events)
     if (event.kind == "tare") try {
-        tare = tareFrom(Json::parse(event.json), layout);
+        tare = tareFrom(Json::parse(event.json), recording.profile.layout());
       } catch (const Error& error) {
         throw FileError(file,
                         std::string("its tare event can't be used (") + error.what() +
@@ -30,11 +30,13 @@ PressureMapOptions withSerial(PressureMapOptions options, const Profile& profile
   return options;
 }
 
-PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::path& file) {
+PressureMapOptions withNoted(PressureMapOptions options,
+                             const std::filesystem::path& file,
+                             const Recording& recording) {
   if (!options.settings.empty()) return options;
   // From the last event.
   std::optional<SensorSettings> noted;
-  const std::vector<RecordingEvent> events = readEvents(file).events;
+  const std::vector<RecordingEvent>& events = recording.events;
   for (const RecordingEvent& event : events)
     if (event.kind == "sensor_settings") try {
         noted = sensorSettingsFrom(Json::parse(event.json));
@@ -51,7 +53,9 @@ PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::
   for (const RecordingEvent& event : events)
     if (event.kind == "settings") changes.push_back({event.t1Us, event.json});
   try {
-    useReportedSettings(options, readRecordingMeta(file)["settings"], std::move(changes));
+    const auto reported = recording.meta.find("settings");
+    useReportedSettings(
+        options, reported == recording.meta.end() ? "" : reported->second, std::move(changes));
   } catch (const Error& error) {
     throw FileError(file,
                     std::string("the settings it reports can't be used (") + error.what() +
@@ -105,16 +109,17 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
 
 CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
                                    const std::filesystem::path& file,
-                                   const Profile& profile)
-    : profile_(profile),
+                                   const Recording& recording)
+    : profile_(recording.profile),
       map_(choice.calibration,
-           profile.hand(),
-           withSerial(withNoted(choice.options, file), profile)) {
-  if (profile.info().valueType != ValueType::kCounts)
+           profile_.hand(),
+           withSerial(withNoted(choice.options, file, recording), profile_)) {
+  recording.requireEvents();
+  if (profile_.info().valueType != ValueType::kCounts)
     throw FileError(file,
                     "holds filtered values; a calibration needs counts: use the recording before "
                     "it was filtered");
-  if (choice.tare) tare_ = tareIn(file, profile.layout());
+  if (choice.tare) tare_ = tareIn(file, recording);
 }
 
 const PressureFrame& CalibratedFrames::of(const TactileFrame& frame) {

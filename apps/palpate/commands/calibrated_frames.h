@@ -10,6 +10,7 @@
 #include "palpate/calibration/pressure_map.h"
 #include "palpate/calibration/tare.h"
 #include "palpate/model/profile.h"
+#include "palpate/recording/recording_data.h"
 
 #include "commands/command_line.h"
 
@@ -37,7 +38,7 @@ class CalibratedFrames {
   // calibration cannot be applied to.
   CalibratedFrames(const CalibrationChoice& choice,
                    const std::filesystem::path& file,
-                   const Profile& profile);
+                   const Recording& recording);
   // Call it with the frames in order.
   const PressureFrame& of(const TactileFrame& frame);
   // The assumptions that were made, one sentence each.

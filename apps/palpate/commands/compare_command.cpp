@@ -33,7 +33,7 @@ constexpr int kMicroseconds = 6;  // decimals: the resolution of time stamps
 
 TimedProfile opened(const std::string& file, bool quiet) {
   ProgressLine progress("reading " + file, quiet);
-  Profile profile = openReported(file, progress, quiet);
+  Profile profile = openReported(file, progress, quiet).profile;
   return timedProfile(std::move(profile), {}, progress.callback());
 }
 

@@ -199,16 +199,17 @@ class PoseOfFrames {
 
 AngleProblems writeContact(StandardOutput& out,
                            const std::filesystem::path& file,
-                           const Profile& profile,
+                           const Recording& recording,
                            const HandGeometry& geometry,
                            const ContactRequest& request,
                            const std::pair<std::size_t, std::size_t>& range,
                            const std::string& lineEnd,
                            const Progress& progress) {
   const auto [first, last] = range;
+  const Profile& profile = recording.profile;
   PoseOfFrames poses(profile, geometry, request);
   std::optional<CalibratedFrames> calibrated;
-  if (request.calibration) calibrated.emplace(*request.calibration, file, profile);
+  if (request.calibration) calibrated.emplace(*request.calibration, file, recording);
   AngleProblems problems;
   TactileFrame frame;
   HandContact contact;
@@ -322,11 +323,13 @@ int contactCommand(const Arguments& words) {
   StandardOutput out;
   bool headerWritten = false, allThere = true;
   std::string units;
-  const int code = forEachProfile(
+  const int code = forEachOpened(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& whole, const Progress& progress) {
-        const Profile profile = filteredBy(recipe, whole, file, progress);
+      [&](const std::filesystem::path& file, const Recording& whole, const Progress& progress) {
+        Recording recording = whole;
+        recording.profile = filteredBy(recipe, whole, file, progress);
+        const Profile& profile = recording.profile;
         requireWithinFullScale("threshold", request.options.threshold, profile.hand());
         const HandGeometry geometry(geometryOf(given, file, profile));
         const bool isRigid = profile.hand().axes.empty();
@@ -352,7 +355,8 @@ int contactCommand(const Arguments& words) {
         // is reported.
         AngleProblems problems;
         try {
-          problems = writeContact(out, file, profile, geometry, request, range, lineEnd, progress);
+          problems =
+              writeContact(out, file, recording, geometry, request, range, lineEnd, progress);
         } catch (const Error&) {
           out.finish();
           throw;

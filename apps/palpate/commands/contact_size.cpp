@@ -78,10 +78,10 @@ int contactSizes(const CommandLine& given) {
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false, allThere = true;
-  const int code = forEachProfile(
+  const int code = forEachOpened(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& whole, const Progress& progress) {
+      [&](const std::filesystem::path& file, const Recording& whole, const Progress& progress) {
         const Profile profile = filteredBy(recipe, whole, file, progress);
         const HandGeometry geometry(geometryOf(given, file, profile, "effective"));
         if (profile.numAngles() == 0)

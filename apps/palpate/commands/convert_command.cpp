@@ -44,11 +44,12 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   if (from && to && *from > *to) throw UsageError("--from is after --to");
   const Recipe recipe = recipeOf(given);
   const ExportChoices choices = exportChoicesOf(given, recipe, out);
-  Profile profile = [&] {
+  Recording recording = [&] {
     ProgressLine progress("reading " + in, given.quiet());
-    return openTopics(in, given.texts("topic"), progress.callback());
+    return readRecording(in, {.topics = given.texts("topic")}, progress.callback());
   }();
-  EventsReport events = readEvents(in);
+  recording.requireEvents();
+  Profile& profile = recording.profile;
   if (from || to) {
     if (profile.numFrames() == 0) throw Error(in + ": has no frames");
     const std::size_t first = static_cast<std::size_t>(from.value_or(0));
@@ -57,21 +58,22 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
       throw Error(in + ": has no frames " + std::to_string(first) + ".." + std::to_string(last) +
                   ", only 0.." + std::to_string(profile.numFrames() - 1));
     profile = cropped(profile, first, last);
-    events.events = eventsWithin(events.events, profile);
+    recording.events = eventsWithin(recording.events, profile);
   }
-  profile = filteredBy(recipe, profile, in);
-  SaveExtras extras = exportExtras(choices, ExportSource(in), out, profile, recipe);
+  profile = filteredBy(recipe, recording, in);
+  SaveExtras extras = exportExtras(choices, {in, recording.meta}, out, profile, recipe);
   if (from || to) extras.meta.erase("settings");  // those at the start of the whole recording
   const SaveReport saved = [&] {
     ProgressLine progress("writing " + out, given.quiet());
-    return saveRecording(profile, events.events, out, overwrite, progress.callback(), extras);
+    return saveRecording(profile, recording.events, out, overwrite, progress.callback(), extras);
   }();
   if (!given.quiet())
     std::printf("%s\n", escapedLine(doneText(out, profile) + movedText(saved.movedStamps)).c_str());
   const int code = reportOpened(in, profile, given.quiet());
-  if (events.damaged == 0) return code;
-  std::fprintf(
-      stderr, "palpate: %s\n", escapedLine(in + ": " + eventsLeftOutText(events.damaged)).c_str());
+  if (recording.damage.events == 0) return code;
+  std::fprintf(stderr,
+               "palpate: %s\n",
+               escapedLine(in + ": " + eventsLeftOutText(recording.damage.events)).c_str());
   return kPartlyDone;
 }
 

@@ -69,7 +69,7 @@ int deriveCommand(const Arguments& words) {
     if (!names.insert(one.name).second)
       throw UsageError("two columns would have the name '" + one.name + "': give another one");
   ProgressLine line("reading " + file, given.quiet());
-  const Profile recorded = openReported(file, line, given.quiet());
+  const Recording recorded = openReported(file, line, given.quiet());
   const Profile profile = filteredBy(recipe, recorded, file, line.callback());
   if (profile.numFrames() == 0) throw Error(file + ": has no frames");
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;

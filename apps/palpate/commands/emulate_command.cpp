@@ -115,7 +115,7 @@ std::unique_ptr<PhysicalHand> streamedHandOf(const CommandLine& given, std::uint
 std::unique_ptr<HandModel> modelOf(const CommandLine& given, std::uint64_t seed) {
   if (const auto recording = given.text("replay")) {
     ProgressLine line("reading " + *recording, given.quiet());
-    Profile profile = openReported(*recording, line, given.quiet());
+    Profile profile = openReported(*recording, line, given.quiet()).profile;
     return std::make_unique<ReplayedHand>(std::move(profile));
   }
   const Scene scene = loadScene(given.text("scene").value_or("empty"), dataFolder() / "scenes");

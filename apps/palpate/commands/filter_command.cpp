@@ -76,13 +76,14 @@ int filterCommand(const Arguments& words) {
   if (recipePath) requireWritable(*recipePath, overwrite);
 
   ProgressLine line("reading " + in, given.quiet());
-  const Profile profile = openReported(in, line, given.quiet());
+  const Recording recording = openReported(in, line, given.quiet());
+  const Profile& profile = recording.profile;
   line.setLabel("filtering " + in);
-  const Profile filtered = filteredBy(recipe, profile, in, line.callback());
-  EventsReport events = readEvents(in);
-  events.events.push_back(filteredEvent(recipe, profile));
+  const Profile filtered = filteredBy(recipe, recording, in, line.callback());
+  std::vector<RecordingEvent> events = recording.events;
+  events.push_back(filteredEvent(recipe, profile));
   line.setLabel("writing " + out);
-  saveRecording(filtered, events.events, out, overwrite, line.callback());
+  saveRecording(filtered, events, out, overwrite, line.callback());
   line.wipe();
   if (recipePath) writeRecipe(*recipePath, recipe, given.has("force"));
   if (!given.quiet())
@@ -91,9 +92,10 @@ int filterCommand(const Arguments& words) {
                 counted(filtered.numFrames(), "frame").c_str(),
                 fullRecipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
-  if (events.damaged == 0) return kDone;
-  std::fprintf(
-      stderr, "palpate: %s\n", escapedLine(in + ": " + eventsLeftOutText(events.damaged)).c_str());
+  if (recording.damage.events == 0) return kDone;
+  std::fprintf(stderr,
+               "palpate: %s\n",
+               escapedLine(in + ": " + eventsLeftOutText(recording.damage.events)).c_str());
   return kPartlyDone;
 }
 

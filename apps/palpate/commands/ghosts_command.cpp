@@ -153,10 +153,12 @@ int recorded(const CommandLine& given,
   if (belows.empty()) belows.emplace_back();
   Rows rows(given.has("json"), false);
   const auto work =
-      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+      [&](const std::filesystem::path& file, const Recording& recording, const Progress& progress) {
+        const Profile& profile = recording.profile;
         requireWithinFullScale("above", options.activeAboveCounts, profile.hand());
+        recording.requireEvents();
         GhostingOptions ofFile = options;
-        ofFile.restartsUs = settingsTimesUs(readEvents(file).events);
+        ofFile.restartsUs = settingsTimesUs(recording.events);
         std::size_t part = 0;
         for (const std::optional<double>& below : belows) {
           const Profile seen = below ? lookedAtOver(*below, profile, file) : profile;
@@ -171,7 +173,7 @@ int recorded(const CommandLine& given,
           }
         }
       };
-  const int code = forEachProfile(recordingsIn(given.words()), given.quiet(), work);
+  const int code = forEachOpened(recordingsIn(given.words()), given.quiet(), work);
   rows.finish();
   return code;
 }

@@ -77,12 +77,12 @@ int graspsCommand(const Arguments& words) {
   if (list.several) header.emplace_back("file");
   std::vector<std::string> units = {"", "", "ms", "ms", "", ""};
   units.resize(header.size());
-  return writeProfileTexts(
+  return writeOpenedTexts(
       list,
       given.quiet(),
       {.begin = csvLine(header) + (given.has("units-row") ? csvLine(units) : "")},
       [&](const std::filesystem::path& file,
-          const Profile& whole,
+          const Recording& whole,
           const TextSink& write,
           const Progress& progress) {
         const Profile profile = filteredBy(recipe, whole, file, progress);

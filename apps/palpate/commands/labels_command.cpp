@@ -25,11 +25,12 @@ void sayLabels(const std::string& message) {
 int importLabels(const CommandLine& given, const std::string& file, const std::string& from) {
   const std::string csv = readTextFile(from, kMaxLabelTableBytes);
   ProgressLine line("reading " + file, given.quiet());
-  const Profile profile = openReported(file, line, given.quiet());
-  const EventsReport present = readEvents(file);
+  const Recording recording = openReported(file, line, given.quiet());
+  recording.requireEvents();
+  const EventsReport present{recording.events, recording.damage.events};
   const LabelTable table = [&] {
     try {
-      return readLabelTable(csv, profile, file);
+      return readLabelTable(csv, recording.profile, file);
     } catch (const Error& error) {
       throw FormatError(from, error.what());
     }

@@ -169,40 +169,40 @@ struct TextAhead {
   std::exception_ptr failure = {};
 };
 
-std::string damageOf(const Profile& profile) { return lostText(profile); }
-std::string damageOf(const Recording& recording) {
+// How files are opened.
+enum class Reading { kWhole, kAsFarAsReadable };
+
+std::string damageOf(const Recording& recording, Reading reading) {
+  if (reading == Reading::kWhole) return lostText(recording.profile);
   const Damage& damage = recording.damage;
   return !damage.text.empty() || damage.events == 0 ? damage.text
                                                     : eventsLeftOutText(damage.events);
 }
-const Profile& profileOf(const Profile& profile) { return profile; }
-const Profile& profileOf(const Recording& recording) { return recording.profile; }
 
-// Progress of half of the work, starting at `begin`.
-Progress halfOf(const Progress& progress, double begin) {
-  return [&progress, begin](double fraction) { return progress(begin + 0.5 * fraction); };
-}
-
-// Runs `work` for what `read` gives of each file: ahead of its turn for small recordings, whose
+// Runs `work` for each file: ahead of its turn for small recordings, whose
 // text is kept until then; otherwise at its turn, straight to standard output.
-template <typename Content, typename Read, typename Work>
 int writeTexts(const RecordingList& list,
                bool quiet,
                const TextFrame& frame,
-               const Read& read,
-               const Work& work) {
+               Reading reading,
+               const std::vector<std::string>& topics,
+               const OpenedText& work) {
   ListRun run(list, quiet);
   StandardOutput out;
   bool begun = false;
   std::string units;  // of the first recording
-  const auto unitsOf = [&](const Content& content) {
-    return frame.units ? frame.units(profileOf(content)) : std::string();
+  const auto read = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
+    return (reading == Reading::kWhole ? readRecording : readableRecording)(
+        file, {threads, topics}, partOf(progress, 0.0, 0.5));
+  };
+  const auto unitsOf = [&](const Recording& recording) {
+    return frame.units ? frame.units(recording.profile) : std::string();
   };
   // The report on a single readable recording has its warnings.
-  const auto notesOf = [&](const fs::path& file, const Content& content) {
-    const bool reported = std::is_same_v<Content, Recording> && !list.several;
+  const auto notesOf = [&](const fs::path& file, const Recording& recording) {
+    const bool reported = reading == Reading::kAsFarAsReadable && !list.several;
     return reported ? std::vector<std::string>()
-                    : notedWarnings(file, profileOf(content), list.several);
+                    : notedWarnings(file, recording.profile, list.several);
   };
   const auto begin = [&](const fs::path& file, const std::string& itsUnits) {
     if (begun && itsUnits != units) throw Error(file.string() + ": " + kOtherUnits);
@@ -212,32 +212,32 @@ int writeTexts(const RecordingList& list,
   };
 
   const auto atItsTurn = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
-    const Content content = read(file, halfOf(progress, 0.0), threads);
-    for (const std::string& note : notesOf(file, content)) run.note(note);
+    const Recording recording = read(file, progress, threads);
+    for (const std::string& note : notesOf(file, recording)) run.note(note);
     run.leaveTheTerminal();
     bool first = true;
     const auto write = [&](const std::string& text) {
-      if (std::exchange(first, false)) begin(file, unitsOf(content));
+      if (std::exchange(first, false)) begin(file, unitsOf(recording));
       out.write(text);
     };
-    work(file, content, write, halfOf(progress, 0.5));
+    work(file, recording, write, partOf(progress, 0.5, 1.0));
     write({});
-    return damageOf(content);
+    return damageOf(recording, reading);
   };
 
   const auto ahead = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
     TextAhead result;
     if (!isReadAhead(file)) return result;
     try {
-      const Content content = read(file, halfOf(progress, 0.0), threads);
-      result.notes = notesOf(file, content);
-      result.units = unitsOf(content);
+      const Recording recording = read(file, progress, threads);
+      result.notes = notesOf(file, recording);
+      result.units = unitsOf(recording);
       const auto write = [&](const std::string& text) {
         if (result.text.size() + text.size() > kMostTextAhead) throw TooMuchText();
         result.text += text;
       };
-      work(file, content, write, halfOf(progress, 0.5));
-      result.damage = damageOf(content);
+      work(file, recording, write, partOf(progress, 0.5, 1.0));
+      result.damage = damageOf(recording, reading);
     } catch (const TooMuchText&) {
       return TextAhead();
     } catch (...) {
@@ -314,15 +314,15 @@ int reportOpened(const fs::path& file, const Profile& profile, bool quiet) {
   return kPartlyDone;
 }
 
-Profile openReported(const fs::path& file,
-                     ProgressLine& line,
-                     bool quiet,
-                     const Progress& progress) {
+Recording openReported(const fs::path& file,
+                       ProgressLine& line,
+                       bool quiet,
+                       const Progress& progress) {
   line.setLabel("reading " + file.string());
-  Profile profile = openRecording(file, progress ? progress : line.callback());
+  Recording recording = readRecording(file, {}, progress ? progress : line.callback());
   line.wipe();
-  reportOpened(file, profile, quiet);
-  return profile;
+  reportOpened(file, recording.profile, quiet);
+  return recording;
 }
 
 int partlyDoneAfterLoss(int code) { return code == kDone && lossReported ? kPartlyDone : code; }
@@ -338,34 +338,35 @@ int forEachVerified(const RecordingList& list, bool quiet, const VerifyWork& wor
   });
 }
 
-int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work) {
+int forEachOpened(const RecordingList& list, bool quiet, const OpenedWork& work) {
   ListRun run(list, quiet);
-  ReadAhead<Profile> profiles(list.files, &openRecording);
+  const auto read = [](const fs::path& file, const Progress& progress, std::size_t threads) {
+    return readRecording(file, {.threads = threads}, progress);
+  };
+  ReadAhead<Recording> recordings(list.files, read);
   return run.through([&](const fs::path& file, const Progress& progress) {
-    const Profile profile = profiles.take(halfOf(progress, 0.0));
-    for (const std::string& note : notedWarnings(file, profile, list.several)) run.note(note);
+    const Recording recording = recordings.take(partOf(progress, 0.0, 0.5));
+    for (const std::string& note : notedWarnings(file, recording.profile, list.several))
+      run.note(note);
     run.leaveTheTerminal();
-    work(file, profile, halfOf(progress, 0.5));
-    return FileOutcome{.problem = lostLine(file, profile)};
+    work(file, recording, partOf(progress, 0.5, 1.0));
+    return FileOutcome{.problem = lostLine(file, recording.profile)};
   });
 }
 
-int writeProfileTexts(const RecordingList& list,
-                      bool quiet,
-                      const TextFrame& frame,
-                      const ProfileText& work) {
-  return writeTexts<Profile>(list, quiet, frame, &openRecording, work);
+int writeOpenedTexts(const RecordingList& list,
+                     bool quiet,
+                     const TextFrame& frame,
+                     const OpenedText& work) {
+  return writeTexts(list, quiet, frame, Reading::kWhole, {}, work);
 }
 
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,
-                       const ReadableText& work,
+                       const OpenedText& work,
                        const std::vector<std::string>& topics) {
-  const auto read = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
-    return readableRecording(file, {threads, topics}, progress);
-  };
-  return writeTexts<Recording>(list, quiet, frame, read, work);
+  return writeTexts(list, quiet, frame, Reading::kAsFarAsReadable, topics, work);
 }
 
 }  // namespace palpate::commands

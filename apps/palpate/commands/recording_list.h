@@ -38,17 +38,15 @@ struct FileOutcome {
 };
 // Throws Error when the file cannot be processed, Cancelled when the progress returns false.
 using FileWork = std::function<FileOutcome(const std::filesystem::path& file, const Progress&)>;
-using ProfileWork =
-    std::function<void(const std::filesystem::path& file, const Profile&, const Progress&)>;
+using OpenedWork =
+    std::function<void(const std::filesystem::path& file, const Recording&, const Progress&)>;
 using VerifyWork =
     std::function<FileOutcome(const std::filesystem::path& file, const VerifyReport&)>;
 
 // Writes text to standard output, in the order of the recordings. Throws OutputError.
 using TextSink = std::function<void(const std::string& text)>;
 // These are called from several threads at once, each with another file.
-using ProfileText = std::function<void(
-    const std::filesystem::path& file, const Profile&, const TextSink& write, const Progress&)>;
-using ReadableText = std::function<void(
+using OpenedText = std::function<void(
     const std::filesystem::path& file, const Recording&, const TextSink& write, const Progress&)>;
 // Why a recording can't stand in a table whose row of units is that of an earlier one.
 inline constexpr const char* kOtherUnits =
@@ -69,10 +67,10 @@ std::string lostLine(const std::filesystem::path& file, const Profile& profile);
 int reportOpened(const std::filesystem::path& file, const Profile& profile, bool quiet);
 // Opens a recording with `line` ("reading FILE", wiped at the end) and then calls reportOpened():
 // a loss is part of the program's exit code. With `progress` it is used instead of that of `line`.
-Profile openReported(const std::filesystem::path& file,
-                     ProgressLine& line,
-                     bool quiet,
-                     const Progress& progress = {});
+Recording openReported(const std::filesystem::path& file,
+                       ProgressLine& line,
+                       bool quiet,
+                       const Progress& progress = {});
 // `code`, the exit code of the program; kPartlyDone in the place of kDone after a loss that
 // reportOpened() has printed.
 int partlyDoneAfterLoss(int code);
@@ -87,21 +85,21 @@ int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work
 int forEachVerified(const RecordingList& list, bool quiet, const VerifyWork& work);
 // As forEachRecording(), with every recording opened; a damaged one fails. With several files,
 // prints which recordings are unfinished or still being written.
-int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work);
+int forEachOpened(const RecordingList& list, bool quiet, const OpenedWork& work);
 
-// As forEachProfile(), for work that writes text. Of small recordings the work is done several at a
+// As forEachOpened(), for work that writes text. Of small recordings the work is done several at a
 // time, too; the output and the messages are the same as if it were done one after the other. What
 // a recording wrote before it failed is kept.
-int writeProfileTexts(const RecordingList& list,
-                      bool quiet,
-                      const TextFrame& frame,
-                      const ProfileText& work);
+int writeOpenedTexts(const RecordingList& list,
+                     bool quiet,
+                     const TextFrame& frame,
+                     const OpenedText& work);
 // The same with every recording read completely; of a damaged one the readable part is used, and
 // the rest is reported. `topics`: ReadOptions::topics.
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,
-                       const ReadableText& work,
+                       const OpenedText& work,
                        const std::vector<std::string>& topics = {});
 
 }  // namespace palpate::commands

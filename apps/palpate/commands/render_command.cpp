@@ -288,13 +288,9 @@ BatchTask renderTask(const CommandLine& given, const CommandSpec& spec, const Re
                                  std::size_t threads) {
             const bool isMovie = isMovieName(item.target.string());
             const std::string file = item.source.string();
-            const Profile recorded = openRecording(
-                item.source,
-                [&](double fraction) {
-                  return !progress || progress(fraction * (isMovie ? 0.1 : 0.9));
-                },
-                threads);
-            const std::string lost = lostLine(item.source, recorded);
+            const Recording recorded = readRecording(
+                item.source, {.threads = threads}, partOf(progress, 0.0, isMovie ? 0.1 : 0.9));
+            const std::string lost = lostLine(item.source, recorded.profile);
             const Profile profile = filteredBy(page.filters, recorded, item.source);
             gui::MatricesPictureOptions options = page.options;
             gui::PicturePaper paper = page.sheet.paper;
@@ -454,7 +450,7 @@ int renderCommand(const Arguments& words) {
   const std::string& file = given.words()[0];
   const Profile profile = [&] {
     ProgressLine progress("reading " + file, given.quiet());
-    const Profile recorded = openReported(file, progress, given.quiet());
+    const Recording recorded = openReported(file, progress, given.quiet());
     return filteredBy(recipe, recorded, file);
   }();
   options.title = QString::fromStdString(fs::path(file).filename().string());

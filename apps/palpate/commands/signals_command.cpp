@@ -66,20 +66,20 @@ int signalsCommand(const Arguments& words) {
                            std::string(recordings.several ? ",file\n" : "\n")};
   if (unitsRow)
     frame.units = [noUnit](const Profile& profile) { return signalUnits(profile.hand()) + noUnit; };
-  return writeProfileTexts(recordings,
-                           given.quiet(),
-                           frame,
-                           [&](const std::filesystem::path& file,
-                               const Profile& unfiltered,
-                               const TextSink& write,
-                               const Progress& progress) {
-                             const Profile profile = filteredBy(recipe, unfiltered, file);
-                             requireBelowHalfRate(smooth, profile, file);
-                             requireMatrix(file, profile.layout(), matrix);
-                             const std::string lineEnd =
-                                 recordings.several ? "," + csvLine({file.string()}) : "\n";
-                             writeSignalRows(profile, matrix, smooth, lineEnd, write, progress);
-                           });
+  return writeOpenedTexts(recordings,
+                          given.quiet(),
+                          frame,
+                          [&](const std::filesystem::path& file,
+                              const Recording& unfiltered,
+                              const TextSink& write,
+                              const Progress& progress) {
+                            const Profile profile = filteredBy(recipe, unfiltered, file);
+                            requireBelowHalfRate(smooth, profile, file);
+                            requireMatrix(file, profile.layout(), matrix);
+                            const std::string lineEnd =
+                                recordings.several ? "," + csvLine({file.string()}) : "\n";
+                            writeSignalRows(profile, matrix, smooth, lineEnd, write, progress);
+                          });
 }
 
 }  // namespace palpate::commands

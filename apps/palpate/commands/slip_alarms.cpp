@@ -39,14 +39,14 @@ Json slipAlarms(const std::filesystem::path& folder, bool quiet) {
     if (!std::filesystem::is_directory(path))
       throw Error(path.string() +
                   ": is no folder; FOLDER must hold slip-detection and grasps_by_class");
-    const int code = forEachProfile(
+    const int code = forEachOpened(
         recordingsIn({path.string()}),
         quiet,
-        [&](const std::filesystem::path&, const Profile& profile, const Progress& progress) {
+        [&](const std::filesystem::path&, const Recording& recording, const Progress& progress) {
           if (slip)
-            evaluation.addSlipRecording(profile, progress);
+            evaluation.addSlipRecording(recording.profile, progress);
           else
-            evaluation.addNoSlipRecording(profile, progress);
+            evaluation.addNoSlipRecording(recording.profile, progress);
         });
     if (code != kDone) throw Error(path.string() + ": not all recordings could be read");
   };

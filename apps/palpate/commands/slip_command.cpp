@@ -86,10 +86,10 @@ int slipCommand(const Arguments& words) {
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false;
-  return forEachProfile(
+  return forEachOpened(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& whole, const Progress& progress) {
+      [&](const std::filesystem::path& file, const Recording& whole, const Progress& progress) {
         const Profile profile = filteredBy(request.filters, whole, file, progress);
         requireThere(file, profile, request);
         if (!headerWritten)

@@ -369,7 +369,7 @@ int spectrumCommand(const Arguments& words) {
   const Recipe recipe = recipeOf(given);
   const std::string& file = given.words().front();
   ProgressLine line("reading " + file, given.quiet());
-  const Profile recorded = openReported(file, line, given.quiet());
+  const Recording recorded = openReported(file, line, given.quiet());
   const Profile profile = filteredBy(recipe, recorded, file, line.callback());
   if (twoSignals) return writeCoherence(given, profile, options, line);
   const Series series =

@@ -29,15 +29,18 @@ struct ExportChoices {
 // needed, and once: a source that is cut into many files is hashed once. Not thread-safe.
 class ExportSource {
  public:
-  ExportSource(std::filesystem::path file) : file_(std::move(file)) {}  // NOLINT: a path is one
+  // `meta`: where it is read already.
+  ExportSource(std::filesystem::path file,  // NOLINT: a path is one
+               std::optional<RecordingMeta> meta = {})
+      : file_(std::move(file)), meta_(std::move(meta)) {}
   const std::filesystem::path& file() const noexcept { return file_; }
   // As readRecordingMeta() and sha256OfFile(), which throw.
-  const std::map<std::string, std::string>& meta() const;
+  const RecordingMeta& meta() const;
   const std::string& sha256() const;
 
  private:
   std::filesystem::path file_;
-  mutable std::optional<std::map<std::string, std::string>> meta_;
+  mutable std::optional<RecordingMeta> meta_;
   mutable std::optional<std::string> sha256_;
 };
 

@@ -14,12 +14,14 @@ namespace palpate {
 // the filters over time. Throws Error (a matrix that the recording does not have; an unreadable
 // file) and Cancelled.
 inline Profile filteredBy(const Recipe& recipe,
-                          const Profile& profile,
+                          const Recording& recording,
                           const std::filesystem::path& file,
                           const Progress& progress = {}) {
-  if (recipe.empty()) return profile;
+  if (recipe.empty()) return recording.profile;
+  recording.requireEvents();
   try {
-    return filteredProfile(profile, recipe, {settingsTimesUs(readEvents(file).events)}, progress);
+    return filteredProfile(
+        recording.profile, recipe, {settingsTimesUs(recording.events)}, progress);
   } catch (const std::invalid_argument& error) {
     throw Error(file.string() + ": " + error.what());
   }

@@ -50,9 +50,10 @@ BatchAnswer drawBatchPicture(const BatchPictureOptions& batch,
                              Overwrite overwrite,
                              const Progress& progress,
                              std::size_t threads) {
-  const Profile whole = openRecording(item.source, partOf(progress, 0.0, kBatchReading), threads);
+  const Recording whole =
+      readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, kBatchReading));
   const Profile profile = filteredBy(batch.filters, whole, item.source);
-  const std::string lost = lostText(whole);
+  const std::string lost = lostText(whole.profile);
   const std::string problem = lost.empty() ? lost : item.source.string() + ": " + lost;
   if (profile.numFrames() == 0) throw FileError(item.source, "has no frame to draw");
   options.title = pathText(item.source.filename());

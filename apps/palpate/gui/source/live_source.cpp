@@ -51,9 +51,13 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
   switch (connection.kind) {
     case Connection::Kind::kReplay: {
       const std::filesystem::path path = connection.recording.toStdString();
-      Profile profile = openRecording(path, progress);
-      if (profile.numFrames() == 0) throw FileError(path, "has no frames: nothing to replay");
-      return std::make_unique<Replay>(std::move(profile), ReplayOptions{}, readEvents(path).events);
+      Recording recording = readRecording(path, {}, progress);
+      recording.requireEvents();
+      if (recording.profile.numFrames() == 0)
+        throw FileError(path, "has no frames: nothing to replay");
+      source.replayedMeta = std::move(recording.meta);
+      return std::make_unique<Replay>(
+          std::move(recording.profile), ReplayOptions{}, std::move(recording.events));
     }
     case Connection::Kind::kStream:
       return streamOf(connection.stream, dataFolder);
@@ -72,15 +76,14 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
 
 // Returns a function that supplies the settings of the matrices: those of the controller, or those
 // of the recording that is replayed.
-PressureStage::AskSettings settingsOf(const CaptureSession& session, const Connection& connection) {
-  if (connection.kind == Connection::Kind::kReplay) {
-    auto meta = readRecordingMeta(connection.recording.toStdString());
-    return [reportedSettings = meta["settings"]] {
+PressureStage::AskSettings settingsOf(LiveSource& source) {
+  if (source.connection.kind == Connection::Kind::kReplay) {
+    return [reportedSettings = source.replayedMeta["settings"]] {
       return reportedSettings.empty() ? std::vector<SensorSettings>()
                                       : reportedSettingsFrom(Json::parse(reportedSettings));
     };
   }
-  return [&session] {
+  return [&session = *source.session] {
     std::vector<SensorSettings> settings;
     for (const MatrixSettings& matrix : session.device().facts().matrices)
       settings.push_back({matrix.sensitivity, static_cast<double>(matrix.thresholdCounts), false});
@@ -115,17 +118,15 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   auto source = std::make_unique<LiveSource>();
   source->connection = connection;
   source->session = std::make_unique<CaptureSession>(deviceOf(*source, dataFolder, progress));
-  source->isEmulated = source->emulated ||
-                       (connection.kind == Connection::Kind::kReplay &&
-                        readRecordingMeta(connection.recording.toStdString()).contains("emulated"));
+  source->isEmulated = source->emulated || source->replayedMeta.contains("emulated");
   source->history = std::make_unique<SignalHistory>();
   std::vector<std::unique_ptr<Stage>> stages;
   auto filters = std::make_unique<FilterStage>();
   source->filters = filters.get();
   stages.push_back(std::move(filters));
   stages.push_back(std::make_unique<SignalsStage>());
-  auto pressure = std::make_unique<PressureStage>(source->session->device().hand(),
-                                                  settingsOf(*source->session, connection));
+  auto pressure =
+      std::make_unique<PressureStage>(source->session->device().hand(), settingsOf(*source));
   source->pressure = pressure.get();
   stages.push_back(std::move(pressure));
   auto slip = std::make_unique<SlipStage>(source->session->device().hand());

@@ -12,6 +12,7 @@
 #include <palpate/control/grasp_control.h>
 #include <palpate/core/progress.h>
 #include <palpate/emulator/emulated_hand.h>
+#include <palpate/recording/recording_data.h>
 #include <palpate/emulator/scene.h>
 #include <palpate/interop/foxglove_stream.h>
 #include <palpate/interop/live_stream.h>
@@ -43,6 +44,8 @@ struct LiveSource {
   std::atomic<std::shared_ptr<const std::vector<SceneObject>>> objects;
   // Set only for an emulated hand.
   std::unique_ptr<EmulatedHand> emulated;
+  // Of the recording that is replayed.
+  RecordingMeta replayedMeta;
   // Whether the hand is emulated, or a recording of an emulated one is replayed.
   bool isEmulated = false;
   std::unique_ptr<CaptureSession> session;
