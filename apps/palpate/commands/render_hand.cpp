@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "palpate/core/error.h"
 
 #include "commands/hand_options.h"
 #include "gui/hand3d/hand_frame_painter.h"
+#include "gui/hand3d/hand_look.h"
 #include "gui/hand3d/hand_picture.h"
 #include "gui/hand3d/hand_scene_builder.h"
 
@@ -89,44 +91,33 @@ void checkHandUsage(const CommandLine& given) {
   }
 }
 
-gui::FramePictures::Paint handPainter(const HandRendering& view,
+gui::FramePictures::Paint handPainter(const CommandLine& given,
                                       const Profile& profile,
                                       const gui::FrameSpan& span,
                                       const gui::MatricesPictureOptions& page) {
+  // For recordings without joint angles; empty: the hand at rest.
+  const auto assumedDeg = anglesOf(given, profile.hand()).value_or(std::vector<double>());
   gui::HandPictureOptions options;
   options.page = page;
-  options.look = view.look;
+  options.look = lookOf(given, profile);
   gui::HandSceneBuilder drawing;
   drawing.setHand(profile.hand(), true);
   std::vector<Eigen::Vector3d> seen;
   for (std::size_t i = 0; i <= std::min(kLooks, span.count() - 1); ++i) {
     const std::size_t frame = span.first + (span.count() - 1) * i / kLooks;
     const auto angles = profile.anglesAtFrame(frame);
-    drawing.setMoment(profile.frame(frame), angles ? angles->deg : view.assumedAnglesDeg);
+    drawing.setMoment(profile.frame(frame), angles ? angles->deg : assumedDeg);
     const auto extent = drawing.extent(options.look);
     seen.insert(seen.end(), extent.begin(), extent.end());
   }
   options.camera = drawing.usualCamera(options.look);
-  if (view.eye) {
-    options.camera.azimuthDeg = view.eye->azimuthDeg;
-    options.camera.elevationDeg = view.eye->elevationDeg;
-  }
-  options.camera.fit(seen, page.size.width() / page.size.height());
-  return gui::handFramePainter(profile, options, view.assumedAnglesDeg);
-}
-
-gui::FramePictures::Paint handPainter(const CommandLine& given,
-                                      const Profile& profile,
-                                      const gui::FrameSpan& span,
-                                      const gui::MatricesPictureOptions& page) {
-  HandRendering view{
-      .look = lookOf(given, profile),
-      .assumedAnglesDeg = anglesOf(given, profile.hand()).value_or(std::vector<double>())};
   if (const auto camera = given.text("camera")) {
     const auto numbers = numbersOf(*camera, "camera", 2);
-    view.eye = {numbers[0], numbers[1]};
+    options.camera.azimuthDeg = numbers[0];
+    options.camera.elevationDeg = numbers[1];
   }
-  return handPainter(view, profile, span, page);
+  options.camera.fit(seen, page.size.width() / page.size.height());
+  return gui::handFramePainter(profile, options, assumedDeg);
 }
 
 }  // namespace palpate::commands
