@@ -11,8 +11,10 @@
 namespace palpate {
 namespace {
 
-// A set of phases.
-constexpr unsigned to(auto... phases) { return (0U | ... | (1U << static_cast<unsigned>(phases))); }
+// Phases as bits.
+constexpr unsigned setOf(auto... phases) {
+  return (0U | ... | (1U << static_cast<unsigned>(phases)));
+}
 
 // The largest taxel of each matrix, into `peaks`; returns the largest of all.
 TaxelPeak taxelPeaks(const TactileFrame& frame, std::vector<TaxelPeak>& peaks) {
@@ -49,40 +51,40 @@ constexpr GraspStateMachine::StateRow GraspStateMachine::kStates[] = {
     {Phase::kIdle,
      "idle",
      {nullptr, nullptr, nullptr},
-     to(Phase::kPreshaping, Phase::kClosing, Phase::kSettling)},
+     setOf(Phase::kPreshaping, Phase::kClosing, Phase::kSettling)},
     {Phase::kPreshaping,
      "preshaping",
      {&Self::onMovingFrame, &Self::onMotionEnd, &Self::onMovingTime},
-     to(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
+     setOf(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
     {Phase::kClosing,
      "closing",
      {&Self::onMovingFrame, &Self::onMotionEnd, &Self::onMovingTime},
-     to(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
+     setOf(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
     {Phase::kStopping,
      "stopping",
      {&Self::onStoppingFrame, nullptr, &Self::onStoppingTime},
-     to(Phase::kSettling, Phase::kEasing, Phase::kClosing, Phase::kStopping, Phase::kIdle)},
-    {Phase::kSettling, "settling", {nullptr, nullptr, &Self::onOvershootTime}, to(Phase::kIdle)},
+     setOf(Phase::kSettling, Phase::kEasing, Phase::kClosing, Phase::kStopping, Phase::kIdle)},
+    {Phase::kSettling, "settling", {nullptr, nullptr, &Self::onOvershootTime}, setOf(Phase::kIdle)},
     {Phase::kSettling,
      "settling",
      {&Self::onSettlingFrame, nullptr, &Self::onHoldingTime},
-     to(Phase::kHolding, Phase::kStopping, Phase::kIdle)},
+     setOf(Phase::kHolding, Phase::kStopping, Phase::kIdle)},
     {Phase::kEasing,
      "easing",
      {&Self::onEasingFrame, nullptr, &Self::onEasingTime},
-     to(Phase::kEasing, Phase::kSettling, Phase::kStopping, Phase::kIdle)},
+     setOf(Phase::kEasing, Phase::kSettling, Phase::kStopping, Phase::kIdle)},
     {Phase::kEasing,
      "easing",
      {&Self::onMovingFrame, &Self::onStepEnd, &Self::onMovingTime},
-     to(Phase::kEasing, Phase::kStopping, Phase::kIdle)},
+     setOf(Phase::kEasing, Phase::kStopping, Phase::kIdle)},
     {Phase::kHolding,
      "holding",
      {&Self::onHoldingFrame, nullptr, &Self::onHoldingTime},
-     to(Phase::kClosing, Phase::kLoosening, Phase::kStopping, Phase::kIdle)},
+     setOf(Phase::kClosing, Phase::kLoosening, Phase::kStopping, Phase::kIdle)},
     {Phase::kLoosening,
      "loosening",
      {&Self::onLooseningFrame, &Self::onMotionEnd, &Self::onMovingTime},
-     to(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
+     setOf(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
 };
 
 const GraspStateMachine::StateRow& GraspStateMachine::row() const noexcept {
@@ -102,7 +104,7 @@ bool mayFollow(GraspPhase phase, GraspPhase next) {
   return std::any_of(
       std::begin(GraspStateMachine::kStates),
       std::end(GraspStateMachine::kStates),
-      [&](const auto& row) { return row.phase == phase && (row.next & to(next)) != 0; });
+      [&](const auto& row) { return row.phase == phase && (row.next & setOf(next)) != 0; });
 }
 
 void GraspStateMachine::begin(const GraspRequest& request,
