@@ -127,14 +127,18 @@ void GraspControl::runTasks() noexcept {
     }
 }
 
-void GraspControl::runGuardedCycle() noexcept {
+void GraspControl::guarded(auto&& work) noexcept {
   try {
-    runCycle();
+    work();
   } catch (const std::exception& failure) {
     fault(failure.what());
   } catch (...) {
     fault("an exception of no known kind");
   }
+}
+
+void GraspControl::runGuardedCycle() noexcept {
+  guarded([this] { runCycle(); });
 }
 
 // Each step is independent: when memory is short one may fail, but the next must be tried
@@ -206,12 +210,12 @@ void GraspControl::pollReplies() {
   std::erase_if(stopResults_, [](const auto& answer) { return isReady(answer); });
   std::erase_if(settings_, [](const auto& answer) { return isReady(answer); });
   if (!sentCommand_ || !isReady(sentCommand_->answer)) return;
-  SentCommand asked = std::move(*sentCommand_);
+  SentCommand sent = std::move(*sentCommand_);
   sentCommand_.reset();
   const std::int64_t nowUs = clock_.monotonicUs();
   try {
-    const CommandAnswer answer = asked.answer.get();
-    if (asked.isStop)
+    const CommandAnswer answer = sent.answer.get();
+    if (sent.isStop)
       machine_.onStopAcknowledged(nowUs);
     else
       machine_.onMoveAcknowledged(answer.durationS, nowUs);
@@ -377,7 +381,7 @@ void GraspControl::grasp(const GraspRequest& request, std::optional<std::uint64_
     const std::lock_guard lock(mutex_);
     runGuardedCycle();  // processes what has arrived until now
     try {
-      request.validate();
+      request.validate();  // motionTo() does, too: an invalid request is named before any refusal
       if (stopsBefore && *stopsBefore != stopsAsked_)
         throw DeviceError(DeviceFault::kRefused, "grasp", "refused: the hand was stopped");
       if (const std::string why = motionProblem(session_.device().status()); !why.empty())
@@ -418,7 +422,7 @@ void GraspControl::stop() noexcept {
   {
     const std::lock_guard lock(mutex_);
     ++stopsAsked_;
-    try {
+    guarded([this] {
       machine_.stop(clock_.monotonicUs());
       const bool sentBefore = sentCommand_ && sentCommand_->isStop;
       send();
@@ -426,11 +430,7 @@ void GraspControl::stop() noexcept {
       if (sentBefore || !machine_.active())
         stopResults_.push_back(session_.device().submit(StopMotion{}));
       report();
-    } catch (const std::exception& failure) {
-      fault(failure.what());
-    } catch (...) {
-      fault("an exception of no known kind");
-    }
+    });
   }
   deliverHere();
   queue_->wake();
@@ -454,7 +454,7 @@ void GraspControl::relax() noexcept {
   {
     const std::lock_guard lock(mutex_);
     ++stopsAsked_;
-    try {
+    guarded([this] {
       stopResults_.push_back(session_.device().submit(StopMotion{}));
       relaxWhenStopped_ = machine_.stopsBlindly();
       unprotected_.clear();
@@ -465,11 +465,7 @@ void GraspControl::relax() noexcept {
         switchMotorsOff(/*isNote=*/!ends);
         report();
       }
-    } catch (const std::exception& failure) {
-      fault(failure.what());
-    } catch (...) {
-      fault("an exception of no known kind");
-    }
+    });
   }
   deliverHere();
 }

@@ -1,23 +1,17 @@
-// The part of the state machine that keeps the limit: the slow part of the approach, and the small
-// steps after the stop until the reading at rest is the limit.
+// The small steps after the stop of a grasp that keeps its limit, until the reading at rest is the
+// limit.
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "palpate/control/grasp_state_machine.h"
-#include "palpate/core/number_text.h"
-#include "palpate/core/time.h"
 #include "palpate/device/sdh2.h"
 #include "palpate/model/preshape.h"
 
+#include "control/grasp_texts.h"
+
 namespace palpate {
 namespace {
-
-// A reading that rises by this much, and by this part of the limit, is a touch.
-constexpr float kTouchCounts = 10.0F;
-constexpr float kTouchShare = 0.1F;
-constexpr double kTouchDelayS = 0.2;  // between a touch and the frame that shows it, at most
 
 constexpr double kEasingDegPerS = 1.0;
 constexpr double kEasedTimes = 1.12;  // of the limit: the hand gives way until the reading is below
@@ -26,10 +20,8 @@ constexpr double kSmallestStepDeg = 0.005;
 constexpr double kLargestStepDeg = 0.5;
 constexpr double kLargestClosingDeg = 0.1;
 constexpr double kFirstStepDeg = 0.02;  // where nothing is known of the object
-// The slope while it closes is measured through the lag of the rubber: it may be this much steeper.
-constexpr double kSteeper = 2.0;
-constexpr double kStepShare = 0.9;  // of the step that would meet the limit
-constexpr double kNoFall = 0.02;    // a smaller fall tells nothing of the slope
+constexpr double kStepShare = 0.9;      // of the step that would meet the limit
+constexpr double kNoFall = 0.02;        // a smaller fall tells nothing of the slope
 // A reading is at rest when it changes by less than this part of the limit in so many frames.
 constexpr double kSteadyTimes = 0.05;
 constexpr int kRestFrames = 12;
@@ -38,71 +30,8 @@ constexpr std::int64_t kEasingUs = 30'000'000;
 
 }  // namespace
 
-std::optional<double> GraspStateMachine::presentRatio() const {
-  return closeRatioOf(report_.request, anglesDeg_);
-}
-
-bool GraspStateMachine::isTouching() const noexcept {
-  return peak_.counts >
-         restCounts_ + std::max(kTouchCounts, kTouchShare * static_cast<float>(limit_));
-}
-
-void GraspStateMachine::close(std::int64_t monoUs) {
-  GraspRequest motion = report_.request;
-  approaching_ = false;
-  if (approach_) {
-    // Where the joints' angles are not known nothing is fast.
-    const auto present = presentRatio();
-    approaching_ = !isNear_ && present && *present < approach_->fastToRatio;
-    if (approaching_)
-      motion.closeRatio = approach_->fastToRatio;
-    else
-      motion.velocityDegPerS = slowDegPerS(motion, *approach_, limit_);
-  }
-  closingDegPerS_ = motion.velocityDegPerS;
-  send(motionTo(motion, motion.closeRatio, hand_, anglesDeg_), GraspPhase::kClosing, monoUs);
-}
-
-// Of a frame that is not over the limit.
-void GraspStateMachine::watchTouch(std::int64_t monoUs) {
-  if (!isTouching()) return;
-  if (!report_.touch) noteTouch(monoUs);
-  if (!approaching_) return;
-  isNear_ = true;
-  note("touch", "touches before it was expected: closing slowly from here", peak_.matrix);
-  pause(Next::kClose, "touched", monoUs);
-}
-
-void GraspStateMachine::noteTouch(std::int64_t monoUs) {
-  touchedUs_ = monoUs;
-  touchedTimes_ = timesLimit();
-  const double slope = std::max(fastestSlopeDeg(sdh2Preshape(report_.request.preshape)), 1e-9);
-  if (const auto present = presentRatio())
-    report_.touch =
-        Touch{.ratio = std::max(*present - closingDegPerS_ * kTouchDelayS / slope, 0.0)};
-}
-
-// Over the limit: how steeply the reading rose with the angle since the touch.
-void GraspStateMachine::noteSlope(std::int64_t monoUs) {
-  if (!report_.touch) return noteTouch(monoUs);
-  const double deg = closingDegPerS_ * static_cast<double>(monoUs - touchedUs_) / kUsPerS;
-  if (!follows_ && deg > 0.0)
-    steepest_ = timesPerDeg_ = kSteeper * (timesLimit() - touchedTimes_) / deg;
-}
-
-double GraspStateMachine::timesLimit() const noexcept {
-  const TaxelPeak& loaded = loadedTaxel(report_.request);
-  const int lower = report_.request.limitCounts - limitOf(report_.request, fingerOf(loaded.matrix));
-  double times = static_cast<double>(loaded.counts) / std::max(limit_ - lower, 1);
-  if (!forces_) return times;
-  for (std::size_t finger = 0; finger < forces_->forcesN().size(); ++finger)
-    if (const auto limitN = forceLimitOf(report_.request, finger))
-      times = std::max(times, forces_->forcesN()[finger] / *limitN);
-  return times;
-}
-
 void GraspStateMachine::beginEasing(std::int64_t monoUs) {
-  phase_ = GraspPhase::kEasing;
+  state_ = State::kEasing;
   command_.reset();
   stillSinceUs_ = monoUs;
   if (easingUntilUs_ == 0) easingUntilUs_ = monoUs + kEasingUs;
@@ -113,7 +42,8 @@ void GraspStateMachine::beginEasing(std::int64_t monoUs) {
 
 // The fingers open while the reading at rest is above the limit. They follow an object that gave
 // way, as one does that was pushed by two of them and isn't held yet.
-void GraspStateMachine::onEasingFrame(std::int64_t monoUs) {
+void GraspStateMachine::onEasingFrame(const FrameEvent& frame) {
+  const std::int64_t monoUs = frame.monoUs;
   const double times = timesLimit();
   const bool isLate = monoUs >= easingUntilUs_;
   const bool areAnglesKnown = anglesUs_ > stillSinceUs_ && anglesDeg_.size() == hand_.axes.size();
@@ -146,6 +76,21 @@ void GraspStateMachine::onEasingFrame(std::int64_t monoUs) {
   moveBy(easedDeg_, monoUs);
 }
 
+void GraspStateMachine::onEasingTime(std::int64_t monoUs) {
+  if (monoUs > stream_.deadAtUs())
+    end(GraspOutcome::kStreamLost,
+        report_.text + "; no more tactile frames arrive" + std::string(kNotEased));
+}
+
+void GraspStateMachine::onStepEnd(const std::vector<int>&, std::int64_t monoUs) {
+  underWay_.reset();
+  // After a step that followed the slope is not known: the object moved.
+  if (follows_) return beginEasing(monoUs);
+  state_ = State::kEasing;
+  stillSinceUs_ = monoUs;
+  restFrames_ = stillFrames_ = 0;
+}
+
 // Opens each joint from where it is, or closes it with a negative angle of the fastest one [deg].
 // No joint closes while the others open, whatever holds it.
 void GraspStateMachine::moveBy(double openingDeg, std::int64_t monoUs) {
@@ -159,7 +104,7 @@ void GraspStateMachine::moveBy(double openingDeg, std::int64_t monoUs) {
     motion.targetDeg[axis] = std::clamp(anglesDeg_[axis] - preshape.joints[axis].slopeDeg * ratio,
                                         hand_.axes[axis].minimumDeg,
                                         hand_.axes[axis].maximumDeg);
-  send(std::move(motion), GraspPhase::kEasing, monoUs);
+  send(std::move(motion), State::kEasingStep, monoUs);
 }
 
 void GraspStateMachine::endEasing(std::int64_t monoUs) {
@@ -178,18 +123,6 @@ void GraspStateMachine::endEasing(std::int64_t monoUs) {
     return end(GraspOutcome::kFinished, std::string(kNothingHeldText));
   if (isSlipAware()) return settle(monoUs);
   end(GraspOutcome::kLimitReached, report_.text + riseText() + restText());
-}
-
-std::string GraspStateMachine::restText() const {
-  std::string text = "; at its end ";
-  if (report_.forceFinger) text += fixedText(forces_->forcesN()[*report_.forceFinger], 2) + " N, ";
-  text += numberText(report_.peakAtRest->counts) + " counts";
-  const double times = timesLimit();
-  return times > kKeptToLimit || times < kKeptFromLimit ? text + ", " + timesText() : text;
-}
-
-std::string GraspStateMachine::timesText() const {
-  return fixedText(timesLimit(), 1) + " times the limit";
 }
 
 }  // namespace palpate

@@ -24,16 +24,16 @@ std::string nameFrom(const JsonField& field) {
 }  // namespace
 
 std::string problemOf(const SavedPose& pose, const HandDescription& hand) {
-  const std::string who = "the pose '" + shortened(pose.name) + "' ";
-  if (pose.hand != hand.name) return who + "is of another hand: " + pose.hand;
+  const std::string subject = "the pose '" + shortened(pose.name) + "' ";
+  if (pose.hand != hand.name) return subject + "is of another hand: " + pose.hand;
   if (pose.anglesDeg.size() != hand.axes.size())
-    return who + "has " + std::to_string(pose.anglesDeg.size()) + " angles, the hand has " +
+    return subject + "has " + std::to_string(pose.anglesDeg.size()) + " angles, the hand has " +
            std::to_string(hand.axes.size()) + " axes";
   for (std::size_t axis = 0; axis < hand.axes.size(); ++axis) {
     const AxisDescription& is = hand.axes[axis];
     const double angle = pose.anglesDeg[axis];
     if (angle >= is.minimumDeg && angle <= is.maximumDeg) continue;  // NaN is in no range
-    return who + "is out of range: " + is.name + " at " + numberText(angle) + ", not in " +
+    return subject + "is out of range: " + is.name + " at " + numberText(angle) + ", not in " +
            numberText(is.minimumDeg) + ".." + numberText(is.maximumDeg) + " " + is.unit();
   }
   return {};

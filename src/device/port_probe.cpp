@@ -35,7 +35,7 @@ class Prober {
       : channel_(channel), options_(options), clock_(clock), replies_(!channel.isNetwork()) {}
 
   PortProbe run() {
-    if (!askMotion() && !stopped()) askTactile();
+    if (!requestMotion() && !stopped()) requestTactile();
     return conclusion();
   }
 
@@ -88,7 +88,7 @@ class Prober {
   }
 
   // True when this is a motion controller.
-  bool askMotion() {
+  bool requestMotion() {
     for (int tries = 0; tries < 2 && !version_ && tactilePackets_ == 0 && !stopped(); ++tries) {
       send(" \r\nver\r\n");
       // When packets of a streaming tactile controller arrive, there is no need to wait for the
@@ -101,7 +101,7 @@ class Prober {
     return true;
   }
 
-  void askTactile() {
+  void requestTactile() {
     channel_.write(dsaRequest(DsaId::kAcquisition, kStop));
     listen(kStopWait, [this] { return acknowledged_; });
     for (int tries = 0; tries < 2 && !tactile_ && !stopped(); ++tries) {

@@ -132,10 +132,10 @@ void SdhController::readInfo() {
   // Older firmware doesn't know all of these requests: it refuses them, or does not answer (then
   // the others are skipped).
   bool answers = true;
-  const auto ifAnswered = [&](const auto& ask) {
+  const auto ifAnswered = [&](const auto& request) {
     if (!answers) return;
     try {
-      ask();
+      request();
     } catch (const SdhInterrupted&) {
       throw;
     } catch (const DeviceError& error) {
@@ -179,7 +179,7 @@ std::string SdhController::word(const std::string& command, const SdhRetryPolicy
   for (char& c : name)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   return link_
-      ->ask(
+      ->requestLine(
           command,
           name,
           std::nullopt,
@@ -195,7 +195,7 @@ SdhControllerValues SdhController::numbers(const std::string& request,
                                            std::size_t count,
                                            const SdhRetryPolicy& retryPolicy) {
   SdhControllerValues values;
-  link_->ask(
+  link_->requestLine(
       request,
       name,
       axis,
@@ -211,7 +211,7 @@ SdhControllerValues SdhController::exchange(const SdhQuantity& quantity,
                                             const SdhControllerValues& values,
                                             const SdhRetryPolicy& retryPolicy) {
   if (binary_ && sdhIsBinary(quantity.command))
-    return link_->askRecord(
+    return link_->requestRecord(
         quantity.command,
         values,
         [&](const SdhControllerValues& answer) { return quantity.plausible(answer, kSdhAxes); },
@@ -470,7 +470,7 @@ void SdhController::referenceRun(const std::vector<int>& direction) {
   checkSdhValues(quantity, values, 0.0, 2.0);
   const SdhRetryPolicy retryPolicy{
       .timeout = milliseconds(15'000), .tries = 1, .abortsForStop = false};
-  link_->ask(
+  link_->requestLine(
       sdhLineRequest("ref", std::nullopt, values),
       "REF",
       std::nullopt,
@@ -483,7 +483,7 @@ void SdhController::savePositions(const std::vector<int>& axes) {
   const SdhSettingsValues values = asNumbers(axes);
   checkSdhValues(quantity, values, 0.0, 1.0);
   const SdhRetryPolicy once{.tries = 1};  // a single try, because the flash wears
-  link_->ask(
+  link_->requestLine(
       sdhLineRequest("pos_save", std::nullopt, values),
       "POS_SAVE",
       std::nullopt,

@@ -264,11 +264,11 @@ SdhReply SdhLink::exchange(Bytes request,
   failExchange(what);
 }
 
-SdhLine SdhLink::ask(const std::string& request,
-                     std::string_view name,
-                     std::optional<int> axis,
-                     const LineCheck& check,
-                     const SdhRetryPolicy& retryPolicy) {
+SdhLine SdhLink::requestLine(const std::string& request,
+                             std::string_view name,
+                             std::optional<int> axis,
+                             const LineCheck& check,
+                             const SdhRetryPolicy& retryPolicy) {
   const ReplyMatcher match = [&](SdhReply& reply) {
     const auto* line = std::get_if<SdhLine>(&reply);
     if (!line || line->kind != SdhLine::Kind::kValue || line->name != name || line->axis != axis)
@@ -279,10 +279,10 @@ SdhLine SdhLink::ask(const std::string& request,
   return std::get<SdhLine>(exchange(bytesOf(text), request, match, retryPolicy));
 }
 
-std::vector<double> SdhLink::askRecord(SdhCommand command,
-                                       std::span<const double> values,
-                                       const RecordCheck& check,
-                                       const SdhRetryPolicy& retryPolicy) {
+std::vector<double> SdhLink::requestRecord(SdhCommand command,
+                                           std::span<const double> values,
+                                           const RecordCheck& check,
+                                           const SdhRetryPolicy& retryPolicy) {
   const ReplyMatcher match = [&](SdhReply& reply) {
     const auto* record = std::get_if<SdhRecord>(&reply);
     if (!record || record->command != command) return ReplyMatch::kStray;

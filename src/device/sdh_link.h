@@ -44,15 +44,15 @@ class SdhLink {
 
   // Sends a request and returns its answer: the line NAME=.. with `axis`, or the values of the
   // record.
-  SdhLine ask(const std::string& request,
-              std::string_view name,
-              std::optional<int> axis,
-              const LineCheck& check,
-              const SdhRetryPolicy& retryPolicy = {});
-  std::vector<double> askRecord(SdhCommand command,
-                                std::span<const double> values,
-                                const RecordCheck& check,
-                                const SdhRetryPolicy& retryPolicy = {});
+  SdhLine requestLine(const std::string& request,
+                      std::string_view name,
+                      std::optional<int> axis,
+                      const LineCheck& check,
+                      const SdhRetryPolicy& retryPolicy = {});
+  std::vector<double> requestRecord(SdhCommand command,
+                                    std::span<const double> values,
+                                    const RecordCheck& check,
+                                    const SdhRetryPolicy& retryPolicy = {});
   // Sends `stop` before anything else and waits for STOP. Returns false if another line arrived
   // instead: it may be this hand's form of confirmation, or an answer to something else.
   bool stop();

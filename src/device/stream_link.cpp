@@ -148,7 +148,7 @@ void StreamLink::connect(ByteChannel& channel) {
   session_.connectedUs = time_.nowUs();
   session_.frameSinceConnect = false;
   session_.silent = false;
-  session_.notesTold = 0;
+  session_.notesReported = 0;
   session_.closedUs.reset();
   session_.readsPile = options_.source != nullptr && options_.source->waitedUs() > kPileUs;
   session_.framesBeforePile = session_.frames;
@@ -169,7 +169,7 @@ void StreamLink::disconnected() {
   watchRemarks();
   if (lines_) earlierLines_ = std::move(lines_);
   packets_.reset();
-  tellLoss(/*atOnce=*/true);
+  reportLoss(/*atOnce=*/true);
   const bool isClosed = channel_->atEnd();
   if (isClosed) session_.closedUs = time_.nowUs();
   channel_ = nullptr;
@@ -177,7 +177,7 @@ void StreamLink::disconnected() {
 }
 
 void StreamLink::ended() {
-  tellLoss(/*atOnce=*/true);
+  reportLoss(/*atOnce=*/true);
   if (session_.gapFromUs && !session_.gapIsEnd)
     endGap(session_.closedUs.value_or(time_.nowUs()), std::nullopt, /*frameReceived=*/false);
 }
@@ -193,7 +193,7 @@ void StreamLink::work() {
   }
   endPile(got);
   watchRemarks();
-  tellLoss(/*atOnce=*/false);
+  reportLoss(/*atOnce=*/false);
   watchSilence();
 }
 
@@ -324,7 +324,7 @@ std::optional<std::int64_t> StreamLink::deviceTime(const StreamItem& item,
   if (!item.deviceUs) return std::nullopt;
   const std::int64_t deviceUs = session_.clock.next(*item.deviceUs, monotonicUs);
   if (session_.clock.restarted() && !session_.speedReported) {
-    const auto before = std::exchange(session_.clockToldUs, monotonicUs);
+    const auto before = std::exchange(session_.clockReportedUs, monotonicUs);
     if (!before || monotonicUs - *before >= kClockAgainUs)
       eventNow("link", "the sender's clock jumped or started anew");
     session_.minOffsetUs = {};
@@ -444,11 +444,11 @@ void StreamLink::watchOutOfRange(const Counts& counts) {
 
 void StreamLink::showFault(const std::string& text,
                            std::uint64_t more,
-                           std::optional<std::int64_t>& toldUs) {
+                           std::optional<std::int64_t>& reportedUs) {
   session_.faultUs = clock_.monotonicUs();
   updateStatus([&](PortStatus& status) { status.message = escapedLine(port_ + ": " + text); });
-  if (toldUs && session_.faultUs - *toldUs < kFaultAlarmEveryUs) return;
-  toldUs = session_.faultUs;
+  if (reportedUs && session_.faultUs - *reportedUs < kFaultAlarmEveryUs) return;
+  reportedUs = session_.faultUs;
   eventNow("alarm", text + (more > 0 ? " (and " + std::to_string(more) + " before it)" : ""));
 }
 
@@ -461,14 +461,14 @@ void StreamLink::remark(const std::string& text, const std::string& kind) {
 }
 
 void StreamLink::watchRemarks() {
-  if (lines_ && !session_.guessTold && !lines_->guess().empty()) {
-    session_.guessTold = true;
+  if (lines_ && !session_.guessReported && !lines_->guess().empty()) {
+    session_.guessReported = true;
     remark(lines_->guess());
   }
   // Only this thread writes remarks_.
   if (lines_)
-    for (; session_.notesTold < lines_->notes().size(); ++session_.notesTold) {
-      const std::string& note = lines_->notes()[session_.notesTold];
+    for (; session_.notesReported < lines_->notes().size(); ++session_.notesReported) {
+      const std::string& note = lines_->notes()[session_.notesReported];
       if (std::ranges::find(remarks_, note) == remarks_.end()) remark(note);
     }
   if (options_.source == nullptr) return;
@@ -562,14 +562,14 @@ void StreamLink::noteLoss(std::int64_t fromUs, std::int64_t toUs, std::uint64_t 
   if (session_.lossFrames == 0) session_.lossFromUs = fromUs;
   session_.lossToUs = toUs;
   session_.lossFrames += missing;
-  tellLoss(/*atOnce=*/false);
+  reportLoss(/*atOnce=*/false);
 }
 
-void StreamLink::tellLoss(bool atOnce) {
+void StreamLink::reportLoss(bool atOnce) {
   if (session_.lossFrames == 0) return;
   const std::int64_t nowUs = clock_.monotonicUs();
-  if (!atOnce && session_.lossToldUs && nowUs - *session_.lossToldUs < kLossEveryUs) return;
-  session_.lossToldUs = nowUs;
+  if (!atOnce && session_.lossReportedUs && nowUs - *session_.lossReportedUs < kLossEveryUs) return;
+  session_.lossReportedUs = nowUs;
   const std::uint64_t missing = std::exchange(session_.lossFrames, 0);
   DeviceEvent event = gapEventOf(session_.lossFromUs, session_.lossToUs, missing, false);
   event.text = counted(missing, "frame") + (missing == 1 ? " is missing" : " are missing");

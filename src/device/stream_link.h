@@ -84,13 +84,15 @@ class StreamLink : public PortLink {
   void publishGap();
   void endGap(std::int64_t nowUs, std::optional<std::uint64_t> missing, bool frameReceived);
   void noteLoss(std::int64_t fromUs, std::int64_t toUs, std::uint64_t missing);
-  void tellLoss(bool atOnce);
+  void reportLoss(bool atOnce);
   Counts countsOfConnection() const;
   std::string faultOfConnection() const;
   void updateCounts();
   void watchFaults();
   void watchOutOfRange(const Counts& counts);
-  void showFault(const std::string& text, std::uint64_t more, std::optional<std::int64_t>& toldUs);
+  void showFault(const std::string& text,
+                 std::uint64_t more,
+                 std::optional<std::int64_t>& reportedUs);
   void watchRemarks();
   void endPile(std::size_t got);
   void remark(const std::string& text, const std::string& kind = "link");
@@ -146,19 +148,19 @@ class StreamLink : public PortLink {
     std::uint64_t lossFrames = 0;
     std::int64_t lossFromUs = 0;
     std::int64_t lossToUs = 0;
-    std::optional<std::int64_t> lossToldUs;  // monotonic
+    std::optional<std::int64_t> lossReportedUs;  // monotonic
     // Frames that waited in a connection until it was read.
     bool readsPile = false;
     std::uint64_t framesBeforePile = 0;
-    bool guessTold = false;
-    std::size_t notesTold = 0;  // of this connection
+    bool guessReported = false;
+    std::size_t notesReported = 0;  // of this connection
 
     std::uint64_t reportedRefused = 0;
     std::uint64_t reportedOutOfRange = 0;
-    std::optional<std::int64_t> outOfRangeUs;  // monotonic time of the last alarm about values
-    std::optional<std::int64_t> clockToldUs;   // monotonic time of the last jump of the clock
-    std::int64_t faultUs = 0;                  // monotonic time of the last fault
-    std::optional<std::int64_t> alarmUs;       // monotonic time of the last alarm about faults
+    std::optional<std::int64_t> outOfRangeUs;     // monotonic time of the last alarm about values
+    std::optional<std::int64_t> clockReportedUs;  // monotonic time of the last jump of the clock
+    std::int64_t faultUs = 0;                     // monotonic time of the last fault
+    std::optional<std::int64_t> alarmUs;          // monotonic time of the last alarm about faults
 
     // As in TactileLink: minimum of (host time - device time) in this half minute and the last one.
     std::array<std::optional<std::int64_t>, 2> minOffsetUs;

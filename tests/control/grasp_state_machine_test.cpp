@@ -29,6 +29,20 @@ TEST(GraspStateMachine, MovesNothingUnasked) {
   EXPECT_FALSE(bench.machine.active());
 }
 
+TEST(GraspStateMachine, EveryPhaseHasItsNameAndMayEnd) {
+  const std::vector<std::string_view> names = {
+      "idle", "preshaping", "closing", "stopping", "settling", "easing", "holding", "loosening"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto phase = static_cast<GraspPhase>(i);
+    EXPECT_EQ(nameOf(phase), names[i]);
+    EXPECT_EQ(mayFollow(phase, GraspPhase::kIdle), i != 0) << names[i];
+    EXPECT_EQ(mayFollow(phase, GraspPhase::kStopping), i != 0) << names[i];
+  }
+  EXPECT_FALSE(mayFollow(GraspPhase::kIdle, GraspPhase::kHolding));
+  EXPECT_FALSE(mayFollow(GraspPhase::kPreshaping, GraspPhase::kSettling));
+  EXPECT_FALSE(mayFollow(GraspPhase::kHolding, GraspPhase::kEasing));
+}
+
 TEST(GraspStateMachine, PlainGraspGoesToItsTargetAndEnds) {
   Bench bench;
   bench.begin({});

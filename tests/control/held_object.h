@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -58,6 +59,7 @@ class HeldObject {
   bool run(double seconds, const std::function<bool()>& enough = {}) {
     const double endS = timeS_ + seconds;
     while (timeS_ < endS) {
+      phase_ = machine_.phase();
       timeS_ += kPeriodS;
       hand_.advanceTo(timeS_);
       hand_.scan(counts_);
@@ -67,12 +69,15 @@ class HeldObject {
         frame.values[i] = static_cast<float>(counts_[i]);
       machine_.onAngles(hand_.joints().angles(), us());
       machine_.onFrame(frame, us());
+      checkPhase();
       obey();
       std::vector<int> states;
       for (const AxisState state : hand_.joints().states())
         states.push_back(static_cast<int>(state));
       machine_.onAxisStates(states, us());
+      checkPhase();
       machine_.onTime(us());
+      checkPhase();
       obey();
       for (GraspStep& note : machine_.takeNotes()) notes_.push_back(std::move(note));
       if (enough && enough()) return true;
@@ -94,11 +99,20 @@ class HeldObject {
         joints.stop();
         machine_.onStopAcknowledged(us());
       }
+      checkPhase();
     }
+  }
+
+  // Whatever the hand holds, the phases follow each other as the table of states says.
+  void checkPhase() {
+    const GraspPhase before = std::exchange(phase_, machine_.phase());
+    EXPECT_TRUE(phase_ == before || mayFollow(before, phase_))
+        << nameOf(before) << ", then " << nameOf(phase_);
   }
 
   PhysicalHand hand_;
   GraspStateMachine machine_;
+  GraspPhase phase_ = GraspPhase::kIdle;
   std::vector<std::uint16_t> counts_;
   std::vector<GraspStep> notes_;
   std::vector<MoveJoints> moves_;

@@ -164,6 +164,7 @@ class GraspControl {
   void runTasks() noexcept;
   // The following functions require mutex_.
   void runCycle();
+  void guarded(auto&& work) noexcept;  // an exception becomes a fault()
   void runGuardedCycle() noexcept;
   void fault(const char* what) noexcept;
   void note(RecordingEvent event, bool ends = false);

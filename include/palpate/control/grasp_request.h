@@ -116,8 +116,9 @@ struct GraspRequest {
   // Throws std::invalid_argument naming field, value and range; nothing may be sent then.
   void validate() const;
 };
-// The command for one motion of a grasp; `presentDeg`: the present joint angles, for axes without a
-// target (empty: not known). Throws as validate(), when a target is beyond the range of an axis
+// The command for one motion of a grasp, the only way to one: it validates the request, whoever has
+// done so before to name an error earlier. `presentDeg`: the present joint angles, for axes without
+// a target (empty: not known). Throws as validate(), when a target is beyond the range of an axis
 // (of targetDeg, or of a hand with a smaller range than the SDH-2), and when an axis without a
 // target has no known angle.
 MoveJoints motionTo(const GraspRequest& request,

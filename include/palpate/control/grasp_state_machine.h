@@ -18,6 +18,7 @@
 // and moves nothing: with the first frame after it the references are taken anew.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -50,6 +51,8 @@ enum class GraspPhase {
 };
 // Names: "idle", "preshaping", "closing", "stopping", "settling", "easing", "holding", "loosening".
 std::string_view nameOf(GraspPhase phase);
+// Whether a phase can be followed directly by another one, as in the diagram above.
+bool mayFollow(GraspPhase phase, GraspPhase next);
 
 class GraspStateMachine {
  public:
@@ -104,27 +107,29 @@ class GraspStateMachine {
   // Stop by the user: stops what runs, no effect when idle (the caller sends a stop in either
   // case).
   void stop(std::int64_t monoUs);
-  void relax();
+  void relax() {
+    if (active()) end(GraspOutcome::kRelaxed, std::string(kRelaxedText));
+  }
   // What the last grasp left at its limit is not known any more: the motors were switched off, or a
   // port was gone.
   void forgetHeld() noexcept { heldDeg_.clear(); }
   // Call this when a call above threw an unexpected exception: stops a running motion; the grasp
   // ends as failed.
-  void fault(std::string_view why, std::int64_t monoUs);
+  void fault(std::string_view why, std::int64_t monoUs) { failWith(why, ": stopped", monoUs); }
   void onTime(std::int64_t monoUs);
   // Next time at which onTime() has something to do [monotonic us]; empty when it waits for another
   // input.
   std::optional<std::int64_t> nextUs() const;
 
   // Returns the command to be sent now, once: a MoveJoints or a StopMotion.
-  std::optional<DeviceCommand> takeCommand();
+  std::optional<DeviceCommand> takeCommand() { return std::exchange(command_, std::nullopt); }
   // Steps of a slip-aware grasp since the last call.
   std::vector<GraspStep> takeNotes() { return std::exchange(notes_, {}); }
   // The report of a grasp that has ended, once; the caller sets endUs.
-  std::optional<GraspReport> takeReport();
+  std::optional<GraspReport> takeReport() { return std::exchange(ended_, std::nullopt); }
 
-  GraspPhase phase() const noexcept { return phase_; }
-  bool active() const noexcept { return phase_ != GraspPhase::kIdle; }
+  GraspPhase phase() const noexcept;
+  bool active() const noexcept { return state_ != State::kIdle; }
   // True while stops are sent to a motion controller that doesn't answer.
   bool stopsBlindly() const noexcept { return stopsBlindly_; }
   // True while fingers move under tactile control, when no setting that changes the counts is
@@ -139,62 +144,58 @@ class GraspStateMachine {
   std::string holdingText(std::int64_t monoUs) const;
   // While a slip-aware grasp settles or holds and the tactile stream is silent: time without a
   // frame [us].
-  std::optional<std::int64_t> unwatchedUs(std::int64_t monoUs) const;
+  std::optional<std::int64_t> unwatchedUs(std::int64_t monoUs) const {
+    return interrupted_ ? stream_.silenceUs(monoUs) : std::nullopt;
+  }
   const StreamMonitor& stream() const noexcept { return stream_; }
   const TaxelPeak& peak() const noexcept { return peak_; }  // of the newest frame
   // Joint angles as last read [deg]; empty: not known.
   const std::vector<double>& anglesDeg() const noexcept { return anglesDeg_; }
 
  private:
-  void send(MoveJoints motion, GraspPhase phase, std::int64_t monoUs);
-  double remainingMotionS(std::int64_t monoUs) const;
-  void stopWith(GraspOutcome outcome, const std::string& text, std::int64_t monoUs);
-  void stopAgain(std::int64_t monoUs);
-  void onOverLimitUnanswered(std::int64_t monoUs);
-  void failWith(std::string_view why, std::string_view stoppedText, std::int64_t monoUs);
-  void end(GraspOutcome outcome, const std::string& text);
-  void motionEnded(const std::vector<int>& states, std::int64_t monoUs);
-  bool isMoving() const noexcept {
-    return phase_ == GraspPhase::kPreshaping || phase_ == GraspPhase::kClosing ||
-           phase_ == GraspPhase::kLoosening || (phase_ == GraspPhase::kEasing && underWay_);
-  }
-  enum class Next { kEnd, kEase, kSettle, kClose };  // after a confirmed stop
-  // The following functions belong to a grasp that keeps its limit.
-  std::optional<double> presentRatio() const;
-  bool isTouching() const noexcept;
-  void close(std::int64_t monoUs);
-  void watchTouch(std::int64_t monoUs);
-  void noteTouch(std::int64_t monoUs);
-  void noteSlope(std::int64_t monoUs);
-  void beginEasing(std::int64_t monoUs);
-  void onEasingFrame(std::int64_t monoUs);
-  void moveBy(double openingDeg, std::int64_t monoUs);
-  void endEasing(std::int64_t monoUs);
-  // The largest reading or force as a multiple of its limit.
-  double timesLimit() const noexcept;
-  // "1.9 times the limit".
-  std::string timesText() const;
-  std::string restText() const;
-  // The following functions belong to a slip-aware grasp.
-  bool isHolding() const noexcept {
-    return isSlipAware() && (phase_ == GraspPhase::kSettling || phase_ == GraspPhase::kHolding);
-  }
-  // True for a reactive grasp that has stopped at its limit and measures how far the reading rises.
-  bool observesOvershoot() const noexcept {
-    return !isSlipAware() && phase_ == GraspPhase::kSettling;
-  }
-  bool isSlipAware() const noexcept { return report_.request.mode == GraspMode::kSlip; }
-  void note(const char* action, const std::string& text, std::optional<std::size_t> matrix = {});
-  void pause(Next next, const std::string& text, std::int64_t monoUs);
-  void settle(std::int64_t monoUs);
-  void observeOvershoot(std::int64_t monoUs);
-  void endOvershoot();
-  void measurePeakAfterStop();
-  std::string riseText() const;
-  std::string overForceText() const;
-  // Of the rise of the reading, or of the force, after the stop more than half is left.
-  bool isStillRisen() const;
-  std::string limitText() const;
+  // A phase may be several states: settling is the look at the rise after the stop of a reactive
+  // grasp, or the rest of a slip-aware one; while it eases, a step is under way or the hand rests.
+  enum class State {
+    kIdle,
+    kPreshaping,
+    kClosing,
+    kStopping,
+    kOvershoot,
+    kSettling,
+    kEasing,
+    kEasingStep,
+    kHolding,
+    kLoosening
+  };
+  struct FrameEvent {
+    std::int64_t monoUs = 0;
+    std::int64_t hostUs = 0;                     // [us since 1970]
+    std::optional<std::int64_t> silenceUs = {};  // before this frame, where it was too long
+  };
+  using Self = GraspStateMachine;
+  using Phase = GraspPhase;
+  // What a state does, and what may follow (grasp_state_machine.cpp).
+  struct StateRow;
+  static const StateRow kStates[];  // in the order of State
+  const StateRow& row() const noexcept;
+  friend std::string_view nameOf(GraspPhase phase);
+  friend bool mayFollow(GraspPhase phase, GraspPhase next);
+
+  static std::int64_t microsecondsOf(double seconds) { return std::llround(seconds * 1e6); }
+  // An unanswered stop is sent again after this time.
+  static constexpr std::int64_t kStopAgainUs = 250'000;
+
+  bool updateLayout(const TactileFrame& frame);
+
+  // What is checked before a grasp begins, and readings beside their limits (grasp_limits.cpp).
+  void refuse(const std::string& why) const;
+  void requireMeasurableLimit(const GraspRequest& request) const;
+  std::optional<FingerForces> forcesFor(const GraspRequest& request, bool mayBeOver) const;
+  // The last grasp left the hand at its limit and differs from this slip-aware one in its mode
+  // alone; since then no joint has moved, a taxel was pressed all the time, and creep explains the
+  // largest reading.
+  bool holdsAlready(const GraspRequest& request) const;
+  int fingerOf(std::size_t matrix) const noexcept;
   bool isOverLimit() const noexcept;
   // The taxel that is nearest to its limit, or farthest above it.
   const TaxelPeak& loadedTaxel(const GraspRequest& request) const noexcept;
@@ -204,32 +205,88 @@ class GraspStateMachine {
   float loadCounts() const noexcept {
     return commonCounts(loadedTaxel(report_.request), report_.request);
   }
+  // A reading as a multiple of the limit of its finger.
+  double timesLimitOf(const TaxelPeak& peak) const noexcept;
+  // The largest reading or force as a multiple of its limit.
+  double timesLimit() const noexcept;
   // The first finger above its limit in newtons, other than `except`.
   static std::optional<std::size_t> fingerOverForce(
       const GraspRequest& request,
       const std::optional<FingerForces>& forces,
       std::optional<std::size_t> except = {}) noexcept;
+  void measurePeakAfterStop();
+  // Of the rise of the reading, or of the force, after the stop more than half is left.
+  bool isStillRisen() const;
+
+  // Texts (grasp_texts.cpp).
+  std::string placeOf(const TaxelPeak& peak) const;
   std::string forceText(std::size_t finger) const;
-  // The last grasp left the hand at its limit and differs from this slip-aware one in its mode
-  // alone; since then no joint has moved, a taxel was pressed all the time, and creep explains the
-  // largest reading.
-  bool holdsAlready(const GraspRequest& request) const;
-  std::optional<FingerForces> forcesFor(const GraspRequest& request, bool mayBeOver) const;
-  bool updateLayout(const TactileFrame& frame);
-  void requireMeasurableLimit(const GraspRequest& request) const;
-  void onHoldingFrame(std::int64_t monoUs);
-  void onLooseningFrame(std::int64_t monoUs);
+  std::string timesText() const;
+  std::string riseText() const;
+  std::string overForceText() const;
+  std::string limitText() const;
+  std::string restText() const;
+  std::string heldText() const;
+  void note(const char* action, const std::string& text, std::optional<std::size_t> matrix = {}) {
+    notes_.push_back({action, text, matrix, limit_});
+  }
+
+  // Motions and closing (grasp_closing.cpp).
+  void send(MoveJoints motion, State state, std::int64_t monoUs);
+  // Longest time for which the motion sent last can continue without control [s]; 0 if none runs.
+  double remainingMotionS(std::int64_t monoUs) const;
+  bool isMoving() const noexcept;
+  void onMovingFrame(const FrameEvent& frame);
+  void onLimit(const FrameEvent& frame);
+  void onMovingTime(std::int64_t monoUs);
+  void onMotionEnd(const std::vector<int>& states, std::int64_t monoUs);
+  void onOvershootTime(std::int64_t monoUs) {
+    if (monoUs >= settledUs_) endOvershoot();
+  }
+  void endOvershoot() { end(report_.outcome, report_.text + riseText() + overForceText()); }
+  std::optional<double> presentRatio() const { return closeRatioOf(report_.request, anglesDeg_); }
+  void close(std::int64_t monoUs);
+  void watchTouch(std::int64_t monoUs);
+  void noteTouch(std::int64_t monoUs);
+  void noteSlope(std::int64_t monoUs);
+
+  // Stops, failures and ends (grasp_stopping.cpp).
+  void stopWith(GraspOutcome outcome, const std::string& text, std::int64_t monoUs);
+  void stopForSilence(std::int64_t silenceUs, std::int64_t monoUs);
+  void stopAgain(std::int64_t monoUs);
+  void pause(State next, const std::string& text, std::int64_t monoUs);
+  void onStoppingFrame(const FrameEvent& frame);
+  void onStoppingTime(std::int64_t monoUs);
+  void failWith(std::string_view why, std::string_view stoppedText, std::int64_t monoUs);
+  void end(GraspOutcome outcome, const std::string& text);
+
+  // Easing of a grasp that keeps its limit (grasp_easing.cpp).
+  void beginEasing(std::int64_t monoUs);
+  void onEasingFrame(const FrameEvent& frame);
+  void onEasingTime(std::int64_t monoUs);
+  void onStepEnd(const std::vector<int>& states, std::int64_t monoUs);
+  void moveBy(double openingDeg, std::int64_t monoUs);
+  void endEasing(std::int64_t monoUs);
+
+  // Holding of a slip-aware grasp (grasp_holding.cpp).
+  bool isHolding() const noexcept {
+    return state_ == State::kSettling || state_ == State::kHolding;
+  }
+  bool isSlipAware() const noexcept { return report_.request.mode == GraspMode::kSlip; }
+  void settle(std::int64_t monoUs);
+  void onSettlingFrame(const FrameEvent& frame);
+  void onHoldingFrame(const FrameEvent& frame);
   void onHoldingTime(std::int64_t monoUs);
+  std::int64_t holdingNextUs() const;
   void onHoldingSilence(std::int64_t silenceUs);
   void onFramesBack(std::int64_t silenceUs, std::int64_t monoUs);
   std::int64_t holdingDeadAtUs() const;
   void respondToSlip(const GripSlip& slip, std::int64_t monoUs);
+
+  // Loosening, and the measurement of friction (grasp_loosening.cpp).
   void loosen(const char* action, const std::string& text, std::int64_t monoUs);
+  void onLooseningFrame(const FrameEvent& frame);
   void reportFriction(const GripSlip& slip);
-  std::int64_t holdingNextUs() const;
-  int fingerOf(std::size_t matrix) const noexcept;
-  std::string placeOf(const TaxelPeak& peak) const;
-  void refuse(const std::string& why) const;
 
   HandDescription hand_;  // with the layout of the newest frame
   std::vector<MatrixSettings> settings_;
@@ -242,7 +299,7 @@ class GraspStateMachine {
   // Of the running grasp, when it has force limits.
   std::optional<FingerForces> forces_;
 
-  GraspPhase phase_ = GraspPhase::kIdle;
+  State state_ = State::kIdle;
   GraspReport report_;  // the running grasp
   std::optional<DeviceCommand> command_;
   // Motion that was sent and, as far as known, has neither ended nor been stopped.
@@ -292,8 +349,8 @@ class GraspStateMachine {
 
   GripMonitor grip_;
   std::vector<GraspStep> notes_;
-  Next next_ = Next::kEnd;
-  int limit_ = 0;  // present limit [counts]
+  State next_ = State::kIdle;  // after a confirmed stop; idle: the grasp ends
+  int limit_ = 0;              // present limit [counts]
   // True once the object was held; the following rests are shorter.
   bool held_ = false;
   std::int64_t heldFromUs_ = 0;  // when it was held first

@@ -138,11 +138,17 @@ struct SdhFirmware {
   bool atLeast(int a, int b, int c, int d) const noexcept;
 };
 
-// Axis states (command `state`): the axis moves in these two.
+// Axis states (command `state`): the axis moves in the first two, and something holds it in the
+// others.
 inline constexpr int kSdhAxisPositioning = 1;
 inline constexpr int kSdhAxisSpeedMode = 2;
+inline constexpr int kSdhAxisBlockedClockwise = 4;
+inline constexpr int kSdhAxisBlockedCounterClockwise = 5;
 constexpr bool sdhAxisMoves(int state) noexcept {
   return state == kSdhAxisPositioning || state == kSdhAxisSpeedMode;
+}
+constexpr bool sdhAxisBlocks(int state) noexcept {
+  return state == kSdhAxisBlockedClockwise || state == kSdhAxisBlockedCounterClockwise;
 }
 
 }  // namespace palpate
