@@ -32,19 +32,23 @@ struct PlannedValue {
 // A number of a frame that is so much further on than that before is another numbering.
 constexpr double kMostMissingFrames = 1000.0;
 
+// When the rows of a series were measured.
+struct PlannedTime {
+  std::optional<std::size_t> time;  // column; empty: rows at equal intervals
+  std::filesystem::path timeFile;   // where that column is; empty: in the file of the values
+  // Where the time is a number of the array columns.front(): which one of a row.
+  std::optional<std::size_t> timeWithin;
+  TimeUnit timeUnit = TimeUnit::kSeconds;
+  double timeFactor = 1.0;  // a time is a number x timeFactor of the unit
+};
+
 // One time series of the recording.
-struct PlannedSeries {
+struct PlannedSeries : PlannedTime {
   enum class Kind { kFrames, kAngles, kTemperatures };
   Kind kind = Kind::kFrames;
   std::filesystem::path file;
   std::vector<std::size_t> columns;  // of the file
   std::vector<PlannedValue> values;  // one per number of these columns in a row
-  std::optional<std::size_t> time;   // column; empty: rows at equal intervals
-  std::filesystem::path timeFile;    // where that column is; empty: in `file`
-  // Where the time is a number of the array columns.front(): which one of a row.
-  std::optional<std::size_t> timeWithin;
-  TimeUnit timeUnit = TimeUnit::kSeconds;
-  double timeFactor = 1.0;  // a time is a number x timeFactor of the unit
   // Of frames: which one of `values` is their number, which has no target.
   std::optional<std::size_t> number;
   // Which of `values`, which have no target, say what a row is from: the rows of another sensor or

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -11,6 +12,7 @@
 
 #include "recording/import/cell_text.h"
 #include "recording/import/column_unit.h"
+#include "recording/import/import_texts.h"
 
 namespace palpate {
 namespace {
@@ -78,7 +80,7 @@ std::vector<std::size_t> varyingPositions(const ColumnGroup& group) {
 }
 
 // Whether every taxel has exactly one number, and no number is outside.
-bool isComplete(const std::vector<std::size_t>& places,
+bool isComplete(const Places& places,
                 const SensorLayout& layout,
                 std::optional<std::size_t> matrix) {
   std::vector<std::uint8_t> taken(layout.numCells(), 0);
@@ -95,16 +97,6 @@ bool isComplete(const std::vector<std::size_t>& places,
   return true;
 }
 
-// The places of the taxels of a matrix among its cells, or of all of its cells, for `count`
-// numbers.
-std::optional<std::vector<std::size_t>> cellsFor(std::size_t count, const MatrixLayout& matrix) {
-  std::vector<std::size_t> cells;
-  if (count != matrix.numCells() && count != matrix.numTaxels()) return std::nullopt;
-  for (std::size_t k = 0; k < matrix.numCells(); ++k)
-    if (count == matrix.numCells() || matrix.staticMask[k] != 0) cells.push_back(k);
-  return cells;
-}
-
 std::int64_t smallestAt(const ColumnGroup& group, std::size_t position) {
   std::int64_t smallest = INT64_MAX;
   for (const TableElement& each : group.elements)
@@ -117,63 +109,78 @@ std::int64_t baseAt(const ColumnGroup& group, std::size_t position) {
   return smallestAt(group, position) == 1 ? 1 : 0;
 }
 
-// One matrix by row and column, or by number.
-std::optional<std::vector<std::size_t>> placesInMatrix(const ColumnGroup& group,
-                                                       const std::vector<std::size_t>& positions,
-                                                       const SensorLayout& layout,
-                                                       std::size_t matrix,
-                                                       IndexOrder order) {
-  const MatrixLayout& target = layout.matrix(matrix);
-  std::vector<std::size_t> places;
-  if (positions.size() == 2) {
-    const std::size_t row = positions[order == IndexOrder::kRowColumn ? 0 : 1];
-    const std::size_t column = positions[order == IndexOrder::kRowColumn ? 1 : 0];
-    const std::int64_t firstRow = baseAt(group, row);
-    const std::int64_t firstColumn = baseAt(group, column);
-    for (const TableElement& each : group.elements) {
-      const std::int64_t y = each.indices[row] - firstRow;
-      const std::int64_t x = each.indices[column] - firstColumn;
-      if (y < 0 || y >= target.rows || x < 0 || x >= target.columns) return std::nullopt;
-      places.push_back(layout.offset(matrix) + static_cast<std::size_t>(y * target.columns + x));
-    }
-  } else if (positions.size() <= 1) {
-    const auto cells = cellsFor(group.elements.size(), target);
-    if (!cells) return std::nullopt;
-    const std::int64_t base = positions.empty() ? 0 : smallestAt(group, positions[0]);
-    for (const TableElement& each : group.elements) {
-      const std::int64_t i = positions.empty() ? 0 : each.indices[positions[0]] - base;
-      if (i < 0 || i >= static_cast<std::int64_t>(cells->size())) return std::nullopt;
-      places.push_back(layout.offset(matrix) + (*cells)[static_cast<std::size_t>(i)]);
-    }
-  } else {
-    return std::nullopt;
+// By number: of one matrix, or of all.
+std::optional<Places> placesByNumber(const ColumnGroup& group,
+                                     const Places& positions,
+                                     const SensorLayout& layout,
+                                     std::optional<std::size_t> matrix) {
+  const auto all = placesInOrder(group.elements.size(), layout, matrix, false);
+  if (!all) return std::nullopt;
+  const std::int64_t base = positions.empty() ? 0 : smallestAt(group, positions[0]);
+  Places places;
+  for (const TableElement& each : group.elements) {
+    const std::int64_t i = positions.empty() ? 0 : each.indices[positions[0]] - base;
+    if (i < 0 || i >= static_cast<std::int64_t>(all->size())) return std::nullopt;
+    places.push_back((*all)[static_cast<std::size_t>(i)]);
   }
   if (!isComplete(places, layout, matrix)) return std::nullopt;
   return places;
 }
 
+// By row and column of a table: one matrix, or all, one below the other or side by side.
+std::optional<Places> placesInTable(const ColumnGroup& group,
+                                    const Places& positions,
+                                    const SensorLayout& layout,
+                                    std::optional<std::size_t> matrix,
+                                    IndexOrder order,
+                                    bool isSideBySide) {
+  const std::size_t row = positions[order == IndexOrder::kRowColumn ? 0 : 1];
+  const std::size_t column = positions[order == IndexOrder::kRowColumn ? 1 : 0];
+  const std::int64_t firstRow = baseAt(group, row);
+  const std::int64_t firstColumn = baseAt(group, column);
+  const std::size_t end = matrix ? *matrix + 1 : layout.numMatrices();
+  Places places;
+  for (const TableElement& each : group.elements) {
+    const std::int64_t y = each.indices[row] - firstRow;
+    const std::int64_t x = each.indices[column] - firstColumn;
+    std::int64_t along = isSideBySide ? x : y;
+    std::size_t m = matrix.value_or(0);
+    const auto sizeOf = [&](std::size_t which) {
+      return isSideBySide ? layout.matrix(which).columns : layout.matrix(which).rows;
+    };
+    while (m < end && along >= sizeOf(m)) along -= sizeOf(m++);
+    if (m == end || x < 0 || y < 0) return std::nullopt;
+    const MatrixLayout& target = layout.matrix(m);
+    const std::int64_t across = isSideBySide ? y : x;
+    if (across >= (isSideBySide ? target.rows : target.columns)) return std::nullopt;
+    places.push_back(layout.offset(m) +
+                     static_cast<std::size_t>(isSideBySide ? across * target.columns + along
+                                                           : along * target.columns + across));
+  }
+  if (!isComplete(places, layout, matrix)) return std::nullopt;
+  return places;
+}
+
+// One matrix by row and column, or by number.
+std::optional<Places> placesInMatrix(const ColumnGroup& group,
+                                     const Places& positions,
+                                     const SensorLayout& layout,
+                                     std::size_t matrix,
+                                     IndexOrder order) {
+  if (positions.size() < 2) return placesByNumber(group, positions, layout, matrix);
+  if (positions.size() > 2) return std::nullopt;
+  return placesInTable(group, positions, layout, matrix, order, false);
+}
+
 // All matrices: by matrix, row and column; by matrix and number; by number.
-std::optional<std::vector<std::size_t>> placesInLayout(const ColumnGroup& group,
-                                                       const std::vector<std::size_t>& positions,
-                                                       const SensorLayout& layout,
-                                                       IndexOrder order) {
-  if (positions.size() == 1)
-    return [&]() -> std::optional<std::vector<std::size_t>> {
-      const auto all = placesInOrder(group.elements.size(), layout, std::nullopt, false);
-      if (!all) return std::nullopt;
-      const std::int64_t base = smallestAt(group, positions[0]);
-      std::vector<std::size_t> places;
-      for (const TableElement& each : group.elements) {
-        const std::int64_t i = each.indices[positions[0]] - base;
-        if (i < 0 || i >= static_cast<std::int64_t>(all->size())) return std::nullopt;
-        places.push_back((*all)[static_cast<std::size_t>(i)]);
-      }
-      if (!isComplete(places, layout, std::nullopt)) return std::nullopt;
-      return places;
-    }();
+std::optional<Places> placesInLayout(const ColumnGroup& group,
+                                     const Places& positions,
+                                     const SensorLayout& layout,
+                                     IndexOrder order) {
+  if (positions.size() == 1) return placesByNumber(group, positions, layout, std::nullopt);
   if (positions.size() != 2 && positions.size() != 3) return std::nullopt;
   const std::int64_t base = baseAt(group, positions[0]);
-  std::vector<std::size_t> places(group.elements.size());
+  Places places(group.elements.size());
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     ColumnGroup part;
     std::vector<std::size_t> origin;
@@ -287,6 +294,11 @@ std::size_t requireColumn(const std::vector<TableColumn>& columns, std::string_v
   throw Error("there is no column " + inQuotes(name) + "; there are " + namesText(columns));
 }
 
+[[noreturn]] void throwNoMatch(const std::vector<TableColumn>& columns, std::string_view pattern) {
+  throw Error("no column of numbers matches " + inQuotes(pattern) + "; there are " +
+              namesText(columns));
+}
+
 // The columns of one part of a choice.
 std::vector<std::size_t> columnsOf(const std::vector<TableColumn>& columns, std::string_view part) {
   std::vector<std::size_t> chosen;
@@ -297,9 +309,7 @@ std::vector<std::size_t> columnsOf(const std::vector<TableColumn>& columns, std:
     for (std::size_t c = 0; c < columns.size(); ++c)
       if (columns[c].isNumeric && matchesPattern(columns[c].name, part, unused))
         chosen.push_back(c);
-    if (chosen.empty())
-      throw Error("no column of numbers matches " + inQuotes(part) + "; there are " +
-                  namesText(columns));
+    if (chosen.empty()) throwNoMatch(columns, part);
     return chosen;
   }
   if (dots == std::string_view::npos) return {requireColumn(columns, part)};
@@ -361,15 +371,15 @@ std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
   return groups;
 }
 
-std::optional<std::vector<std::size_t>> placesInOrder(std::size_t count,
-                                                      const SensorLayout& layout,
-                                                      std::optional<std::size_t> matrix,
-                                                      bool columnByColumn) {
+std::optional<Places> placesInOrder(std::size_t count,
+                                    const SensorLayout& layout,
+                                    std::optional<std::size_t> matrix,
+                                    bool columnByColumn) {
   const bool all = matrix ? count == layout.matrix(*matrix).numCells() : count == layout.numCells();
   const bool taxels =
       matrix ? count == layout.matrix(*matrix).numTaxels() : count == layout.numTaxels();
   if (!all && !taxels) return std::nullopt;
-  std::vector<std::size_t> places;
+  Places places;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     if (matrix && m != *matrix) continue;
     const MatrixLayout& each = layout.matrix(m);
@@ -383,10 +393,10 @@ std::optional<std::vector<std::size_t>> placesInOrder(std::size_t count,
   return places;
 }
 
-std::optional<std::vector<std::size_t>> placesOf(const ColumnGroup& group,
-                                                 const SensorLayout& layout,
-                                                 std::optional<std::size_t> matrix,
-                                                 IndexOrder order) {
+std::optional<Places> placesOf(const ColumnGroup& group,
+                               const SensorLayout& layout,
+                               std::optional<std::size_t> matrix,
+                               IndexOrder order) {
   if (group.elements.empty() || group.elements.size() > layout.numCells()) return std::nullopt;
   if (!matrix && layout.numMatrices() == 1) matrix = 0;
   std::vector<std::size_t> all(group.elements.front().indices.size());
@@ -412,36 +422,13 @@ std::optional<IndexOrder> orderByLetters(const ColumnGroup& group) {
 
 std::size_t numVaryingIndices(const ColumnGroup& group) { return varyingPositions(group).size(); }
 
-std::optional<std::vector<std::size_t>> placesTiled(const ColumnGroup& group,
-                                                    const SensorLayout& layout,
-                                                    IndexOrder order,
-                                                    bool isSideBySide) {
+std::optional<Places> placesTiled(const ColumnGroup& group,
+                                  const SensorLayout& layout,
+                                  IndexOrder order,
+                                  bool isSideBySide) {
   const std::vector<std::size_t> positions = varyingPositions(group);
   if (positions.size() != 2 || group.elements.size() != layout.numCells()) return std::nullopt;
-  const std::size_t row = positions[order == IndexOrder::kRowColumn ? 0 : 1];
-  const std::size_t column = positions[order == IndexOrder::kRowColumn ? 1 : 0];
-  const std::int64_t firstRow = baseAt(group, row);
-  const std::int64_t firstColumn = baseAt(group, column);
-  std::vector<std::size_t> places;
-  for (const TableElement& each : group.elements) {
-    const std::int64_t y = each.indices[row] - firstRow;
-    const std::int64_t x = each.indices[column] - firstColumn;
-    std::int64_t along = isSideBySide ? x : y;
-    std::size_t m = 0;
-    const auto sizeOf = [&](std::size_t matrix) {
-      return isSideBySide ? layout.matrix(matrix).columns : layout.matrix(matrix).rows;
-    };
-    while (m < layout.numMatrices() && along >= sizeOf(m)) along -= sizeOf(m++);
-    if (m == layout.numMatrices() || x < 0 || y < 0) return std::nullopt;
-    const MatrixLayout& target = layout.matrix(m);
-    const std::int64_t across = isSideBySide ? y : x;
-    if (across >= (isSideBySide ? target.rows : target.columns)) return std::nullopt;
-    places.push_back(layout.offset(m) +
-                     static_cast<std::size_t>(isSideBySide ? across * target.columns + along
-                                                           : along * target.columns + across));
-  }
-  if (!isComplete(places, layout, std::nullopt)) return std::nullopt;
-  return places;
+  return placesInTable(group, positions, layout, std::nullopt, order, isSideBySide);
 }
 
 ColumnGroup lastIndexFirst(ColumnGroup group) {
@@ -500,9 +487,7 @@ ChosenElements chooseElements(const std::vector<TableColumn>& columns, const std
       if (!columns[c].isNumeric || !matchesPattern(columns[c].name, whole, numbers)) continue;
       appendElements(columns, c, numbers, chosen.elements);
     }
-    if (chosen.elements.empty())
-      throw Error("no column of numbers matches " + inQuotes(whole) + "; there are " +
-                  namesText(columns));
+    if (chosen.elements.empty()) throwNoMatch(columns, whole);
     return chosen;
   }
   std::size_t at = 0;
@@ -517,27 +502,24 @@ ChosenElements chooseElements(const std::vector<TableColumn>& columns, const std
   return chosen;
 }
 
-std::vector<std::size_t> placesByLetters(const ChosenElements& chosen,
-                                         const SensorLayout& layout,
-                                         std::optional<std::size_t> matrix) {
+Places placesByLetters(const ChosenElements& chosen,
+                       const SensorLayout& layout,
+                       std::optional<std::size_t> matrix) {
   // Indices behind the letters are those of arrays: matched columns are plain numbers, or arrays
   // whose rows hold what no letter stands for.
   const std::string& letters = chosen.letters;
   ColumnGroup group;
   group.elements = chosen.elements;
-  const auto baseOf = [&](char letter) -> std::int64_t {
-    const auto p = letters.find(letter);
-    return p == std::string::npos ? 0 : baseAt(group, p);
-  };
-  const std::int64_t bases[] = {baseOf('m'), baseOf('y'), baseOf('x'), baseOf('i')};
-  std::vector<std::size_t> places;
+  std::map<char, std::int64_t> bases;
+  for (std::size_t i = 0; i < letters.size(); ++i) bases[letters[i]] = baseAt(group, i);
+  Places places;
   for (const TableElement& each : chosen.elements) {
-    const auto at = [&](char letter, std::size_t base) -> std::optional<std::int64_t> {
+    const auto at = [&](char letter) -> std::optional<std::int64_t> {
       const auto p = letters.find(letter);
       if (p == std::string::npos) return std::nullopt;
-      return each.indices[p] - bases[base];
+      return each.indices[p] - bases[letter];
     };
-    const std::int64_t m = at('m', 0).value_or(static_cast<std::int64_t>(matrix.value_or(0)));
+    const std::int64_t m = at('m').value_or(static_cast<std::int64_t>(matrix.value_or(0)));
     const auto refuse = [&](const std::string& what) {
       throw Error("a column of the pattern is outside of the hand: " + what + "; expected " +
                   std::to_string(layout.numMatrices()) + " matrices");
@@ -547,12 +529,12 @@ std::vector<std::size_t> placesByLetters(const ChosenElements& chosen,
     const auto index = static_cast<std::size_t>(m);
     const MatrixLayout& target = layout.matrix(index);
     std::int64_t cell = 0;
-    if (const auto i = at('i', 3)) {
+    if (const auto i = at('i')) {
       cell = *i;
     } else if (letters.find('y') != std::string::npos || letters.find('x') != std::string::npos) {
-      const std::int64_t y = at('y', 1).value_or(0);
+      const std::int64_t y = at('y').value_or(0);
       // A pattern of rows leaves the columns of an array.
-      const std::int64_t x = at('x', 2).value_or(static_cast<std::int64_t>(each.within));
+      const std::int64_t x = at('x').value_or(static_cast<std::int64_t>(each.within));
       if (y < 0 || y >= target.rows || x < 0 || x >= target.columns)
         refuse("row " + std::to_string(y) + ", column " + std::to_string(x) + " of a matrix of " +
                std::to_string(target.rows) + " x " + std::to_string(target.columns));
@@ -565,22 +547,9 @@ std::vector<std::size_t> placesByLetters(const ChosenElements& chosen,
              " x " + std::to_string(target.columns));
     places.push_back(layout.offset(index) + static_cast<std::size_t>(cell));
   }
-  std::vector<std::size_t> sorted = places;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+  if (std::set(places.begin(), places.end()).size() != places.size())
     throw Error("two columns of the pattern are the same taxel");
   return places;
-}
-
-std::string namesText(const std::vector<TableColumn>& columns) {
-  constexpr std::size_t kShown = 12;
-  std::string text;
-  for (std::size_t c = 0; c < std::min(kShown, columns.size()); ++c) {
-    text += (c > 0 ? ", " : "") + shortened(columns[c].name);
-    for (const std::size_t size : columns[c].shape) text += "[" + std::to_string(size) + "]";
-  }
-  if (columns.size() > kShown) text += " and " + std::to_string(columns.size() - kShown) + " more";
-  return text;
 }
 
 }  // namespace palpate

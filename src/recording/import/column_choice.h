@@ -19,6 +19,9 @@ struct TableElement {
   std::vector<std::int64_t> indices;  // in the name, then in the array
 };
 
+// Places of the layout (see SensorLayout), one per element.
+using Places = std::vector<std::size_t>;
+
 // Columns of the same name but for digits, and of the same number of dimensions.
 struct ColumnGroup {
   std::string stem;  // "m#[#][#]"
@@ -41,10 +44,10 @@ std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
 
 // For each element the place in the layout, when the indices of the group are those of the whole
 // layout, or of one matrix of it; else nothing.
-std::optional<std::vector<std::size_t>> placesOf(const ColumnGroup& group,
-                                                 const SensorLayout& layout,
-                                                 std::optional<std::size_t> matrix,
-                                                 IndexOrder order);
+std::optional<Places> placesOf(const ColumnGroup& group,
+                               const SensorLayout& layout,
+                               std::optional<std::size_t> matrix,
+                               IndexOrder order);
 
 // What the letters of the last two indices that differ say. Nothing without them.
 std::optional<IndexOrder> orderByLetters(const ColumnGroup& group);
@@ -53,10 +56,10 @@ std::optional<IndexOrder> orderByLetters(const ColumnGroup& group);
 std::size_t numVaryingIndices(const ColumnGroup& group);
 // For each element the place where all matrices form one table of rows and columns: one below the
 // other, or side by side; nothing when the group is none of all places.
-std::optional<std::vector<std::size_t>> placesTiled(const ColumnGroup& group,
-                                                    const SensorLayout& layout,
-                                                    IndexOrder order,
-                                                    bool isSideBySide);
+std::optional<Places> placesTiled(const ColumnGroup& group,
+                                  const SensorLayout& layout,
+                                  IndexOrder order,
+                                  bool isSideBySide);
 // The group with its last index before the others: where that one is the matrix.
 ColumnGroup lastIndexFirst(ColumnGroup group);
 // Columns of one name but for a letter and a number at its end, "A1" to "B3", as a group with the
@@ -66,10 +69,10 @@ std::optional<ColumnGroup> letterGroup(const std::vector<TableColumn>& columns,
 
 // The places of a matrix (or of all) in the order of `count` numbers without indices: all places or
 // those that have a taxel; nothing when the number fits neither.
-std::optional<std::vector<std::size_t>> placesInOrder(std::size_t count,
-                                                      const SensorLayout& layout,
-                                                      std::optional<std::size_t> matrix,
-                                                      bool columnByColumn);
+std::optional<Places> placesInOrder(std::size_t count,
+                                    const SensorLayout& layout,
+                                    std::optional<std::size_t> matrix,
+                                    bool columnByColumn);
 
 // A column, or a number of an array: "pad", "#2", "table[0]".
 struct ChosenNumber {
@@ -89,11 +92,8 @@ struct ChosenElements {
 ChosenElements chooseElements(const std::vector<TableColumn>& columns, const std::string& text);
 
 // The place of each element chosen by a pattern with letters. Throws Error.
-std::vector<std::size_t> placesByLetters(const ChosenElements& chosen,
-                                         const SensorLayout& layout,
-                                         std::optional<std::size_t> matrix);
-
-// The names of the columns for a message: "t, m0, m1 and 12 more".
-std::string namesText(const std::vector<TableColumn>& columns);
+Places placesByLetters(const ChosenElements& chosen,
+                       const SensorLayout& layout,
+                       std::optional<std::size_t> matrix);
 
 }  // namespace palpate

@@ -109,6 +109,11 @@ inline std::optional<std::size_t> namedIn(std::string_view text, const NameKeys&
 
 inline bool isScalar(const TableColumn& column) { return column.shape.empty(); }
 
+// Whether its numbers may be values.
+inline bool holdsNumbers(const TableColumn& column) {
+  return column.isNumeric && column.type != "bool";
+}
+
 inline bool sameRows(const TableColumn& first, const TableColumn& second) {
   return !first.numRows || !second.numRows || first.numRows == second.numRows;
 }

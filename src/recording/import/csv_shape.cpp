@@ -348,9 +348,10 @@ std::optional<CsvShape> labelledShape(const SampleLines& sample, char decimal) {
   if (such == 0 || 2 * such <= lines.size()) return std::nullopt;
   CsvShape shape;
   shape.labelled = true;
+  shape.stamped = !sample.stamps.empty();
   shape.delimiter = ' ';
   shape.decimal = decimal;
-  if (!sample.stamps.empty()) shape.columns.push_back(stampColumn(sample));
+  if (shape.stamped) shape.columns.push_back(stampColumn(sample));
   for (const std::string_view name : longest) {
     TableColumn column{.name = std::string(name), .unit = unitInName(name)};
     column.type = "number";
@@ -363,6 +364,7 @@ std::optional<CsvShape> labelledShape(const SampleLines& sample, char decimal) {
 std::optional<CsvShape> padShape(const SampleLines& sample, const TableOptions& options) {
   constexpr std::size_t kMostPads = 256;
   CsvShape shape;
+  shape.stamped = !sample.stamps.empty();
   shape.decimal = options.decimal;
   std::map<std::string_view, std::map<std::size_t, std::size_t>> counts;  // of numbers, by name
   std::size_t such = 0;
@@ -388,7 +390,7 @@ std::optional<CsvShape> padShape(const SampleLines& sample, const TableOptions& 
   }
   if (such == 0 || 2 * such <= sample.texts.size() || shape.pads.size() > kMostPads)
     return std::nullopt;
-  if (!sample.stamps.empty()) shape.columns.push_back(stampColumn(sample));
+  if (shape.stamped) shape.columns.push_back(stampColumn(sample));
   for (PadColumns& pad : shape.pads) {
     const auto& byCount = counts[pad.name];
     const auto most =
@@ -411,6 +413,7 @@ std::optional<CsvShape> nestedForm(const SampleLines& sample, const TableOptions
   const auto areMost = [&](std::size_t such) { return 2 * such > lines.size(); };
   CsvShape shape;
   shape.nested = true;
+  shape.stamped = !sample.stamps.empty();
   shape.decimal = options.decimal;
   if (areMost(static_cast<std::size_t>(std::count_if(
           lines.begin(), lines.end(), [](std::string_view line) { return isNestedText(line); }))))
@@ -478,17 +481,10 @@ std::optional<CsvShape> nestedShape(const SampleLines& sample, const TableOption
         return one.second < other.second;
       });
   const std::vector<std::string>& names = namesBySize[most->first];
-  if (!sample.stamps.empty()) shape->columns.push_back(stampColumn(sample));
-  const std::size_t numBefore = shape->columns.size();
   for (const std::string& name : names) shape->columns.push_back({.name = name});
   table.numCells = names.size();
-  CsvShape described;
-  described.columns.assign(shape->columns.begin() + static_cast<std::ptrdiff_t>(numBefore),
-                           shape->columns.end());
-  describeCells(described, table, fullRows(table, options.decimal), 0);
-  std::move(described.columns.begin(),
-            described.columns.end(),
-            shape->columns.begin() + static_cast<std::ptrdiff_t>(numBefore));
+  describeCells(*shape, table, fullRows(table, options.decimal), 0);
+  if (shape->stamped) shape->columns.insert(shape->columns.begin(), stampColumn(sample));
   return shape;
 }
 
@@ -498,14 +494,11 @@ bool splitNested(std::string_view line, const CsvShape& shape, NestedLine& value
   values.names.clear();
   values.values.clear();
   values.fault.clear();
-  if (shape.cellNames.empty()) {
-    if (!flattenNested(trimmed(line), trimmed(line).starts_with('{') ? "" : "list", values))
-      return false;
-    useGivenNames(values);
-    return values.fault.empty();
-  }
+  if (shape.cellNames.empty() &&
+      !flattenNested(trimmed(line), trimmed(line).starts_with('{') ? "" : "list", values))
+    return false;
   Cells cells;
-  splitNestedCells(line, shape.delimiter, cells);
+  if (!shape.cellNames.empty()) splitNestedCells(line, shape.delimiter, cells);
   if (cells.size() != shape.cellNames.size()) return false;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const std::string_view cell = trimmedCell(cells[c]);
@@ -628,18 +621,9 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
                       "is JSON over several lines; save an object in each line, one for each "
                       "frame: {\"time\": 0.05, \"pad\": [1, 2, 3]}");
   const SampleLines sample = withoutStamps(std::move(kept));
-  const bool isStamped = !sample.stamps.empty();
   if (options.delimiter == 0)
-    if (auto labelled = labelledShape(sample, options.decimal)) {
-      labelled->stamped = isStamped;
-      return std::move(*labelled);
-    }
-
-  if (auto pads = padShape(sample, options)) {
-    pads->stamped = isStamped;
-    return std::move(*pads);
-  }
-
+    if (auto labelled = labelledShape(sample, options.decimal)) return std::move(*labelled);
+  if (auto pads = padShape(sample, options)) return std::move(*pads);
   std::optional<CsvShape> nested;
   try {
     nested = nestedShape(sample, options);
@@ -647,7 +631,6 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
     throw FormatError(path, error.what());
   }
   if (nested) {
-    nested->stamped = isStamped;
     for (const TableColumn& column : nested->columns)
       if (column.example == "...")
         throw FormatError(path,
@@ -665,7 +648,7 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
   CsvShape shape;
   shape.delimiter = table.delimiter;
   shape.decimal = options.decimal;
-  shape.stamped = isStamped;
+  shape.stamped = !sample.stamps.empty();
   shape.columns.resize(table.numCells);
   std::size_t firstRow = 0;  // in the sample
   const bool named =
@@ -700,7 +683,7 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
       shape.nameLine = *lastComment + 1;
     }
   }
-  if (isStamped) shape.columns.front() = stampColumn(sample);
+  if (shape.stamped) shape.columns.front() = stampColumn(sample);
   requireDecimalPoints(path, table, rows, numbers);
   requireQuotedCommas(path, table, rows, options);
   dropEmptyEnd(shape, table, firstRow);

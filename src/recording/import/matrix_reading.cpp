@@ -7,15 +7,28 @@
 #include "palpate/core/escaped_line.h"
 
 #include "recording/import/column_unit.h"
+#include "recording/import/column_words.h"
 
 namespace palpate {
+namespace {
 
-std::optional<MatrixReading> readWhole(const ColumnGroup& group,
-                                       const SensorLayout& layout,
-                                       const std::string& name,
-                                       const OrderOf& orderOf,
-                                       bool isReversed) {
-  const IndexOrder order = orderOf(group);
+// How a group is read, unless only the other order fits: by letters, or as its writer keeps arrays.
+IndexOrder orderOf(const Planning& p, const ColumnGroup& group, bool isOpposite) {
+  const bool isReversed = group.columns.size() == 1 && p.source.isColumnMajor() != p.isReversed;
+  const IndexOrder natural =
+      orderByLetters(group).value_or(isReversed ? IndexOrder::kColumnRow : IndexOrder::kRowColumn);
+  return isOpposite ? opposite(natural) : natural;
+}
+
+// One group as the whole hand: by matrix, row and column, or by number; or the matrices are the
+// last index; or they form one table, one below the other or side by side.
+std::optional<MatrixReading> readWhole(const Planning& p,
+                                       const ColumnGroup& group,
+                                       bool isOpposite) {
+  const SensorLayout& layout = p.layout;
+  const std::string name = shortened(p.columns[group.columns.front()].name);
+  const bool isReversed = p.source.isColumnMajor() != p.isReversed;
+  const IndexOrder order = orderOf(p, group, isOpposite);
   const std::size_t varying = numVaryingIndices(group);
   MatrixReading reading;
   auto first = placesOf(group, layout, std::nullopt, order);
@@ -41,7 +54,7 @@ std::optional<MatrixReading> readWhole(const ColumnGroup& group,
   if (layout.numMatrices() > 1 && varying == 3) {
     const ColumnGroup last = lastIndexFirst(group);
     const bool isLast = orderByLetters(last).has_value() && !orderByLetters(group);
-    const auto places = placesOf(last, layout, std::nullopt, orderOf(last));
+    const auto places = placesOf(last, layout, std::nullopt, orderOf(p, last, isOpposite));
     const std::string axis = isReversed ? "first" : "last";
     if (places && (isLast || (!first && isArray))) {
       first = places;
@@ -56,6 +69,57 @@ std::optional<MatrixReading> readWhole(const ColumnGroup& group,
   if (!first) return std::nullopt;
   reading.places = std::move(*first);
   return reading;
+}
+
+// Why the order of the taxels is another one than a reader would expect, or a guess.
+std::optional<Reason> orderReason(const Planning& p,
+                                  const ColumnGroup& group,
+                                  std::optional<std::size_t> matrix,
+                                  IndexOrder order) {
+  const bool isArray = group.columns.size() == 1;
+  const auto others = placesOf(group, p.layout, matrix, opposite(order));
+  const auto letters = orderByLetters(group);
+  const bool isColumnRow = order == IndexOrder::kColumnRow;
+  std::optional<Reason> why;
+  if (others == placesOf(group, p.layout, matrix, order)) {
+    if (isArray && group.elements.size() > 1 && p.source.isColumnMajor()) why = reason::kRowByRow;
+  } else if (letters) {
+    if (letters != order)
+      why = reason::kExchanged;
+    else if (isArray && isColumnRow)
+      why = reason::kAxesTransposed;
+  } else if (isArray) {
+    if (isColumnRow != p.isReversed) why = reason::kTransposed;
+  } else if (isColumnRow) {
+    why = reason::kNamesTransposed;
+  } else if (others) {
+    why = reason::kOrderOfNames;
+  }
+  return why;
+}
+
+}  // namespace
+
+std::optional<MatrixReading> readGroup(const Planning& p,
+                                       const ColumnGroup& group,
+                                       std::optional<std::size_t> matrix,
+                                       bool isOpposite) {
+  if (!matrix) return readWhole(p, group, isOpposite);
+  auto places = placesOf(group, p.layout, matrix, orderOf(p, group, isOpposite));
+  if (!places) return std::nullopt;
+  return MatrixReading{std::move(*places)};
+}
+
+void noteReading(Planning& p,
+                 const std::string& what,
+                 const ColumnGroup& group,
+                 std::optional<std::size_t> matrix,
+                 const MatrixReading& reading,
+                 bool isOpposite) {
+  if (!reading.note.empty())
+    p.note(reading.note + (isOpposite ? ", with rows and columns exchanged" : ""));
+  else if (const auto why = orderReason(p, group, matrix, orderOf(p, group, isOpposite)))
+    p.note(*why, {what, p.columns[group.columns.front()].name});
 }
 
 std::optional<MatrixReading> readLetters(const ColumnGroup& lettered, const SensorLayout& layout) {
@@ -84,10 +148,9 @@ NameKeys matrixKeys(const HandDescription& hand) {
   return keys;
 }
 
-std::vector<NamedPart> namedParts(const std::vector<TableColumn>& columns,
-                                  const std::vector<std::size_t>& chosen,
-                                  const HandDescription& hand,
-                                  const OrderOf& orderOf) {
+std::vector<NamedPart> namedParts(const Planning& p, const std::vector<std::size_t>& chosen) {
+  const std::vector<TableColumn>& columns = p.columns;
+  const HandDescription& hand = p.hand;
   const SensorLayout& layout = *hand.layout;
   const auto keys = matrixKeys(hand);
   std::vector<std::vector<std::size_t>> named(layout.numMatrices());
@@ -105,8 +168,7 @@ std::vector<NamedPart> namedParts(const std::vector<TableColumn>& columns,
             std::any_of(fitting.begin(), fitting.end(), [&](const NamedPart& part) {
               return part.group.columns.front() == group.columns.front();
             });
-        if (!isTaken &&
-            placesOf(group, layout, m, isOpposite ? opposite(orderOf(group)) : orderOf(group)))
+        if (!isTaken && placesOf(group, layout, m, orderOf(p, group, isOpposite)))
           fitting.push_back({std::move(group), isOpposite, {}});
       }
     // Of several the one that is called as the matrix, and nothing else.
@@ -130,9 +192,10 @@ std::vector<NamedPart> namedParts(const std::vector<TableColumn>& columns,
     parts.push_back(std::move(fitting.front()));
     if (fitting.size() == 1) continue;
     if (layout.numMatrices() == 1) return {};  // takeWhole() says so
-    throw Error("both " + inQuotes(columns[parts.back().group.columns.front()].name) + " and " +
-                inQuotes(columns[fitting[1].group.columns.front()].name) + " could be " +
-                hand.matrixName(m) + "; choose the columns of each matrix (--matrix)");
+    p.refuse(reason::kBothFit,
+             {columns[parts.back().group.columns.front()].name,
+              columns[fitting[1].group.columns.front()].name,
+              hand.matrixName(m)});
   }
   return parts;
 }

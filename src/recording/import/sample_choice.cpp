@@ -1,5 +1,3 @@
-#include "recording/import/sample_choice.h"
-
 #include <algorithm>
 #include <map>
 #include <string_view>
@@ -10,7 +8,7 @@
 #include "recording/import/cell_text.h"
 #include "recording/import/column_unit.h"
 #include "recording/import/column_words.h"
-#include "recording/import/time_choice.h"
+#include "recording/import/planning.h"
 
 namespace palpate {
 namespace {
@@ -28,11 +26,10 @@ bool isOtherQuantity(const TableColumn& column, PlannedSeries::Kind kind) {
 
 // A column for each name of the hand's axes, or of its temperature sensors: called so, or with
 // these words and one that says what it is ("position/thumb base", "board temperature").
-std::vector<TableElement> samplesNamedAsIn(const std::vector<TableColumn>& columns,
+std::vector<TableElement> samplesNamedAsIn(Planning& p,
                                            PlannedSeries::Kind kind,
-                                           const std::vector<std::string>& names,
-                                           const std::string& what,
-                                           std::vector<std::string>& notes) {
+                                           const std::vector<std::string>& names) {
+  const std::vector<TableColumn>& columns = p.columns;
   NameKeys keys;
   for (std::size_t n = 0; n < names.size(); ++n) addName(keys, names[n], n);
   const auto& words = kind == PlannedSeries::Kind::kAngles ? kAngleWords : kTemperatureWords;
@@ -44,7 +41,7 @@ std::vector<TableElement> samplesNamedAsIn(const std::vector<TableColumn>& colum
   std::vector<std::size_t> scalars;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const TableColumn& column = columns[c];
-    if (!column.isNumeric || !isScalar(column) || column.type == "bool") continue;
+    if (!holdsNumbers(column) || !isScalar(column)) continue;
     scalars.push_back(c);
     const std::string_view name = nameWithoutUnit(column.name);
     const auto literal = std::find_if(names.begin(), names.end(), [&](const std::string& each) {
@@ -84,27 +81,26 @@ std::vector<TableElement> samplesNamedAsIn(const std::vector<TableColumn>& colum
       return {};
   }
   if (elements.size() == names.size() || elements.empty()) return elements;
-  notes.push_back(what + ": " + one + " is there, but " +
-                  std::to_string(names.size() - elements.size()) + " of the hand's " +
-                  std::to_string(names.size()) + " are not; not imported");
+  p.plan.notes.push_back(samplesText(kind) + ": " + one + " is there, but " +
+                         std::to_string(names.size() - elements.size()) + " of the hand's " +
+                         std::to_string(names.size()) + " are not; not imported");
   return {};
 }
 
-}  // namespace
-
-// The elements of the angles or temperatures, by the names of the columns.
-std::vector<TableElement> findSamples(const std::vector<TableColumn>& columns,
+// The elements of the angles or temperatures, by the names of the columns; none where they are not
+// there. Columns of other quantities of joints are no taxels, either.
+std::vector<TableElement> findSamples(Planning& p,
                                       PlannedSeries::Kind kind,
-                                      const std::vector<std::string>& names,
-                                      std::vector<std::string>& notes,
-                                      std::set<std::size_t>& otherColumns) {
+                                      const std::vector<std::string>& names) {
+  const std::vector<TableColumn>& columns = p.columns;
+  std::vector<std::string>& notes = p.plan.notes;
   const std::size_t count = names.size();
   const auto& words = kind == PlannedSeries::Kind::kAngles ? kAngleWords : kTemperatureWords;
-  const std::string what = kind == PlannedSeries::Kind::kAngles ? "joint angles" : "temperatures";
+  const std::string what = samplesText(kind);
   std::vector<std::size_t> named;
   std::vector<TableColumn> others;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (!columns[c].isNumeric || columns[c].type == "bool" || !hasWord(columns[c], words) ||
+    if (!holdsNumbers(columns[c]) || !hasWord(columns[c], words) ||
         timeScore(columns[c], kind) > 0 || hasWord(columns[c], kCounterWords))
       continue;
     if (!isOtherQuantity(columns[c], kind)) {
@@ -112,9 +108,9 @@ std::vector<TableElement> findSamples(const std::vector<TableColumn>& columns,
       continue;
     }
     others.push_back(columns[c]);
-    otherColumns.insert(c);
+    p.sampleColumns.insert(c);
   }
-  auto elements = samplesNamedAsIn(columns, kind, names, what, notes);
+  auto elements = samplesNamedAsIn(p, kind, names);
   if (!elements.empty()) return elements;
   std::vector<ColumnGroup> groups = groupColumns(columns, named);
   const auto isFit = [&](const ColumnGroup& group) { return group.elements.size() == count; };
@@ -167,6 +163,119 @@ std::vector<TableElement> findSamples(const std::vector<TableColumn>& columns,
   if (groups.empty() && !others.empty())
     notes.push_back(what + ": " + namesText(others) + " seem to be something else; not imported");
   return {};
+}
+
+// The unit of a column and of the hand, as a factor and an offset.
+AddedValues valuesOf(Planning& p,
+                     const ValueMapping& values,
+                     const TableColumn& column,
+                     const std::string& handUnit,
+                     const std::string& what) {
+  const bool scaled = values.scale != 1.0 || values.offset != 0.0;
+  const bool given = !values.unit.empty();
+  AddedValues added{{std::nullopt, values.scale, values.offset},
+                    given    ? values.unit
+                    : scaled ? handUnit
+                             : column.unit};
+  auto& [value, unit] = added;
+  if (!scaled && (column.scale != 1.0 || column.offset != 0.0)) {
+    value.scale = column.scale;
+    value.offset = column.offset;
+    p.note(reason::kScaledByFile, {what, column.name});
+  }
+  for (const double missing : column.missing)
+    p.note(reason::kMissingValue, {what, numberText(missing), column.name});
+  const bool isOurs = std::any_of(p.columns.begin(), p.columns.end(), [](const auto& each) {
+    return each.name == "meta" && !each.isNumeric;  // palpate convert's values are the hand's
+  });
+  if (unit.empty() && !handUnit.empty() && handUnit != "counts" && !isOurs)
+    p.note(reason::kNoUnit, {what, handUnit});
+  if (unit.empty() || handUnit.empty()) return added;
+  if (const auto known = conversionBetween(unit, handUnit)) {
+    value.scale *= known->scale;
+    value.offset = value.offset * known->scale + known->offset;
+    return added;
+  }
+  if (given) p.refuse(reason::kNoConversion, {what, values.unit, handUnit});
+  p.note(reason::kOtherUnit, {what, unit, handUnit});
+  return added;
+}
+
+}  // namespace
+
+AddedValues addValues(Planning& p,
+                      PlannedSeries& series,
+                      const std::string& what,
+                      const std::vector<TableElement>& elements,
+                      const std::vector<std::size_t>& targets,
+                      const ValueMapping& values,
+                      const std::string& handUnit) {
+  AddedValues added = valuesOf(p, values, p.columns[elements.front().column], handUnit, what);
+  std::map<std::size_t, std::size_t> begins;  // of the values of columns, which are read once each
+  std::size_t at = 0;
+  for (const std::size_t column : series.columns) {
+    begins[column] = at;
+    at += p.columns[column].width();
+  }
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto [begin, isNew] = begins.try_emplace(elements[e].column, series.values.size());
+    if (isNew) {
+      series.columns.push_back(elements[e].column);
+      series.values.resize(series.values.size() + p.columns[elements[e].column].width());
+    }
+    PlannedValue& planned = series.values[begin->second + elements[e].within];
+    if (planned.target) p.refuse(reason::kUsedTwice, {p.columns[elements[e].column].name});
+    planned = added.value;
+    planned.target = targets[e];
+  }
+  return added;
+}
+
+std::vector<std::string> namesOf(const HandDescription& hand, PlannedSeries::Kind kind) {
+  std::vector<std::string> names;
+  for (const AxisDescription& axis : hand.axes)
+    if (kind == PlannedSeries::Kind::kAngles) names.push_back(axis.name);
+  for (const TemperatureSensorDescription& sensor : hand.temperatureSensors)
+    if (kind == PlannedSeries::Kind::kTemperatures) names.push_back(sensor.name);
+  return names;
+}
+
+const SampleMapping& sampleMapping(const Planning& p, PlannedSeries::Kind kind) {
+  return kind == PlannedSeries::Kind::kAngles ? p.mapping.angles : p.mapping.temperatures;
+}
+
+std::optional<PlannedSeries> chooseSamples(Planning& p, PlannedSeries::Kind kind) {
+  const SampleMapping& wanted = sampleMapping(p, kind);
+  const std::vector<std::string> names = namesOf(p.hand, kind);
+  const std::string what = samplesText(kind);
+  if (wanted.columns == kNoColumns) return std::nullopt;
+  if (names.empty()) {
+    if (!wanted.columns.empty()) p.refuse(reason::kHandHasNone, {what});
+    return std::nullopt;
+  }
+  std::vector<TableElement> elements;
+  if (wanted.columns.empty()) {
+    elements = findSamples(p, kind, names);
+    if (elements.empty()) return std::nullopt;
+  } else {
+    elements = chooseElements(p.columns, wanted.columns).elements;
+    if (elements.size() != names.size())
+      p.refuse(
+          reason::kOtherSamples,
+          {what, wanted.columns, counted(elements.size(), "number"), std::to_string(names.size())});
+  }
+  PlannedSeries series;
+  series.kind = kind;
+  series.file = p.source.path();
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const std::string unit = kind == PlannedSeries::Kind::kAngles ? p.hand.axes[i].unit() : "degC";
+    const auto [value, used] = addValues(p, series, what, {elements[i]}, {i}, wanted.values, unit);
+    if (i == 0) series.description.push_back(valuesText(p.columns, what, elements, value, used));
+  }
+  if (!sameRows(p.columns[elements.front().column], p.columns[elements.back().column]))
+    p.refuse(reason::kSampleRows, {what});
+  for (const TableElement& each : elements) p.sampleColumns.insert(each.column);
+  return series;
 }
 
 }  // namespace palpate

@@ -15,6 +15,7 @@
 #include "recording/import/column_choice.h"
 #include "recording/import/column_unit.h"
 #include "recording/import/column_words.h"
+#include "recording/import/import_texts.h"
 
 namespace palpate {
 namespace {
@@ -296,11 +297,8 @@ bool TimeChoice::takeTimeFile(PlannedSeries& series, const std::string& named) {
   if (!sameRows(columns[*times.time], values))
     refuse(otherRowsText(named, columns[*times.time], values));
   choice.setTimeUnit(times);
-  series.time = times.time;
-  series.timeWithin.reset();
-  series.timeUnit = times.timeUnit;
-  series.timeFactor = times.timeFactor;
-  series.timeFile = file;
+  times.timeFile = file;
+  static_cast<PlannedTime&>(series) = times;
   plan_.notes.insert(plan_.notes.end(), plan.notes.begin(), plan.notes.end());
   if (series.kind == PlannedSeries::Kind::kFrames)
     plan_.timeDescription = named + ": " + plan.timeDescription;
@@ -443,24 +441,22 @@ void TimeChoice::setTimeUnit(PlannedSeries& series) {
     series.timeUnit = *timeUnitNamed(mapping_.time.unit);
   } else if (const auto unit = statedUnit(column, origin, series.timeFactor)) {
     series.timeUnit = *unit;
+  } else if (!mapping_.time.unit.empty()) {
+    series.timeUnit = *timeUnitNamed(mapping_.time.unit);
   } else {
-    if (!mapping_.time.unit.empty()) {
-      series.timeUnit = *timeUnitNamed(mapping_.time.unit);
-    } else {
-      const std::size_t at = series.timeWithin.value_or(0);
-      const std::vector<double> values = sampleValues(*series.time, at);
-      const bool whole = std::all_of(
-          values.begin(), values.end(), [](double value) { return value == std::floor(value); });
-      if (countingOf(*series.time, at).isRowNumber)
-        refuse(inQuotes(column.name) +
-               " counts the rows (0, 1, 2, ..); give the rate of the rows (--rate), or its unit if "
-               "it is a time (--time-unit)");
-      series.timeUnit = values.empty() ? TimeUnit::kSeconds : guessTimeUnit(values.back(), whole);
-      origin = "guessed from the values; choose the unit if it is another";
-      plan_.notes.push_back("time: the unit of " + inQuotes(column.name) + " is guessed to be " +
-                            std::string(nameOf(series.timeUnit)) +
-                            "; choose another one by --time-unit");
-    }
+    const std::size_t at = series.timeWithin.value_or(0);
+    const std::vector<double> values = sampleValues(*series.time, at);
+    const bool whole = std::all_of(
+        values.begin(), values.end(), [](double value) { return value == std::floor(value); });
+    if (countingOf(*series.time, at).isRowNumber)
+      refuse(inQuotes(column.name) +
+             " counts the rows (0, 1, 2, ..); give the rate of the rows (--rate), or its unit if "
+             "it is a time (--time-unit)");
+    series.timeUnit = values.empty() ? TimeUnit::kSeconds : guessTimeUnit(values.back(), whole);
+    origin = "guessed from the values; choose the unit if it is another";
+    plan_.notes.push_back("time: the unit of " + inQuotes(column.name) + " is guessed to be " +
+                          std::string(nameOf(series.timeUnit)) +
+                          "; choose another one by --time-unit");
   }
   if (series.kind == PlannedSeries::Kind::kFrames)
     plan_.timeDescription = shortened(column.name) + " [" +
