@@ -116,7 +116,7 @@ DeviceInfo DemoHand::connect() {
     const DeviceStatus status = device.status();
     return status.tactile.items >= 5 && status.motion && status.motion->items >= 5;
   });
-  return device.facts();
+  return device.info();
 }
 
 void DemoHand::startRecording(const std::filesystem::path& file) {

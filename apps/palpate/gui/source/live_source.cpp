@@ -82,7 +82,7 @@ PressureStage::AskSettings settingsOf(const CaptureSession& session, const Conne
   }
   return [&session] {
     std::vector<SensorSettings> settings;
-    for (const MatrixSettings& matrix : session.device().facts().matrices)
+    for (const MatrixSettings& matrix : session.device().info().matrices)
       settings.push_back({matrix.sensitivity, static_cast<double>(matrix.thresholdCounts), false});
     return settings;
   };
