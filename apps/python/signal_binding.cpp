@@ -209,7 +209,7 @@ py::dict coherence(const Numbers& timeS,
 DoubleArray derive(const Profile& profile, const std::string& text) {
   const Formula formula(text);
   const Series series = unlocked([&](const Progress& progress) {
-    return derivedSeries(
+    return formulaSeries(
         profile, formula, 0.0, static_cast<double>(profile.durationUs()) / kUsPerS + 1.0, progress);
   });
   return arrayOf(series.values);

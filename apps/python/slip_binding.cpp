@@ -58,7 +58,7 @@ Request requestOf(const Profile& profile,
     throw py::value_error("method is '" + method + "'; it is one of " + known);
   }
   detector.method = *named;
-  detector.hypothesisAlarm = detector.method == SlipMethod::kHypotheses;
+  detector.hypothesisAlarm = detector.method == SlipMethod::kContest;
   detector.rule.stepTaxels = step;
   detector.rule.referenceTaxels = limit;
   detector.rule.rotationDeg = rotation;

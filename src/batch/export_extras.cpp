@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "palpate/batch/derived_series.h"
 #include "palpate/core/hash.h"
-#include "palpate/interop/derived_series.h"
 
 namespace palpate {
 

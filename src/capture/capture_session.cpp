@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "palpate/core/json.h"
+#include "palpate/device/dsa_frame.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/recording_losses.h"
 
@@ -28,15 +29,15 @@ std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
 std::map<std::string, std::string> describe(const Device& device) {
   std::map<std::string, std::string> meta = handMeta(device.hand());
   meta["program"] = "palpate " PALPATE_VERSION;
-  const DeviceInfo facts = device.facts();
-  meta["serial"] = facts.serial;
-  meta["firmware"] = facts.firmware;
-  if (facts.sensorRevision > 0) meta["sensor_revision"] = std::to_string(facts.sensorRevision);
-  if (!facts.sensorSerial.empty()) meta["sensor_serial"] = facts.sensorSerial;
-  if (!facts.motionFirmware.empty()) meta["motion_firmware"] = facts.motionFirmware;
-  if (facts.matrices.empty()) return meta;
+  const DeviceInfo info = device.info();
+  meta["serial"] = info.serial;
+  meta["firmware"] = info.firmware;
+  if (info.sensorRevision > 0) meta["sensor_revision"] = std::to_string(info.sensorRevision);
+  if (!info.sensorSerial.empty()) meta["sensor_serial"] = info.sensorSerial;
+  if (!info.motionFirmware.empty()) meta["motion_firmware"] = info.motionFirmware;
+  if (info.matrices.empty()) return meta;
   Json settings = Json::array();
-  for (const MatrixSettings& matrix : facts.matrices)
+  for (const MatrixSettings& matrix : info.matrices)
     settings.push(Json::object()
                       .set("sensitivity", matrix.sensitivity)
                       .set("threshold_counts", matrix.thresholdCounts));
@@ -188,10 +189,10 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
     expectedFor_ = frame.layout;
     std::size_t enabled = 0;
     for (const MatrixLayout& matrix : frame.layout->matrices()) enabled += matrix.numEnabled();
-    meter_.expect(scanRateHz(enabled));
+    meter_.expect(dsaScanRateHz(enabled));
   }
   // Only the line of a controller that scans by itself has a known rate.
-  meter_.frame(clock_.monotonicUs(), saturated, scansItself_ ? runsOf(frame) : 0);
+  meter_.frame(clock_.monotonicUs(), saturated, scansItself_ ? dsaRunsOf(frame) : 0);
   auto shared = std::make_shared<const TactileFrame>(std::move(frame));
   screenFrame_.put(shared);
   pass(CaptureItem(std::move(shared)));

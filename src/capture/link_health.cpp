@@ -6,6 +6,7 @@
 #include <string>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/dsa_frame.h"
 
 namespace palpate {
 namespace {
@@ -113,40 +114,6 @@ std::optional<double> hottestOf(const LinkInputs& inputs) {
 
 }  // namespace
 
-double scanRateHz(std::size_t enabledTaxels) {
-  struct Measured {
-    double taxels, scanMs;
-  };
-  // Of the 78 places of a matrix, 68 are taxels. All taxels of an SDH-2: 456.
-  constexpr Measured kMeasured[] = {{2.0, 13.2}, {68.0, 17.7}, {456.0, 31.55}};
-  const double taxels =
-      std::clamp(static_cast<double>(enabledTaxels), kMeasured[0].taxels, kMeasured[2].taxels);
-  const int above = taxels > kMeasured[1].taxels ? 2 : 1;
-  const Measured& low = kMeasured[above - 1];
-  const Measured& high = kMeasured[above];
-  return 1000.0 / (low.scanMs +
-                   (high.scanMs - low.scanMs) * (taxels - low.taxels) / (high.taxels - low.taxels));
-}
-
-double lineRateHz(double runs) {
-  constexpr double kBytesPerS = 115'200.0 / 10.0;
-  return kBytesPerS / (13.0 + 2.0 * runs);
-}
-
-std::size_t runsOf(const TactileFrame& frame) {
-  constexpr std::size_t kLongest = 15;
-  std::size_t runs = 0, length = 0;
-  for (std::size_t i = 0; i < frame.values.size(); ++i) {
-    if (i > 0 && length < kLongest && frame.values[i] == frame.values[i - 1]) {
-      ++length;
-      continue;
-    }
-    ++runs;
-    length = 1;
-  }
-  return runs;
-}
-
 const LinkMonitor::Arrival& LinkMonitor::arrival(std::size_t age) const {
   return ring_[(frames_ - 1 - age) % kRing];
 }
@@ -221,7 +188,7 @@ LinkMonitor::Reading LinkMonitor::readLocked(std::int64_t monoUs) const {
     runs += arrival(age).runs;
     known = known && arrival(age).runs > 0;
   }
-  if (known) reading.lineRateHz = lineRateHz(static_cast<double>(runs) / static_cast<double>(n));
+  if (known) reading.lineRateHz = dsaLineRateHz(static_cast<double>(runs) / static_cast<double>(n));
   if (n > 0) reading.saturatedFraction = static_cast<double>(saturated) / static_cast<double>(n);
   if (options_.expectedRateHz)
     reading.expectedRateHz = *options_.expectedRateHz;

@@ -212,13 +212,13 @@ Replay::~Replay() { stop(); }
 
 HandDescription Replay::hand() const { return impl_->profile.hand(); }
 
-DeviceInfo Replay::facts() const {
-  DeviceInfo facts;
-  facts.serial = impl_->profile.info().serial;
-  facts.firmware = impl_->profile.info().firmware;
-  facts.sensorRevision =
+DeviceInfo Replay::info() const {
+  DeviceInfo info;
+  info.serial = impl_->profile.info().serial;
+  info.firmware = impl_->profile.info().firmware;
+  info.sensorRevision =
       static_cast<int>(parseInteger(impl_->profile.info().sensorRevision).value_or(0));
-  return facts;
+  return info;
 }
 
 void Replay::start(DeviceSink& sink) {

@@ -390,7 +390,7 @@ void GraspControl::grasp(const GraspRequest& request, std::optional<std::uint64_
         throw DeviceError(DeviceFault::kRefused,
                           "grasp",
                           "refused: a tactile setting is being changed; try again in a second");
-      machine_.setSettings(session_.device().facts().matrices);
+      machine_.setSettings(session_.device().info().matrices);
       machine_.begin(request,
                      clock_.monotonicUs(),
                      session_.nowUs(),

@@ -122,7 +122,7 @@ void SensitivityControl::pollReplies() {
 void SensitivityControl::applyWantedSettings() {
   if (!wanted_ || !pending_.empty()) return;
   status_.waiting.clear();
-  const TactileSettings now = session_.device().facts().matrices;
+  const TactileSettings now = session_.device().info().matrices;
   if (now.empty()) {
     status_.waiting = "no tactile controller is connected";
     return;
@@ -162,7 +162,7 @@ void SensitivityControl::onFrame(const TactileFrame& frame) {
   const auto next =
       search_->observe(static_cast<double>(frame.hostUs) / kUsPerS, static_cast<double>(maximum));
   if (!next) return;
-  TactileSettings target = session_.device().facts().matrices;
+  TactileSettings target = session_.device().info().matrices;
   for (MatrixSettings& matrix : target) matrix.sensitivity = *next;
   wanted_ = std::move(target);
 }
@@ -194,7 +194,7 @@ void SensitivityControl::step() {
   if (!queue_) return applyWantedSettings();
   processFrames();
   if (status_.mode == SensitivityMode::kAdaptive && !search_) {
-    const TactileSettings now = session_.device().facts().matrices;
+    const TactileSettings now = session_.device().info().matrices;
     if (!now.empty())
       search_.emplace(std::clamp(now[0].sensitivity, searchOptions_.least, searchOptions_.most),
                       now[0].thresholdCounts,

@@ -251,10 +251,10 @@ bool DsaController::stopStreamOnce(milliseconds limit) {
 }
 
 void DsaController::pullFrame() {
-  if (!facts_.hasSingleFrames())
+  if (!info_.hasSingleFrames())
     throw DeviceError(DeviceFault::kUnsupported,
                       channel_.name(),
-                      "firmware " + facts_.firmwareText() +
+                      "firmware " + info_.firmwareText() +
                           " of the tactile controller can't send single frames; stream instead");
   const std::uint64_t before = framesTaken_;
   acquisition(true, 0);
@@ -326,23 +326,23 @@ const DsaControllerInfo& DsaController::open() {
         DeviceFault::kProtocol,
         channel_.name(),
         "the tactile controller says it has " + std::to_string(matrices) + " matrices");
-  facts_ = std::move(facts);
-  facts_.matrices.resize(matrices);
+  info_ = std::move(facts);
+  info_.matrices.resize(matrices);
   for (std::size_t m = 0; m < matrices; ++m) readMatrix(m);
   try {
-    checkPlaces(facts_.matrices);
+    checkPlaces(info_.matrices);
   } catch (const std::invalid_argument& wrong) {
     throw DeviceError(DeviceFault::kProtocol, channel_.name(), wrong.what());
   }
   for (std::size_t m = 0; m < matrices; ++m) readSettings(m);
   if (options_.readMasks) readMasks();
-  parser_.setNumPlaces(facts_.layout().numCells());
-  return facts_;
+  parser_.setNumPlaces(info_.layout().numCells());
+  return info_;
 }
 
 void DsaController::readMatrix(std::size_t matrix) {
   try {
-    facts_.matrices[matrix] = readMatrixRecord(
+    info_.matrices[matrix] = readMatrixRecord(
         request(DsaId::kMatrixConfiguration, {static_cast<std::byte>(matrix)}, kMatrixRecordBytes));
   } catch (const std::invalid_argument& wrong) {
     throw DeviceError(DeviceFault::kProtocol,
@@ -352,7 +352,7 @@ void DsaController::readMatrix(std::size_t matrix) {
 }
 
 void DsaController::readSettings(std::size_t matrix) {
-  DsaMatrixInfo& facts = facts_.matrices[matrix];
+  DsaMatrixInfo& facts = info_.matrices[matrix];
   const auto number = static_cast<std::byte>(matrix);
   const Bytes record = request(DsaId::kGetSensitivity, {number}, kSensitivityRecordBytes);
   facts.sensitivityAdjustable = (std::to_integer<unsigned>(record[2]) & 2u) != 0;
@@ -368,13 +368,13 @@ void DsaController::readSettings(std::size_t matrix) {
           "matrix " + std::to_string(matrix) + " says its sensitivity is " + std::to_string(value));
   facts.sensitivity = f32(3);
   facts.factorySensitivity = f32(7);
-  if (!facts_.hasThresholds()) return;
+  if (!info_.hasThresholds()) return;
   const Bytes threshold = request(DsaId::kGetThreshold, {number}, kThresholdRecordBytes);
   facts.thresholdCounts = static_cast<int>(littleEndian(std::span(threshold).subspan(2, 2)));
 }
 
 Mask DsaController::readMask(int type, std::size_t matrix) {
-  const std::size_t places = facts_.matrices[matrix].layout.numCells();
+  const std::size_t places = info_.matrices[matrix].layout.numCells();
   const Bytes answer = request(DsaId::kReadMask,
                                {static_cast<std::byte>(type), static_cast<std::byte>(matrix)},
                                2 + maskBytes(places));
@@ -385,14 +385,14 @@ Mask DsaController::readMask(int type, std::size_t matrix) {
 // on a working connection is asked for again like any other, because a recording keeps the layout.
 void DsaController::readMasks() {
   try {
-    for (std::size_t m = 0; m < facts_.matrices.size(); ++m) {
-      facts_.matrices[m].layout.staticMask = readMask(0, m);
-      facts_.matrices[m].layout.dynamicMask = readMask(1, m);
+    for (std::size_t m = 0; m < info_.matrices.size(); ++m) {
+      info_.matrices[m].layout.staticMask = readMask(0, m);
+      info_.matrices[m].layout.dynamicMask = readMask(1, m);
     }
-    facts_.masksKnown = true;
+    info_.masksKnown = true;
   } catch (const DeviceError& error) {
     if (error.fault() != DeviceFault::kRefused && error.fault() != DeviceFault::kSilent) throw;
-    for (DsaMatrixInfo& matrix : facts_.matrices) {
+    for (DsaMatrixInfo& matrix : info_.matrices) {
       matrix.layout.staticMask.assign(matrix.layout.numCells(), 1);
       matrix.layout.dynamicMask.assign(matrix.layout.numCells(), 1);
     }
@@ -402,9 +402,9 @@ void DsaController::readMasks() {
 // --- Settings
 
 void DsaController::checkMatrix(std::size_t matrix) const {
-  if (matrix >= facts_.matrices.size())
+  if (matrix >= info_.matrices.size())
     throw std::invalid_argument("there is no matrix " + std::to_string(matrix) + " (0.." +
-                                std::to_string(facts_.matrices.size()) + ")");
+                                std::to_string(info_.matrices.size()) + ")");
 }
 
 void DsaController::whilePaused(const std::function<void()>& set) {
@@ -446,7 +446,7 @@ void DsaController::resetSensitivity(std::size_t matrix) {
   checkMatrix(matrix);
   whilePaused([&] {
     Bytes payload = {static_cast<std::byte>(kResetToFactory), static_cast<std::byte>(matrix)};
-    appendF32(payload, static_cast<float>(facts_.matrices[matrix].factorySensitivity));
+    appendF32(payload, static_cast<float>(info_.matrices[matrix].factorySensitivity));
     request(DsaId::kSetSensitivity, payload, 2);
     readSettings(matrix);
   });
@@ -457,11 +457,11 @@ void DsaController::setThreshold(std::size_t matrix, int counts, bool persistent
   if (counts < 0 || counts > kDsaSettingsMaxCounts)
     throw std::invalid_argument("threshold " + std::to_string(counts) +
                                 " is not in 0..4095 counts");
-  if (!facts_.hasThresholds())
+  if (!info_.hasThresholds())
     throw DeviceError(
         DeviceFault::kUnsupported,
         channel_.name(),
-        "firmware " + facts_.firmwareText() +
+        "firmware " + info_.firmwareText() +
             " of the tactile controller has no thresholds (firmware 268 or newer has)");
   whilePaused([&] {
     Bytes payload = {static_cast<std::byte>(persistent ? kPersistent : 0u),
@@ -477,11 +477,11 @@ void DsaController::setThreshold(std::size_t matrix, int counts, bool persistent
 
 void DsaController::setDynamicMask(std::size_t matrix, const Mask& mask) {
   checkMatrix(matrix);
-  MatrixLayout& layout = facts_.matrices[matrix].layout;
+  MatrixLayout& layout = info_.matrices[matrix].layout;
   if (mask.size() != layout.numCells())
     throw std::invalid_argument("a mask of " + std::to_string(mask.size()) + " places for " +
                                 std::to_string(layout.numCells()));
-  if (!facts_.masksKnown)
+  if (!info_.masksKnown)
     throw DeviceError(DeviceFault::kUnsupported,
                       channel_.name(),
                       "this tactile controller's firmware takes no masks");

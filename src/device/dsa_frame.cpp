@@ -78,6 +78,42 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
   return frame;
 }
 
+// --- Rates
+
+double dsaScanRateHz(std::size_t enabledTaxels) {
+  struct Measured {
+    double taxels, scanMs;
+  };
+  // Of the 78 places of a matrix, 68 are taxels. All taxels of an SDH-2: 456.
+  constexpr Measured kMeasured[] = {{2.0, 13.2}, {68.0, 17.7}, {456.0, 31.55}};
+  const double taxels =
+      std::clamp(static_cast<double>(enabledTaxels), kMeasured[0].taxels, kMeasured[2].taxels);
+  const int above = taxels > kMeasured[1].taxels ? 2 : 1;
+  const Measured& low = kMeasured[above - 1];
+  const Measured& high = kMeasured[above];
+  return 1000.0 / (low.scanMs +
+                   (high.scanMs - low.scanMs) * (taxels - low.taxels) / (high.taxels - low.taxels));
+}
+
+double dsaLineRateHz(double runs) {
+  constexpr double kBytesPerS = 115'200.0 / 10.0;
+  return kBytesPerS / (static_cast<double>(kFramingBytes + kDsaFrameHeaderBytes) + 2.0 * runs);
+}
+
+std::size_t dsaRunsOf(const TactileFrame& frame) {
+  constexpr std::size_t kLongest = 15;
+  std::size_t runs = 0, length = 0;
+  for (std::size_t i = 0; i < frame.values.size(); ++i) {
+    if (i > 0 && length < kLongest && frame.values[i] == frame.values[i - 1]) {
+      ++length;
+      continue;
+    }
+    ++runs;
+    length = 1;
+  }
+  return runs;
+}
+
 // --- Clock
 
 namespace {

@@ -75,23 +75,23 @@ LiveHand::~LiveHand() { stop(); }
 
 HandDescription LiveHand::hand() const { return impl_->tactile ? impl_->tactile->hand() : sdh2(); }
 
-DeviceInfo LiveHand::facts() const {
-  DeviceInfo facts;
+DeviceInfo LiveHand::info() const {
+  DeviceInfo info;
   if (impl_->tactile) {
-    if (const auto known = impl_->tactile->facts()) {
-      facts.serial = hexDigits(known->serial, 8);
-      facts.firmware = known->firmwareText();
+    if (const auto known = impl_->tactile->info()) {
+      info.serial = hexDigits(known->serial, 8);
+      info.firmware = known->firmwareText();
       for (const DsaMatrixInfo& matrix : known->matrices)
-        facts.matrices.push_back({matrix.sensitivity, matrix.thresholdCounts.value_or(0)});
-      facts.sensorSerial = hexDigits(known->sensorSerial, 8);
-      facts.sensorRevision = known->generatedBy;
-      facts.sensorHardwareRevision = known->sensorHardwareRevision;
+        info.matrices.push_back({matrix.sensitivity, matrix.thresholdCounts.value_or(0)});
+      info.sensorSerial = hexDigits(known->sensorSerial, 8);
+      info.sensorRevision = known->generatedBy;
+      info.sensorHardwareRevision = known->sensorHardwareRevision;
     }
   }
   if (impl_->motion) {
-    if (const auto known = impl_->motion->facts()) facts.motionFirmware = known->firmware;
+    if (const auto known = impl_->motion->info()) info.motionFirmware = known->firmware;
   }
-  return facts;
+  return info;
 }
 
 void LiveHand::start(DeviceSink& sink) {

@@ -71,7 +71,7 @@ std::vector<int> MotionLink::axisStates() const {
   return states_;
 }
 
-std::optional<SdhControllerInfo> MotionLink::facts() const {
+std::optional<SdhControllerInfo> MotionLink::info() const {
   std::lock_guard lock(mutex_);
   return known_;
 }
@@ -144,9 +144,9 @@ void MotionLink::connect(ByteChannel& channel) {
     eventNow("motion", "stopped: the motion controller had been lost during a motion");
   }
   openController();
-  const SdhControllerInfo& facts = controller_->facts();
+  const SdhControllerInfo& facts = controller_->info();
   answered_ = true;
-  if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
+  if (const auto known = this->info(); wasConnected() && known && known->serial != facts.serial)
     throw DeviceError(
         DeviceFault::kWrongDevice,
         port_,
@@ -355,7 +355,7 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
               "deg/s",
               move.velocityDegPerS,
               std::vector<double>(axes.size(), 0.0),
-              controller_->facts().maximumVelocity);
+              controller_->info().maximumVelocity);
   if (!(move.answerLimitS >= kMinAnswerLimitS && move.answerLimitS <= kMaxAnswerLimitS))
     throw std::invalid_argument("answer limit: " + numberText(move.answerLimitS) + " s is not in " +
                                 numberText(kMinAnswerLimitS) + ".." + numberText(kMaxAnswerLimitS));

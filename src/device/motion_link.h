@@ -23,7 +23,7 @@ class MotionLink : public PortLink {
   ~MotionLink() override;
 
   std::vector<int> axisStates() const;  // may be called from any thread
-  std::optional<SdhControllerInfo> facts() const;
+  std::optional<SdhControllerInfo> info() const;
 
  protected:
   void connect(ByteChannel& channel) override;

@@ -11,6 +11,7 @@ namespace palpate {
 namespace {
 constexpr std::int64_t kRetryUs = 100'000;  // between two attempts to open a port that is gone
 constexpr std::int64_t kFaultRetryUs = 1'000'000;  // after an unexpected exception
+constexpr std::int64_t kOffsetWindowUs = 30'000'000;
 
 // True for a pseudo-terminal named by its number, not by a link. Once it is gone, the number may
 // belong to a terminal of another program.
@@ -69,6 +70,8 @@ void PortLink::requestStop() noexcept {
 
 void PortLink::begin(DeviceSink& sink) {
   forget();
+  minOffsetUs_ = {};
+  offsetWindowUs_ = 0;
   std::lock_guard lock(mutex_);
   sink_ = &sink;
   stopping_ = false;
@@ -252,6 +255,18 @@ void PortLink::waitForCommand(std::int64_t untilUs) {
   if (leftUs <= 0) return;
   commandQueued_.wait_for(
       lock, std::chrono::microseconds(leftUs), [&] { return stopping_ || !commandQueue_.empty(); });
+}
+
+void PortLink::measureAge(std::int64_t hostUs, std::int64_t deviceUs) {
+  const std::int64_t offsetUs = hostUs - deviceUs;
+  if (hostUs - offsetWindowUs_ > kOffsetWindowUs) {
+    offsetWindowUs_ = hostUs;
+    minOffsetUs_[1] = std::exchange(minOffsetUs_[0], std::nullopt);
+  }
+  minOffsetUs_[0] = std::min(minOffsetUs_[0].value_or(offsetUs), offsetUs);
+  const std::int64_t least = std::min(*minOffsetUs_[0], minOffsetUs_[1].value_or(*minOffsetUs_[0]));
+  updateStatus(
+      [&](PortStatus& status) { status.ageMs = static_cast<double>(offsetUs - least) / 1000.0; });
 }
 
 void PortLink::setState(PortState state, const std::string& message, bool unplugged) {

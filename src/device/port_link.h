@@ -2,6 +2,7 @@
 // threads, connecting, and reconnecting after the port disappeared.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -91,6 +92,8 @@ class PortLink {
              std::optional<int> matrix = {},
              const std::string& json = {});
   void eventNow(const std::string& kind, const std::string& text);
+  // Shows how long a frame was under way beyond the time of a frame without delays.
+  void measureAge(std::int64_t hostUs, std::int64_t deviceUs);
   // True if a device answered since start(); a device that answers now should be the same one.
   bool wasConnected() const noexcept { return wasConnected_; }
   // Returns the present host time, or lastUs + 1 if that is later [us since 1970]; stores it in
@@ -105,6 +108,9 @@ class PortLink {
   mutable std::mutex mutex_;
   std::deque<QueuedCommand> commandQueue_;
   std::atomic<bool> stopping_ = false;
+  // Minimum of (host time - device time) in this half minute and in the last one, that is, the
+  // transmission time of a frame without delays.
+  std::array<std::optional<std::int64_t>, 2> minOffsetUs_;
 
  private:
   void round();
@@ -114,6 +120,7 @@ class PortLink {
   Open open_;
   std::condition_variable commandQueued_;
   PortStatus status_;
+  std::int64_t offsetWindowUs_ = 0;
   // Replaced only by the port's thread, under mutex_.
   std::unique_ptr<ByteChannel> channel_;
   // The device was given up although its port was there; until it answers again.

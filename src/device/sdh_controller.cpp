@@ -79,8 +79,8 @@ SdhSettingsValues asNumbers(const std::vector<int>& values) {
 
 SdhController::SdhController(ByteChannel& channel, const Clock& clock, SdhControllerOptions options)
     : link_(std::make_unique<SdhLink>(channel, clock, std::move(options.urgent))) {
-  facts_.maximumVelocity = ofAxes([](const auto& axis) { return axis.maximumVelocityDegPerS; });
-  facts_.maximumAcceleration =
+  info_.maximumVelocity = ofAxes([](const auto& axis) { return axis.maximumVelocityDegPerS; });
+  info_.maximumAcceleration =
       ofAxes([](const auto& axis) { return axis.maximumAccelerationDegPerS2; });
 }
 
@@ -104,7 +104,7 @@ const SdhControllerInfo& SdhController::open() {
   link_->drain(milliseconds(100), milliseconds(300));
   try {
     // If tactile frames arrive, one try is enough.
-    facts_.firmware = word("ver", {.tries = tactile.stats().packets > 0 ? 1 : 3});
+    info_.firmware = word("ver", {.tries = tactile.stats().packets > 0 ? 1 : 3});
   } catch (const SdhInterrupted&) {
     throw;
   } catch (const DeviceError& error) {
@@ -121,10 +121,10 @@ const SdhControllerInfo& SdhController::open() {
                                   : "no motion controller answers here") +
                     "; check cable and power, and that this isn't the tactile port");
   }
-  const SdhFirmware firmware = SdhFirmware::parse(facts_.firmware);
+  const SdhFirmware firmware = SdhFirmware::parse(info_.firmware);
   binary_ = firmware.atLeast(0, 0, 2, 15);
   readInfo();
-  return facts_;
+  return info_;
 }
 
 void SdhController::readInfo() {
@@ -152,24 +152,24 @@ void SdhController::readInfo() {
                   "this hand has " + std::to_string(static_cast<int>(count)) +
                       " axes; Palpate drives the SDH-2 with seven");
   });
-  ifAnswered([&] { facts_.date = word("ver_date", briefly); });
-  ifAnswered([&] { facts_.soc = word("soc", briefly); });
-  ifAnswered([&] { facts_.serial = word("sn", briefly); });
-  ifAnswered([&] { facts_.id = word("id", briefly); });
+  ifAnswered([&] { info_.date = word("ver_date", briefly); });
+  ifAnswered([&] { info_.soc = word("soc", briefly); });
+  ifAnswered([&] { info_.serial = word("sn", briefly); });
+  ifAnswered([&] { info_.id = word("id", briefly); });
   // These values decide which commands may be sent, so newer firmware must report them.
-  const SdhFirmware firmware = SdhFirmware::parse(facts_.firmware);
-  if (firmware.atLeast(0, 0, 2, 1)) facts_.maximumVelocity = velocityLimits();
-  if (firmware.atLeast(0, 0, 2, 7)) facts_.maximumAcceleration = accelerationLimits();
-  if (firmware.atLeast(0, 0, 2, 6)) facts_.controller = controller();
+  const SdhFirmware firmware = SdhFirmware::parse(info_.firmware);
+  if (firmware.atLeast(0, 0, 2, 1)) info_.maximumVelocity = velocityLimits();
+  if (firmware.atLeast(0, 0, 2, 7)) info_.maximumAcceleration = accelerationLimits();
+  if (firmware.atLeast(0, 0, 2, 6)) info_.controller = controller();
 }
 
 void SdhController::needFirmware(const std::string& what, int a, int b, int c, int d) const {
-  if (SdhFirmware::parse(facts_.firmware).atLeast(a, b, c, d)) return;
+  if (SdhFirmware::parse(info_.firmware).atLeast(a, b, c, d)) return;
   const std::string release = std::to_string(a) + "." + std::to_string(b) + "." +
                               std::to_string(c) + "." + std::to_string(d);
   link_->fail(DeviceFault::kUnsupported,
               what + " needs firmware " + release + " of the hand; this one has " +
-                  (facts_.firmware.empty() ? "not been opened" : facts_.firmware));
+                  (info_.firmware.empty() ? "not been opened" : info_.firmware));
 }
 
 // --- Asking
@@ -284,9 +284,9 @@ SdhControllerValues SdhController::setTargets(const SdhControllerValues& deg) {
 
 SdhControllerValues SdhController::checkedVelocities(const SdhControllerValues& degPerS) const {
   SdhControllerValues least(kSdhAxes, 0.0);
-  if (facts_.controller != 0)
-    for (std::size_t axis = 0; axis < kSdhAxes; ++axis) least[axis] = -facts_.maximumVelocity[axis];
-  checkSdhValues(sdh::kTargetVelocity, degPerS, least, facts_.maximumVelocity);
+  if (info_.controller != 0)
+    for (std::size_t axis = 0; axis < kSdhAxes; ++axis) least[axis] = -info_.maximumVelocity[axis];
+  checkSdhValues(sdh::kTargetVelocity, degPerS, least, info_.maximumVelocity);
   return degPerS;
 }
 
@@ -308,7 +308,7 @@ SdhControllerValues SdhController::setTargetsGetAngles(const SdhControllerValues
 
 SdhControllerValues SdhController::setAccelerations(const SdhControllerValues& degPerS2) {
   checkSdhValues(
-      sdh::kAcceleration, degPerS2, SdhControllerValues(kSdhAxes, 0.0), facts_.maximumAcceleration);
+      sdh::kAcceleration, degPerS2, SdhControllerValues(kSdhAxes, 0.0), info_.maximumAcceleration);
   return exchange(sdh::kAcceleration, degPerS2);
 }
 
@@ -378,21 +378,21 @@ void SdhController::stop() {
 
 int SdhController::controller() {
   needFirmware("telling the controller type", 0, 0, 2, 6);
-  facts_.controller = static_cast<int>(
+  info_.controller = static_cast<int>(
       numbers("con", "CON", std::nullopt, choice(SdhCommand::kController, 2.0), 1, {})[0]);
-  return facts_.controller;
+  return info_.controller;
 }
 
 void SdhController::setController(int controller) {
   checkedChoice("the controller type", controller, 2);
   if (controller > 0) needFirmware("a velocity controller", 0, 0, 2, 6);
-  facts_.controller = static_cast<int>(numbers("con=" + std::to_string(controller),
-                                               "CON",
-                                               std::nullopt,
-                                               choice(SdhCommand::kController, 2.0),
-                                               1,
-                                               {})[0]);
-  if (facts_.controller != controller)
+  info_.controller = static_cast<int>(numbers("con=" + std::to_string(controller),
+                                              "CON",
+                                              std::nullopt,
+                                              choice(SdhCommand::kController, 2.0),
+                                              1,
+                                              {})[0]);
+  if (info_.controller != controller)
     link_->fail(DeviceFault::kProtocol, "the hand didn't take the controller type");
 }
 

@@ -50,12 +50,12 @@ StreamDevice::~StreamDevice() { stop(); }
 
 HandDescription StreamDevice::hand() const { return impl_->options.hand; }
 
-DeviceInfo StreamDevice::facts() const {
+DeviceInfo StreamDevice::info() const {
   const StreamDescription described = impl_->link.description();
-  DeviceInfo facts;
-  facts.serial = described.serial;
-  facts.firmware = described.firmware;
-  return facts;
+  DeviceInfo info;
+  info.serial = described.serial;
+  info.firmware = described.firmware;
+  return info;
 }
 
 void StreamDevice::start(DeviceSink& sink) {

@@ -23,7 +23,6 @@ constexpr std::int64_t kStreamSilentUs =
 constexpr double kStreamSilentPeriods = 3.0;  // or for three periods if that is longer
 constexpr std::int64_t kFaultShownUs = 2'000'000;
 constexpr std::int64_t kFaultAlarmEveryUs = 10'000'000;
-constexpr std::int64_t kStreamOffsetWindowUs = 30'000'000;
 // Of two senders nearly each frame is another numbering: it is one event until this time passes
 // without any.
 constexpr std::int64_t kRenumberedAgainUs = 10'000'000;
@@ -327,7 +326,7 @@ std::optional<std::int64_t> StreamLink::deviceTime(const StreamItem& item,
     const auto before = std::exchange(session_.clockReportedUs, monotonicUs);
     if (!before || monotonicUs - *before >= kClockAgainUs)
       eventNow("link", "the sender's clock jumped or started anew");
-    session_.minOffsetUs = {};
+    minOffsetUs_ = {};
   }
   if (!options_.isInput && !session_.speedReported) {
     const auto speed = session_.clock.speed();
@@ -349,19 +348,6 @@ void StreamLink::measureRate(std::int64_t monotonicUs) {
   session_.periodUs = session_.frames == 1
                           ? intervalUs
                           : session_.periodUs + kRateWeight * (intervalUs - session_.periodUs);
-}
-
-void StreamLink::measureAge(std::int64_t hostUs, std::int64_t deviceUs) {
-  const std::int64_t offsetUs = hostUs - deviceUs;
-  if (hostUs - session_.offsetWindowUs > kStreamOffsetWindowUs) {
-    session_.offsetWindowUs = hostUs;
-    session_.minOffsetUs[1] = std::exchange(session_.minOffsetUs[0], std::nullopt);
-  }
-  session_.minOffsetUs[0] = std::min(session_.minOffsetUs[0].value_or(offsetUs), offsetUs);
-  const std::int64_t least = std::min(*session_.minOffsetUs[0],
-                                      session_.minOffsetUs[1].value_or(*session_.minOffsetUs[0]));
-  updateStatus(
-      [&](PortStatus& status) { status.ageMs = static_cast<double>(offsetUs - least) / 1000.0; });
 }
 
 // --- Faults and silence

@@ -2,7 +2,6 @@
 // silence.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -78,7 +77,6 @@ class StreamLink : public PortLink {
   FrameNumbers::Step stepOf(const StreamItem& item, std::int64_t monotonicUs);
   std::optional<std::int64_t> deviceTime(const StreamItem& item, std::int64_t monotonicUs);
   void measureRate(std::int64_t monotonicUs);
-  void measureAge(std::int64_t hostUs, std::int64_t deviceUs);
   void beginGap(bool isEnd);
   void beginGapOfConnection();
   void publishGap();
@@ -161,10 +159,6 @@ class StreamLink : public PortLink {
     std::optional<std::int64_t> clockReportedUs;  // monotonic time of the last jump of the clock
     std::int64_t faultUs = 0;                     // monotonic time of the last fault
     std::optional<std::int64_t> alarmUs;          // monotonic time of the last alarm about faults
-
-    // As in TactileLink: minimum of (host time - device time) in this half minute and the last one.
-    std::array<std::optional<std::int64_t>, 2> minOffsetUs;
-    std::int64_t offsetWindowUs = 0;
   };
   Session session_;
 };

@@ -27,7 +27,6 @@ constexpr std::int64_t kChecksumWindowUs = 3'000'000;
 constexpr double kBadShare = 0.1;
 constexpr std::uint64_t kBadEnough = 10;
 constexpr std::int64_t kCureEveryUs = 15'000'000;
-constexpr std::int64_t kOffsetWindowUs = 30'000'000;
 
 }  // namespace
 
@@ -45,7 +44,7 @@ HandDescription TactileLink::hand() const {
   return hand_;
 }
 
-std::optional<DsaControllerInfo> TactileLink::facts() const {
+std::optional<DsaControllerInfo> TactileLink::info() const {
   std::lock_guard lock(mutex_);
   return known_;
 }
@@ -76,7 +75,7 @@ void TactileLink::connect(ByteChannel& channel) {
   controller_ = std::make_unique<DsaController>(
       channel, [this](std::span<const std::byte> payload) { onPayload(payload); }, clock_, options);
   const DsaControllerInfo& facts = controller_->open();
-  if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
+  if (const auto known = this->info(); wasConnected() && known && known->serial != facts.serial)
     throw DeviceError(
         DeviceFault::kWrongDevice,
         port_,
@@ -97,14 +96,14 @@ void TactileLink::learn() {
   HandDescription hand;
   try {
     hand = describeHand(
-        controller_->facts().layout(), sdh2().axes.size(), sdh2().temperatureSensors.size());
+        controller_->info().layout(), sdh2().axes.size(), sdh2().temperatureSensors.size());
   } catch (const std::invalid_argument& wrong) {
     throw DeviceError(DeviceFault::kProtocol, port_, wrong.what());
   }
   layout_ = hand.layout;
   std::lock_guard lock(mutex_);
   hand_ = std::move(hand);
-  known_ = controller_->facts();
+  known_ = controller_->info();
 }
 
 void TactileLink::disconnected() {
@@ -193,7 +192,7 @@ void TactileLink::checkStamp(TactileFrame&& frame, const DsaFrame& packet) {
     case DsaClock::FrameAcceptance::kRestarted:
       eventNow("link", "the tactile controller's clock started anew: it was switched off and on");
       resetRateEstimate();
-      session_.minOffsetUs = {};
+      minOffsetUs_ = {};
       if (session_.held) {
         Held held = std::move(*session_.held);
         session_.held.reset();
@@ -222,7 +221,7 @@ void TactileLink::deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size
   session_.restarts = 0;
   ++session_.frames;
   ++session_.windowFrames;
-  measureAge(hostUs, deviceMs);
+  measureAge(hostUs, deviceMs * kUsPerMs);
   updateStatus([&](PortStatus& status) {
     status.items = session_.frames;
     status.lastItemUs = hostUs;
@@ -230,19 +229,6 @@ void TactileLink::deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size
     status.message.clear();
   });
   sink_->onFrame(std::move(frame));
-}
-
-void TactileLink::measureAge(std::int64_t hostUs, std::int64_t deviceMs) {
-  const std::int64_t offsetUs = hostUs - deviceMs * 1000;
-  if (hostUs - session_.offsetWindowUs > kOffsetWindowUs) {
-    session_.offsetWindowUs = hostUs;
-    session_.minOffsetUs[1] = std::exchange(session_.minOffsetUs[0], std::nullopt);
-  }
-  session_.minOffsetUs[0] = std::min(session_.minOffsetUs[0].value_or(offsetUs), offsetUs);
-  const std::int64_t least = std::min(*session_.minOffsetUs[0],
-                                      session_.minOffsetUs[1].value_or(*session_.minOffsetUs[0]));
-  updateStatus(
-      [&](PortStatus& status) { status.ageMs = static_cast<double>(offsetUs - least) / 1000.0; });
 }
 
 // --- Silence and noise
@@ -354,8 +340,8 @@ void TactileLink::applySetting(std::size_t matrix, const Wanted& wanted) {
 void TactileLink::restoreSettings() {
   bool restored = false;
   for (const auto& [matrix, wanted] : wanted_) {
-    if (matrix >= controller_->facts().matrices.size()) continue;
-    const DsaMatrixInfo& is = controller_->facts().matrices[matrix];
+    if (matrix >= controller_->info().matrices.size()) continue;
+    const DsaMatrixInfo& is = controller_->info().matrices[matrix];
     const bool same = (!wanted.sensitivity || static_cast<float>(*wanted.sensitivity) ==
                                                   static_cast<float>(is.sensitivity)) &&
                       (!wanted.thresholdCounts || wanted.thresholdCounts == is.thresholdCounts) &&
@@ -378,7 +364,7 @@ void TactileLink::restoreSettings() {
 // All settings that hold from now on, so that a recording can be read without earlier events.
 std::string TactileLink::settingsJson() const {
   Json matrices = Json::array();
-  for (const DsaMatrixInfo& matrix : controller_->facts().matrices)
+  for (const DsaMatrixInfo& matrix : controller_->info().matrices)
     matrices.push(Json::object()
                       .set("sensitivity", matrix.sensitivity)
                       .set("threshold_counts", matrix.thresholdCounts.value_or(0))
@@ -387,7 +373,7 @@ std::string TactileLink::settingsJson() const {
 }
 
 void TactileLink::change(const Wanted& wanted, std::optional<int> matrix, const std::string& text) {
-  const std::size_t matrices = controller_->facts().matrices.size();
+  const std::size_t matrices = controller_->info().matrices.size();
   if (matrix && (*matrix < 0 || static_cast<std::size_t>(*matrix) >= matrices))
     throw std::invalid_argument("there is no matrix " + std::to_string(*matrix));
   const std::int64_t fromUs = time_.nowUs();

@@ -1,7 +1,6 @@
 // Thread of the tactile port in LiveHand: delivers frames and changes settings.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -26,7 +25,7 @@ class TactileLink : public PortLink {
   ~TactileLink() override;
 
   HandDescription hand() const;  // may be called from any thread
-  std::optional<DsaControllerInfo> facts() const;
+  std::optional<DsaControllerInfo> info() const;
   std::optional<DeviceEvent> openGap(std::int64_t untilUs) const;  // see Device
 
  protected:
@@ -75,7 +74,6 @@ class TactileLink : public PortLink {
   void change(const Wanted& wanted, std::optional<int> matrix, const std::string& text);
   void learn();
   void countPackets();
-  void measureAge(std::int64_t hostUs, std::int64_t deviceMs);
 
   const bool runLength_;
   std::unique_ptr<DsaController> controller_;
@@ -116,11 +114,6 @@ class TactileLink : public PortLink {
     std::uint64_t windowBad = 0;
     std::int64_t lastStreamRestartUs = 0;
     bool restartedForChecksums = false;
-
-    // Minimum of (host time - device time) in this half minute and in the last one, that is, the
-    // transmission time of a frame without delays.
-    std::array<std::optional<std::int64_t>, 2> minOffsetUs;
-    std::int64_t offsetWindowUs = 0;
   };
   Session session_;
 };

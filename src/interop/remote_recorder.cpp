@@ -130,7 +130,7 @@ struct RemoteRecorder::Impl {
   }
 
   // Executes a request; its answer is given exactly once, whatever fails afterwards.
-  void hand(const RemoteRequest& request, Done done) {
+  void enqueue(const RemoteRequest& request, Done done) {
     Done once = [given = std::make_shared<bool>(false),
                  done = std::move(done)](RemoteAnswer answer) {
       if (!std::exchange(*given, true)) done(std::move(answer));
@@ -318,7 +318,7 @@ void RemoteRecorder::carryOut(const RemoteRequest& request, Done done) {
   switch (request.verb) {
     case RemoteRecorderVerb::kStart:
     case RemoteRecorderVerb::kStop:
-      return impl_->hand(request, std::move(done));
+      return impl_->enqueue(request, std::move(done));
     case RemoteRecorderVerb::kLabel:
       return done(impl_->note(request.text));
     case RemoteRecorderVerb::kMark:

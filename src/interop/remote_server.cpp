@@ -65,22 +65,22 @@ class AnswerBox {
 
 // Ensures that an answer is given exactly once: when the last copy is destroyed without one, it
 // sends an error.
-class Promise {
+class PendingAnswer {
  public:
-  Promise(std::weak_ptr<AnswerBox> box, std::uint64_t client)
+  PendingAnswer(std::weak_ptr<AnswerBox> box, std::uint64_t client)
       : box_(std::move(box)), client_(client) {}
-  ~Promise() { keep(RemoteAnswer::refused("failed", "the request was not carried out")); }
-  Promise(const Promise&) = delete;
-  Promise& operator=(const Promise&) = delete;
-  void keep(RemoteAnswer answer) {
-    if (kept_.exchange(true)) return;
+  ~PendingAnswer() { give(RemoteAnswer::refused("failed", "the request was not carried out")); }
+  PendingAnswer(const PendingAnswer&) = delete;
+  PendingAnswer& operator=(const PendingAnswer&) = delete;
+  void give(RemoteAnswer answer) {
+    if (given_.exchange(true)) return;
     if (const auto box = box_.lock()) box->put(client_, std::move(answer));
   }
 
  private:
   std::weak_ptr<AnswerBox> box_;
   std::uint64_t client_;
-  std::atomic<bool> kept_ = false;
+  std::atomic<bool> given_ = false;
 };
 
 struct Client {
@@ -209,14 +209,14 @@ struct RemoteServer::Impl {
       ++stats.requests;
     }
     client.pending = request;
-    const auto promise = std::make_shared<Promise>(box, client.id);
+    const auto pending = std::make_shared<PendingAnswer>(box, client.id);
     try {
       target.carryOut(request,
-                      [promise](RemoteAnswer answer) { promise->keep(std::move(answer)); });
+                      [pending](RemoteAnswer answer) { pending->give(std::move(answer)); });
     } catch (const std::exception& failure) {
-      promise->keep(RemoteAnswer::refused("failed", failure.what()));
+      pending->give(RemoteAnswer::refused("failed", failure.what()));
     } catch (...) {
-      promise->keep(RemoteAnswer::refused("failed", "an exception of no known kind"));
+      pending->give(RemoteAnswer::refused("failed", "an exception of no known kind"));
     }
   }
 

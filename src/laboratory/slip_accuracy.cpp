@@ -317,7 +317,7 @@ SlipEstimator beginHypothesisMethod(const MatrixLayout& layout) {
 std::vector<BenchmarkedMethod> benchmarkedMethods() {
   std::vector<BenchmarkedMethod> methods;
   for (const SlipMethod method : slipMethods()) {
-    if (method == SlipMethod::kHypotheses) {
+    if (method == SlipMethod::kContest) {
       methods.push_back({std::string(nameOf(method)), &beginHypothesisMethod});
       continue;
     }

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <string>
+
+#include "palpate/core/option_check.h"
 
 namespace palpate {
 namespace {
@@ -73,12 +74,6 @@ double height(SlipShape shape, double u, double v, double cover) {
   return 0.0;
 }
 
-void requireRange(bool good, const char* field, double value) {
-  if (!good)
-    throw std::invalid_argument(std::string("SyntheticSensor: ") + field + " is " +
-                                std::to_string(value));
-}
-
 }  // namespace
 
 std::span<const SlipShape> slipShapes() noexcept { return kShapes; }
@@ -116,14 +111,14 @@ bool hasEdge(SlipShape shape) noexcept {
 }
 
 void SyntheticSensor::validate() const {
+  constexpr OptionCheck check{"SyntheticSensor"};
   layout.validate();
-  requireRange(noiseSd >= 0.0 && noiseSd <= 4095.0, "noiseSd", noiseSd);
-  requireRange(
-      thresholdCounts >= 0.0 && thresholdCounts <= 4095.0, "thresholdCounts", thresholdCounts);
-  requireRange(saturationCounts > thresholdCounts && saturationCounts <= 4095.0,
-               "saturationCounts",
-               saturationCounts);
-  requireRange(coverTaxels > 0.0 && coverTaxels <= 10.0, "coverTaxels", coverTaxels);
+  check(noiseSd >= 0.0 && noiseSd <= 4095.0, "noiseSd", noiseSd);
+  check(thresholdCounts >= 0.0 && thresholdCounts <= 4095.0, "thresholdCounts", thresholdCounts);
+  check(saturationCounts > thresholdCounts && saturationCounts <= 4095.0,
+        "saturationCounts",
+        saturationCounts);
+  check(coverTaxels > 0.0 && coverTaxels <= 10.0, "coverTaxels", coverTaxels);
 }
 
 void idealCounts(const SyntheticContact& contact, const SyntheticSensor& sensor, MatrixMap counts) {

@@ -24,7 +24,7 @@
 namespace palpate {
 
 // The variable that stands for der(..) or a filter, and the formula inside.
-struct Formula::Derivative {
+struct Formula::SeriesCall {
   std::string variable;
   Formula inside;
   // Index in kSeriesFunctions.
@@ -38,7 +38,7 @@ namespace {
 constexpr double kFormulaNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kTime = "t";
 constexpr std::size_t kValuesPerReport = 4096;
-constexpr const char* kDerivativeVariable = "derivative_";
+constexpr const char* kCallVariable = "derivative_";
 
 bool ofName(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
@@ -94,21 +94,6 @@ FoundFunction findFunction(const std::string& text, std::size_t begin) {
     }
   }
   return first;
-}
-
-// Parts a text at its commas outside of brackets.
-std::vector<std::string> partsOf(const std::string& text) {
-  std::vector<std::string> parts(1);
-  int depth = 0;
-  for (const char letter : text) {
-    if (letter == '(') ++depth;
-    if (letter == ')') --depth;
-    if (letter == ',' && depth == 0)
-      parts.emplace_back();
-    else
-      parts.back() += letter;
-  }
-  return parts;
 }
 
 ButterworthOptions bandOf(SeriesFunctionKind kind, const std::vector<double>& numbers) {
@@ -351,6 +336,20 @@ TimeSpan readableAround(const Profile& profile,
 
 }  // namespace
 
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char letter : text) {
+    if (letter == '(') ++depth;
+    if (letter == ')') --depth;
+    if (letter == ',' && depth == 0)
+      parts.emplace_back();
+    else
+      parts.back() += letter;
+  }
+  return parts;
+}
+
 std::vector<double> derivativeOf(std::span<const double> timeS,
                                  std::span<const double> values,
                                  double longestS) {
@@ -395,12 +394,11 @@ Formula::Formula(const std::string& given) : text_(given) {
     if (close == text.size())
       refuseFormula(given, "the bracket of " + std::string(function.name) + "( isn't closed");
     const std::vector<std::string> parts =
-        partsOf(text.substr(found.open + 1, close - found.open - 1));
+        splitAtCommas(text.substr(found.open + 1, close - found.open - 1));
     if (parts.size() != function.numNumbers + 1)
       refuseFormula(given, "it is written " + std::string(function.form));
-    Derivative derivative{kDerivativeVariable + std::to_string(derivatives_.size()),
-                          Formula(parts.front()),
-                          found.function};
+    SeriesCall call{
+        kCallVariable + std::to_string(calls_.size()), Formula(parts.front()), found.function};
     for (std::size_t i = 1; i < parts.size(); ++i) {
       const auto first = parts[i].find_first_not_of(' '), last = parts[i].find_last_not_of(' ');
       const auto number = first == std::string::npos
@@ -410,16 +408,16 @@ Formula::Formula(const std::string& given) : text_(given) {
         refuseFormula(
             given,
             std::string(function.form) + " takes a number, not \"" + shortened(parts[i]) + "\"");
-      derivative.numbers.push_back(*number);
+      call.numbers.push_back(*number);
     }
     try {
-      validateNumbers(function.kind, derivative.numbers);
+      validateNumbers(function.kind, call.numbers);
     } catch (const std::invalid_argument& error) {
       refuseFormula(given, std::string(function.form) + ": " + error.what());
     }
-    parsed_ += text.substr(begin, found.at - begin) + derivative.variable;
-    names.insert(derivative.inside.names_.begin(), derivative.inside.names_.end());
-    derivatives_.push_back(std::move(derivative));
+    parsed_ += text.substr(begin, found.at - begin) + call.variable;
+    names.insert(call.inside.names_.begin(), call.inside.names_.end());
+    calls_.push_back(std::move(call));
     begin = close + 1;
   }
   parsed_ += text.substr(begin);
@@ -428,7 +426,7 @@ Formula::Formula(const std::string& given) : text_(given) {
     parser.parser.Eval();
     if (parser.parser.GetNumResults() != 1) refuseFormula(text, "a comma makes two formulas of it");
     for (const auto& [name, value] : parser.variables)
-      if (name != kTime && name.rfind(kDerivativeVariable, 0) != 0) names.insert(name);
+      if (name != kTime && name.rfind(kCallVariable, 0) != 0) names.insert(name);
   } catch (const mu::Parser::exception_type& error) {
     refuseUnknownFunctions(text, parsed_);
     refuseFormula(text, messageOf(error));
@@ -446,7 +444,7 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
                                       const Progress& progress) const {
   // The series functions, each after what is inside, and then the formula itself.
   const auto part = [&](std::size_t step) {
-    return progressOfStep(progress, step, 2 * derivatives_.size() + 1);
+    return progressOfStep(progress, step, 2 * calls_.size() + 1);
   };
   if (values.size() != names_.size())
     throw std::invalid_argument("formula \"" + shortened(text_) +
@@ -460,18 +458,17 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
                                   std::to_string(timeS.size()) + " times");
     series[names_[i]] = values[i];
   }
-  for (std::size_t d = 0; d < derivatives_.size(); ++d) {
-    const Derivative& derivative = derivatives_[d];
+  for (std::size_t d = 0; d < calls_.size(); ++d) {
+    const SeriesCall& call = calls_[d];
     std::vector<std::vector<double>> inside;
-    for (const std::string& name : derivative.inside.names_) inside.push_back(series.at(name));
+    for (const std::string& name : call.inside.names_) inside.push_back(series.at(name));
     try {
-      series[derivative.variable] =
-          appliedTo(timeS,
-                    derivative.inside.evaluate(timeS, inside, longestS, part(2 * d)),
-                    longestS,
-                    kSeriesFunctions[derivative.function].kind,
-                    derivative.numbers,
-                    part(2 * d + 1));
+      series[call.variable] = appliedTo(timeS,
+                                        call.inside.evaluate(timeS, inside, longestS, part(2 * d)),
+                                        longestS,
+                                        kSeriesFunctions[call.function].kind,
+                                        call.numbers,
+                                        part(2 * d + 1));
     } catch (const std::invalid_argument& error) {
       refuseFormula(text_, error.what());
     }
@@ -484,7 +481,7 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
     parser.parser.Eval();  // makes the variables
     std::vector<std::pair<double*, const std::vector<double>*>> bound;
     for (auto& [name, value] : parser.variables) bound.emplace_back(&value, &series.at(name));
-    const Progress last = part(2 * derivatives_.size());
+    const Progress last = part(2 * calls_.size());
     for (std::size_t i = 0; i < timeS.size(); ++i) {
       reportProgress(last, i, timeS.size(), kValuesPerReport);
       for (const auto& [variable, of] : bound) *variable = (*of)[i];
@@ -500,28 +497,28 @@ std::size_t Formula::reach(double rateHz) const {
   // A frequency filter is computed from gap to gap (hasFrequencyFilter()).
   constexpr double kLongestFilter = 20'000.0;
   double samples = 0.0;
-  for (const Derivative& derivative : derivatives_) {
-    const SeriesFunctionKind kind = kSeriesFunctions[derivative.function].kind;
+  for (const SeriesCall& call : calls_) {
+    const SeriesFunctionKind kind = kSeriesFunctions[call.function].kind;
     double own = 1.0;
     if (kind == SeriesFunctionKind::kSmooth || kind == SeriesFunctionKind::kMedian)
-      own = derivative.numbers.at(0) / 2.0;
+      own = call.numbers.at(0) / 2.0;
     else if (kind != SeriesFunctionKind::kDerivative && rateHz > 0.0)
-      own = std::min(butterworthLength(bandOf(kind, derivative.numbers), rateHz), kLongestFilter);
-    samples = std::max(samples, own + static_cast<double>(derivative.inside.reach(rateHz)));
+      own = std::min(butterworthLength(bandOf(kind, call.numbers), rateHz), kLongestFilter);
+    samples = std::max(samples, own + static_cast<double>(call.inside.reach(rateHz)));
   }
   return static_cast<std::size_t>(std::ceil(samples));
 }
 
 bool Formula::hasFrequencyFilter() const {
-  return std::any_of(derivatives_.begin(), derivatives_.end(), [](const Derivative& derivative) {
-    const SeriesFunctionKind kind = kSeriesFunctions[derivative.function].kind;
+  return std::any_of(calls_.begin(), calls_.end(), [](const SeriesCall& call) {
+    const SeriesFunctionKind kind = kSeriesFunctions[call.function].kind;
     return (kind != SeriesFunctionKind::kDerivative && kind != SeriesFunctionKind::kSmooth &&
             kind != SeriesFunctionKind::kMedian) ||
-           derivative.inside.hasFrequencyFilter();
+           call.inside.hasFrequencyFilter();
   });
 }
 
-Series derivedSeries(const Profile& profile,
+Series formulaSeries(const Profile& profile,
                      const Formula& formula,
                      double fromS,
                      double toS,

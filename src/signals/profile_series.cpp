@@ -155,7 +155,7 @@ Series readFormula(const Profile& profile,
   const auto secondsAt = [&](std::size_t frame) {
     return static_cast<double>(profile.frameTimeUs(frame) - originUs(profile)) / kUsPerS;
   };
-  return derivedSeries(
+  return formulaSeries(
       profile, Formula(choice.formula), secondsAt(begin), secondsAt(end - 1), progress, unreadable);
 }
 

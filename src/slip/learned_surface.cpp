@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+
+#include "palpate/core/option_check.h"
 
 #include "slip/surface_readings.h"
 
@@ -13,21 +13,16 @@ namespace {
 using registration::squareOf;
 using spline::SplineWeights;
 
-void checkLearnedSurface(bool good, const char* field, double value) {
-  if (!good)
-    throw std::invalid_argument(std::string("LearnedSurfaceOptions: ") + field + " is " +
-                                std::to_string(value));
-}
-
 constexpr float kMotionCounts = 8.0F;
 
 }  // namespace
 
 void LearnedSurfaceOptions::validate() const {
-  checkLearnedSurface(curvatureSd >= 0.0, "curvatureSd", curvatureSd);
-  checkLearnedSurface(belowThresholdSd >= 0.0, "belowThresholdSd", belowThresholdSd);
-  checkLearnedSurface(outsideSd > 0.0, "outsideSd", outsideSd);
-  checkLearnedSurface(processNoiseRatio >= 0.0, "processNoiseRatio", processNoiseRatio);
+  constexpr OptionCheck check{"LearnedSurfaceOptions"};
+  check(curvatureSd >= 0.0, "curvatureSd", curvatureSd);
+  check(belowThresholdSd >= 0.0, "belowThresholdSd", belowThresholdSd);
+  check(outsideSd > 0.0, "outsideSd", outsideSd);
+  check(processNoiseRatio >= 0.0, "processNoiseRatio", processNoiseRatio);
   key.validate();
 }
 

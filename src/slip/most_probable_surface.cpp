@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+
+#include "palpate/core/option_check.h"
 
 #include "slip/surface_readings.h"
 
@@ -23,25 +23,19 @@ constexpr int kLaterIterations = 2;
 constexpr float kFarSilence = 0.2F;
 constexpr float kMostProbableMotionCounts = 4.0F;
 
-void checkMostProbableSurface(bool good, const char* field, double value) {
-  if (!good)
-    throw std::invalid_argument(std::string("MostProbableSurfaceOptions: ") + field + " is " +
-                                std::to_string(value));
-}
-
 }  // namespace
 
 void MostProbableSurfaceOptions::validate() const {
-  checkMostProbableSurface(priorSd > 0.0, "priorSd", priorSd);
-  checkMostProbableSurface(interpolationSd >= 0.0, "interpolationSd", interpolationSd);
-  checkMostProbableSurface(belowThresholdSd > 0.0, "belowThresholdSd", belowThresholdSd);
-  checkMostProbableSurface(outsideSd > 0.0, "outsideSd", outsideSd);
-  checkMostProbableSurface(processNoiseRatio >= 0.0, "processNoiseRatio", processNoiseRatio);
-  checkMostProbableSurface(
+  constexpr OptionCheck check{"MostProbableSurfaceOptions"};
+  check(priorSd > 0.0, "priorSd", priorSd);
+  check(interpolationSd >= 0.0, "interpolationSd", interpolationSd);
+  check(belowThresholdSd > 0.0, "belowThresholdSd", belowThresholdSd);
+  check(outsideSd > 0.0, "outsideSd", outsideSd);
+  check(processNoiseRatio >= 0.0, "processNoiseRatio", processNoiseRatio);
+  check(
       forgottenPerFrame >= 0.0 && forgottenPerFrame <= 0.5, "forgottenPerFrame", forgottenPerFrame);
-  checkMostProbableSurface(
-      startIterations >= 1 && startIterations <= 100, "startIterations", startIterations);
-  checkMostProbableSurface(iterations >= 1 && iterations <= 100, "iterations", iterations);
+  check(startIterations >= 1 && startIterations <= 100, "startIterations", startIterations);
+  check(iterations >= 1 && iterations <= 100, "iterations", iterations);
   key.validate();
 }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
+
+#include "palpate/core/option_check.h"
 
 #include "slip/registration_passes.h"
 
@@ -26,27 +27,22 @@ struct KeySurface {
   }
 };
 
-void checkRigidRegistration(bool good, const char* field, double value) {
-  if (!good)
-    throw std::invalid_argument(std::string("RegistrationOptions: ") + field + " is " +
-                                std::to_string(value));
-}
-
 }  // namespace
 
 void RegistrationOptions::validate() const {
-  checkRigidRegistration(maxIterations >= 1 && maxIterations <= 50, "maxIterations", maxIterations);
-  checkRigidRegistration(convergedTaxels > 0.0, "convergedTaxels", convergedTaxels);
-  checkRigidRegistration(noiseCounts > 0.0, "noiseCounts", noiseCounts);
-  checkRigidRegistration(relativeError >= 0.0, "relativeError", relativeError);
-  checkRigidRegistration(saturationCounts > 0.0, "saturationCounts", saturationCounts);
-  checkRigidRegistration(anglePriorDeg > 0.0, "anglePriorDeg", anglePriorDeg);
-  checkRigidRegistration(minRotationSensitivity >= 0.0 && minRotationSensitivity <= 0.5,
-                         "minRotationSensitivity",
-                         minRotationSensitivity);
-  checkRigidRegistration(maxDirectionSdTaxels > 0.0, "maxDirectionSdTaxels", maxDirectionSdTaxels);
-  checkRigidRegistration(gainPrior > 0.0, "gainPrior", gainPrior);
-  checkRigidRegistration(minOverlap >= 0.0 && minOverlap <= 1.0, "minOverlap", minOverlap);
+  constexpr OptionCheck check{"RegistrationOptions"};
+  check(maxIterations >= 1 && maxIterations <= 50, "maxIterations", maxIterations);
+  check(convergedTaxels > 0.0, "convergedTaxels", convergedTaxels);
+  check(noiseCounts > 0.0, "noiseCounts", noiseCounts);
+  check(relativeError >= 0.0, "relativeError", relativeError);
+  check(saturationCounts > 0.0, "saturationCounts", saturationCounts);
+  check(anglePriorDeg > 0.0, "anglePriorDeg", anglePriorDeg);
+  check(minRotationSensitivity >= 0.0 && minRotationSensitivity <= 0.5,
+        "minRotationSensitivity",
+        minRotationSensitivity);
+  check(maxDirectionSdTaxels > 0.0, "maxDirectionSdTaxels", maxDirectionSdTaxels);
+  check(gainPrior > 0.0, "gainPrior", gainPrior);
+  check(minOverlap >= 0.0 && minOverlap <= 1.0, "minOverlap", minOverlap);
 }
 
 RegistrationResult registerFrame(const KeyFrame& key,

@@ -37,8 +37,7 @@ constexpr double kSlipFullScaleCounts = 4095.0;
 
 SlipTrackerOptions trackerOptions(const SlipDetectorOptions& options) {
   SlipTrackerOptions tracker = options.tracker;
-  tracker.method =
-      options.method == SlipMethod::kHypotheses ? SlipMethod::kRegister : options.method;
+  tracker.method = options.method == SlipMethod::kContest ? SlipMethod::kRegister : options.method;
   tracker.firstContactIsReference = options.reference == SlipReference::kFirst;
   return tracker;
 }
@@ -130,7 +129,7 @@ const SlipDetection& SlipDetector::update(const ConstMatrixMap& given,
   const bool lost = motion.active == 0 || motion.afterGap;
   if (lost && options_.reference == SlipReference::kWhenAtRest) clearReference();
   if (wantsReference_) updateReference();
-  if (options_.method == SlipMethod::kHypotheses) applyMotionScore(motion);
+  if (options_.method == SlipMethod::kContest) applyMotionScore(motion);
   if (options_.hypothesisAlarm)
     decideByHypotheses(evidence);
   else
@@ -144,7 +143,7 @@ const SlipDetection& SlipDetector::update(const ConstMatrixMap& given,
       detection_.newReference = true;
       detection_.motion.refValid = true;
       detection_.motion.refDx = detection_.motion.refDy = 0.0;
-      hasLastScored_ = options_.method == SlipMethod::kHypotheses;
+      hasLastScored_ = options_.method == SlipMethod::kContest;
       lastScoredX_ = lastScoredY_ = 0.0;
     }
   }

@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
+
+#include "palpate/core/option_check.h"
 
 namespace palpate {
 namespace {
@@ -20,12 +21,6 @@ constexpr int kFieldPasses = 2;
 constexpr double kNoiseOfSlope = 0.75;
 constexpr float kSlopeGuess = 1.0F;
 constexpr std::array<std::pair<int, int>, 4> kNeighbors = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-
-void checkSlipHypotheses(bool good, const char* field, double value) {
-  if (!good)
-    throw std::invalid_argument(std::string("SlipHypothesisOptions: ") + field + " is " +
-                                std::to_string(value));
-}
 
 void checkSize(const KeyFrame& key, const ConstMatrixMap& frame) {
   if (frame.rows() != key.layout().rows || frame.cols() != key.layout().columns)
@@ -66,9 +61,10 @@ int activeInEither(const KeyFrame& key, const ConstMatrixMap& frame) {
 }  // namespace
 
 void SlipHypothesisOptions::validate() const {
+  constexpr OptionCheck check{"SlipHypothesisOptions"};
   registration.validate();
-  checkSlipHypotheses(sharpness > 0.0, "sharpness", sharpness);
-  checkSlipHypotheses(misfit > 0.0, "misfit", misfit);
+  check(sharpness > 0.0, "sharpness", sharpness);
+  check(misfit > 0.0, "misfit", misfit);
 }
 
 LoadFieldResult fitLoadField(const KeyFrame& key,

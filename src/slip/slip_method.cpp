@@ -12,7 +12,7 @@ constexpr std::array kMethods{SlipMethod::kCentroid,
                               SlipMethod::kPhase,
                               SlipMethod::kPhaseNormalized,
                               SlipMethod::kRegister,
-                              SlipMethod::kHypotheses};
+                              SlipMethod::kContest};
 
 }  // namespace
 
@@ -34,7 +34,7 @@ std::string_view nameOf(SlipMethod method) noexcept {
       return "phase-normalized";
     case SlipMethod::kRegister:
       return "register";
-    case SlipMethod::kHypotheses:
+    case SlipMethod::kContest:
       return "contest";
   }
   return "unknown";

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+
+#include "palpate/core/option_check.h"
 
 namespace palpate {
 namespace {
@@ -17,12 +17,6 @@ constexpr double kUndecided = 0.5;
 constexpr double kFarSlack = 0.3;  // [taxels]
 constexpr double kSds = 2.0;
 
-void checkSlipRule(bool good, const char* field, double value) {
-  if (!good)
-    throw std::invalid_argument(std::string("SlipRuleOptions: ") + field + " is " +
-                                std::to_string(value));
-}
-
 double shiftOf(const WindowEvidence& window) {
   return std::hypot(window.centroidX, window.centroidY);
 }
@@ -30,22 +24,22 @@ double shiftOf(const WindowEvidence& window) {
 }  // namespace
 
 void SlipRuleOptions::validate() const {
-  checkSlipRule(stepTaxels > 0.0, "stepTaxels", stepTaxels);
-  checkSlipRule(referenceTaxels > 0.0, "referenceTaxels", referenceTaxels);
-  checkSlipRule(rotationDeg > 0.0, "rotationDeg", rotationDeg);
-  checkSlipRule(shortSteps > 0.0, "shortSteps", shortSteps);
-  checkSlipRule(middleSteps > 0.0, "middleSteps", middleSteps);
-  checkSlipRule(longReferences > 0.0, "longReferences", longReferences);
-  checkSlipRule(accumulatedThreshold > 0.0, "accumulatedThreshold", accumulatedThreshold);
-  checkSlipRule(certainScore >= 0.0 && certainScore <= 1.0, "certainScore", certainScore);
+  constexpr OptionCheck check{"SlipRuleOptions"};
+  check(stepTaxels > 0.0, "stepTaxels", stepTaxels);
+  check(referenceTaxels > 0.0, "referenceTaxels", referenceTaxels);
+  check(rotationDeg > 0.0, "rotationDeg", rotationDeg);
+  check(shortSteps > 0.0, "shortSteps", shortSteps);
+  check(middleSteps > 0.0, "middleSteps", middleSteps);
+  check(longReferences > 0.0, "longReferences", longReferences);
+  check(accumulatedThreshold > 0.0, "accumulatedThreshold", accumulatedThreshold);
+  check(certainScore >= 0.0 && certainScore <= 1.0, "certainScore", certainScore);
   sequence.validate();
-  for (const double value : allowancePerLogRise)
-    checkSlipRule(value >= 0.0, "allowancePerLogRise", value);
-  checkSlipRule(allowancePerJointDeg >= 0.0, "allowancePerJointDeg", allowancePerJointDeg);
-  checkSlipRule(rotationAllowancePerLogChange >= 0.0,
-                "rotationAllowancePerLogChange",
-                rotationAllowancePerLogChange);
-  checkSlipRule(maxShiftRatio >= 1.0, "maxShiftRatio", maxShiftRatio);
+  for (const double value : allowancePerLogRise) check(value >= 0.0, "allowancePerLogRise", value);
+  check(allowancePerJointDeg >= 0.0, "allowancePerJointDeg", allowancePerJointDeg);
+  check(rotationAllowancePerLogChange >= 0.0,
+        "rotationAllowancePerLogChange",
+        rotationAllowancePerLogChange);
+  check(maxShiftRatio >= 1.0, "maxShiftRatio", maxShiftRatio);
 }
 
 SlipRule::SlipRule(const SlipRuleOptions& options)

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
+#include "palpate/core/option_check.h"
 #include "palpate/slip/slip_rule.h"
 
 namespace palpate {
@@ -17,12 +16,6 @@ constexpr double kMostResidual = 200.0;
 constexpr double kYoungFrames = 4.0;
 constexpr double kSettlingFrames = 12.0;
 
-void checkSlipSequence(bool good, const char* field, double value) {
-  if (!good)
-    throw std::invalid_argument(std::string("SlipSequenceOptions: ") + field + " is " +
-                                std::to_string(value));
-}
-
 double slipSequenceShift(const WindowEvidence& window) {
   return std::hypot(window.centroidX, window.centroidY);
 }
@@ -34,11 +27,12 @@ double logResidual(double residual) { return std::log1p(std::min(residual, kMost
 }  // namespace
 
 void SlipSequenceOptions::validate() const {
-  checkSlipSequence(std::isfinite(bias), "bias", bias);
-  for (const double weight : weights) checkSlipSequence(std::isfinite(weight), "weights", weight);
-  checkSlipSequence(memory >= 0.0 && memory <= 1.0, "memory", memory);
-  checkSlipSequence(mostPerFrame > 0.0, "mostPerFrame", mostPerFrame);
-  checkSlipSequence(threshold > 0.0, "threshold", threshold);
+  constexpr OptionCheck check{"SlipSequenceOptions"};
+  check(std::isfinite(bias), "bias", bias);
+  for (const double weight : weights) check(std::isfinite(weight), "weights", weight);
+  check(memory >= 0.0 && memory <= 1.0, "memory", memory);
+  check(mostPerFrame > 0.0, "mostPerFrame", mostPerFrame);
+  check(threshold > 0.0, "threshold", threshold);
 }
 
 SlipFeatures slipFeatures(const SlipEvidence& evidence, double scale, double allowancePerJointDeg) {

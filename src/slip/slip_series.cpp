@@ -21,7 +21,7 @@ SlipDetectorOptions detectorOptions(const SlipSeriesOptions& options) {
   SlipDetectorOptions detector;
   detector.method = options.method;
   detector.reference = options.referenceFrame ? SlipReference::kGiven : options.reference;
-  detector.hypothesisAlarm = options.method == SlipMethod::kHypotheses;
+  detector.hypothesisAlarm = options.method == SlipMethod::kContest;
   detector.rule.stepTaxels = options.stepTaxels;
   detector.rule.referenceTaxels = options.referenceTaxels;
   detector.rule.rotationDeg = options.rotationDeg;

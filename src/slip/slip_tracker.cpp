@@ -29,7 +29,7 @@ std::unique_ptr<TranslationMethod> makeMethod(const MatrixLayout& layout,
       return makePhaseMethod(layout, options, true);
     case SlipMethod::kRegister:
       return makeRegisterMethod(layout, options);
-    case SlipMethod::kHypotheses:
+    case SlipMethod::kContest:
       break;
   }
   throw std::invalid_argument("SlipTracker: method is " + std::string(nameOf(options.method)));
@@ -38,7 +38,7 @@ std::unique_ptr<TranslationMethod> makeMethod(const MatrixLayout& layout,
 }  // namespace
 
 void SlipTrackerOptions::validate() const {
-  if (method == SlipMethod::kHypotheses)
+  if (method == SlipMethod::kContest)
     throw std::invalid_argument("SlipTrackerOptions: method is contest");
   if (!(saturationCounts > 0.0))
     throw std::invalid_argument("SlipTrackerOptions: saturationCounts is " +

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <string>
+
+#include "palpate/core/option_check.h"
 
 namespace palpate {
 namespace {
@@ -13,12 +14,6 @@ constexpr std::size_t kRing = kWindowFrames.back() + 2;
 // Shift of the centroid [taxels] above which a second start value is worth the computing time.
 constexpr double kLongWay = 0.5;
 
-void checkSlipWindows(bool good, const char* field, double value) {
-  if (!good)
-    throw std::invalid_argument(std::string("SlipWindowsOptions: ") + field + " is " +
-                                std::to_string(value));
-}
-
 std::size_t recentFrames(std::size_t numKept) {
   return std::min(kWindowFrames[kShortWindow], numKept - 1);
 }
@@ -26,10 +21,11 @@ std::size_t recentFrames(std::size_t numKept) {
 }  // namespace
 
 void SlipWindowsOptions::validate() const {
+  constexpr OptionCheck check{"SlipWindowsOptions"};
   hypotheses.validate();
-  checkSlipWindows(minActiveTaxels >= 2, "minActiveTaxels", minActiveTaxels);
-  checkSlipWindows(minCounts >= 0.0, "minCounts", minCounts);
-  checkSlipWindows(keepUs >= 0, "keepUs", static_cast<double>(keepUs));
+  check(minActiveTaxels >= 2, "minActiveTaxels", minActiveTaxels);
+  check(minCounts >= 0.0, "minCounts", minCounts);
+  check(keepUs >= 0, "keepUs", static_cast<double>(keepUs));
 }
 
 SlipWindows::SlipWindows(const MatrixLayout& layout, const SlipWindowsOptions& options)

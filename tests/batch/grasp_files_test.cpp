@@ -101,9 +101,9 @@ TEST(GraspFiles, HoldTheAnglesAndTemperaturesOfAllTheirFrames) {
   saveGrasps(folder / "whole.palpate", profile, {}, grasps, paths);
   for (const char* text : {"angle1", "temperature0"}) {
     const Formula formula(text);
-    const Series whole = derivedSeries(profile, formula, 0.0, 100.0);
+    const Series whole = formulaSeries(profile, formula, 0.0, 100.0);
     for (std::size_t i = 0; i < grasps.size(); ++i) {
-      const Series part = derivedSeries(openRecording(paths[i]), formula, 0.0, 100.0);
+      const Series part = formulaSeries(openRecording(paths[i]), formula, 0.0, 100.0);
       ASSERT_EQ(part.values.size(), grasps[i].end - grasps[i].begin + 1);
       for (std::size_t k = 0; k < part.values.size(); ++k) {
         const double expected = whole.values.at(grasps[i].begin + k);

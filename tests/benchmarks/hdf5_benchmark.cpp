@@ -8,7 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "palpate/interop/derived_series.h"
+#include "palpate/batch/derived_series.h"
 #include "palpate/recording/hdf5_recording.h"
 #include "palpate/recording/recording.h"
 

@@ -20,8 +20,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "palpate/batch/derived_series.h"
 #include "palpate/device/sdh2.h"
-#include "palpate/interop/derived_series.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/recording.h"

@@ -79,7 +79,7 @@ void detectorOfAMatrix(benchmark::State& state, SlipMethod method) {
   }
 }
 BENCHMARK_CAPTURE(detectorOfAMatrix, alarm, SlipMethod::kCentroid)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(detectorOfAMatrix, alarm_and_reading, SlipMethod::kHypotheses)
+BENCHMARK_CAPTURE(detectorOfAMatrix, alarm_and_reading, SlipMethod::kContest)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

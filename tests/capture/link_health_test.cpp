@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "palpate/device/sdh2.h"
-#include "palpate/model/hand_description.h"
+#include "palpate/device/dsa_frame.h"
 
 #include "testing/testing.h"
 
@@ -86,7 +85,7 @@ TEST(LinkMonitor, lowIsMeasuredByTheExpectedRateAndLasts) {
 TEST(LinkMonitor, lowStaysLowHoweverLongItLasts) {
   // As with thresholds of 0: 17.3 frames/s for ten minutes, from a hand that could deliver 31.7.
   LinkMonitor meter;
-  meter.expect(scanRateHz(456));
+  meter.expect(dsaScanRateHz(456));
   std::int64_t monoUs = 0;
   for (int i = 0; i < 10'000; ++i) meter.frame(monoUs += 57'800, false, 330);
   const auto reading = meter.read(monoUs);
@@ -108,7 +107,7 @@ TEST(LinkMonitor, lowStaysLowHoweverLongItLasts) {
 
 TEST(LinkMonitor, fewFramesOfALineThatHasRoomAreAnotherTrouble) {
   LinkMonitor meter;
-  meter.expect(scanRateHz(456));
+  meter.expect(dsaScanRateHz(456));
   std::int64_t monoUs = 0;
   for (int i = 0; i < 1000; ++i) meter.frame(monoUs += 57'800, false, 40);
   LinkInputs inputs = streaming();
@@ -117,27 +116,8 @@ TEST(LinkMonitor, fewFramesOfALineThatHasRoomAreAnotherTrouble) {
   ASSERT_EQ(kindsOf(health), std::vector{AlarmKind::kLowRate});
   EXPECT_NE(health.alarms[0].text.find("late or not at all"), std::string::npos);
   // Masks change the expected rate, so the duration of the low rate starts again.
-  meter.expect(scanRateHz(2));
+  meter.expect(dsaScanRateHz(2));
   EXPECT_EQ(meter.read(monoUs).lowRateS, 0.0);
-}
-
-// Protocol document, 1.6.1 (real hand): 31.7 frames/s with all taxels, 55 to 58 with one matrix of
-// 78, 76 with two taxels.
-TEST(LinkMonitor, knowsWhatAHandGivesBySettings) {
-  EXPECT_NEAR(scanRateHz(456), 31.7, 0.05);
-  EXPECT_GT(scanRateHz(68), 55.0);
-  EXPECT_LT(scanRateHz(68), 58.0);
-  EXPECT_NEAR(scanRateHz(2), 76.0, 0.5);
-  EXPECT_EQ(scanRateHz(0), scanRateHz(2));
-  EXPECT_EQ(scanRateHz(1000), scanRateHz(456));
-  for (std::size_t n = 3; n <= 456; ++n) EXPECT_LT(scanRateHz(n), scanRateHz(n - 1)) << n;
-  // Section 3.1: packets of 79 bytes (nothing touched) 146 frames/s, of 985 bytes (486 runs) 11.7.
-  EXPECT_NEAR(lineRateHz(33), 146.0, 0.5);
-  EXPECT_NEAR(lineRateHz(486), 11.7, 0.05);
-  TactileFrame frame(sdh2().layout);
-  EXPECT_EQ(runsOf(frame), 33u);  // 486 zeros in runs of 15
-  for (std::size_t i = 0; i < frame.values.size(); ++i) frame.values[i] = static_cast<float>(i);
-  EXPECT_EQ(runsOf(frame), 486u);
 }
 
 TEST(LinkMonitor, staysBoundedAtAnyRate) {

@@ -63,7 +63,7 @@ class ScriptedDevice : public Device {
 
   ScriptedDevice() { state.tactile.port = "/dev/scripted"; }
   HandDescription hand() const override { return sdh2(); }
-  DeviceInfo facts() const override { return says; }
+  DeviceInfo info() const override { return says; }
   void start(DeviceSink& to) override {
     sink = &to;
     state.tactile.state = PortState::kStreaming;

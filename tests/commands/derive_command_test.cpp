@@ -33,8 +33,8 @@ TEST_F(DeriveCommandTest, PrintsAColumnForEachFormula) {
   std::string line;
   std::getline(lines, line);
   EXPECT_EQ(line, "frame,time_s,double,rate");
-  const Series twice = derivedSeries(profile_, Formula("2*hand_sum"), 0.0, 7.0);
-  const Series rate = derivedSeries(profile_, Formula("der(m1_mean)"), 0.0, 7.0);
+  const Series twice = formulaSeries(profile_, Formula("2*hand_sum"), 0.0, 7.0);
+  const Series rate = formulaSeries(profile_, Formula("der(m1_mean)"), 0.0, 7.0);
   std::size_t frame = 0;
   for (; std::getline(lines, line); ++frame) {
     std::vector<double> cells;

@@ -181,7 +181,7 @@ TEST(SensitivityControl, OnTheEmulatedHand) {
   control.beginHighSensitivity(evenNoise(0.3, 40.0, 2.0));
   const auto set = [&] {
     control.step();
-    const TactileSettings now = bench.session->device().facts().matrices;
+    const TactileSettings now = bench.session->device().info().matrices;
     return !now.empty() && now[0].sensitivity == 1.0 && now[0].thresholdCounts < 100 &&
            !control.status().setting;
   };
@@ -189,7 +189,7 @@ TEST(SensitivityControl, OnTheEmulatedHand) {
   control.reset();
   const auto back = [&] {
     control.step();
-    const TactileSettings now = bench.session->device().facts().matrices;
+    const TactileSettings now = bench.session->device().info().matrices;
     return now[0].sensitivity == 0.5 && now[0].thresholdCounts == 150 &&
            now[1].thresholdCounts == 300;
   };

@@ -115,7 +115,7 @@ TEST_F(DsaControllerTest, AnswersArriveWhileFramesStream) {
   EXPECT_EQ(hand.thresholds[2], 77u);
   EXPECT_FALSE(hand.setWhileStreaming);
   EXPECT_TRUE(hand.streaming);
-  EXPECT_EQ(controller.facts().matrices[2].thresholdCounts, 77);
+  EXPECT_EQ(controller.info().matrices[2].thresholdCounts, 77);
   EXPECT_GE(frames.size(), 30u) << "frames under way are not lost";
 }
 
@@ -141,8 +141,8 @@ TEST_F(DsaControllerTest, PersistentSettingsAreNotWaitedFor) {
   controller.setThreshold(1, 200, true);
   controller.setSensitivity(1, 0.25, true);
   EXPECT_LT(clock.nowUs - before, 100'000);
-  EXPECT_EQ(controller.facts().matrices[1].thresholdCounts, 200);
-  EXPECT_EQ(controller.facts().matrices[1].sensitivity, 0.25);
+  EXPECT_EQ(controller.info().matrices[1].thresholdCounts, 200);
+  EXPECT_EQ(controller.info().matrices[1].sensitivity, 0.25);
 }
 
 TEST_F(DsaControllerTest, NothingIsSentForAWrongValue) {
@@ -166,7 +166,7 @@ TEST_F(DsaControllerTest, MasksAreSetAndReadBack) {
       chequer[static_cast<std::size_t>(y * 6 + x)] = (x + y) % 2 == 1 ? 1 : 0;
   controller.setDynamicMask(0, chequer);
   EXPECT_EQ(hand.dynamicMasks[0], bytesOf("6A A5 56 6A A5 56 6A A5 56 6A 05"));
-  EXPECT_EQ(controller.facts().matrices[0].layout.dynamicMask, chequer);
+  EXPECT_EQ(controller.info().matrices[0].layout.dynamicMask, chequer);
 }
 
 // The layout of a recording must not depend on one damaged answer while connecting.
@@ -201,7 +201,7 @@ TEST_F(DsaControllerTest, ALostAnswerIsAskedForAgain) {
   controller.open();
   hand.swallow = 1;
   controller.setThreshold(5, 123);
-  EXPECT_EQ(controller.facts().matrices[5].thresholdCounts, 123);
+  EXPECT_EQ(controller.info().matrices[5].thresholdCounts, 123);
   EXPECT_EQ(controller.stats().retries, 1u);
   hand.swallow = 1000;
   const std::int64_t before = clock.nowUs;

@@ -49,6 +49,25 @@ TEST(DsaFrame, RawAndRunLengthGiveTheSame) {
   }
 }
 
+// Protocol document, 1.6.1 (real hand): 31.7 frames/s with all taxels, 55 to 58 with one matrix of
+// 78, 76 with two taxels.
+TEST(DsaFrame, RatesAreThoseOfAHandBySettings) {
+  EXPECT_NEAR(dsaScanRateHz(456), 31.7, 0.05);
+  EXPECT_GT(dsaScanRateHz(68), 55.0);
+  EXPECT_LT(dsaScanRateHz(68), 58.0);
+  EXPECT_NEAR(dsaScanRateHz(2), 76.0, 0.5);
+  EXPECT_EQ(dsaScanRateHz(0), dsaScanRateHz(2));
+  EXPECT_EQ(dsaScanRateHz(1000), dsaScanRateHz(456));
+  for (std::size_t n = 3; n <= 456; ++n) EXPECT_LT(dsaScanRateHz(n), dsaScanRateHz(n - 1)) << n;
+  // Section 3.1: packets of 79 bytes (nothing touched) 146 frames/s, of 985 bytes (486 runs) 11.7.
+  EXPECT_NEAR(dsaLineRateHz(33), 146.0, 0.5);
+  EXPECT_NEAR(dsaLineRateHz(486), 11.7, 0.05);
+  TactileFrame frame(sdh2().layout);
+  EXPECT_EQ(dsaRunsOf(frame), 33u);  // 486 zeros in runs of 15
+  for (std::size_t i = 0; i < frame.values.size(); ++i) frame.values[i] = static_cast<float>(i);
+  EXPECT_EQ(dsaRunsOf(frame), 486u);
+}
+
 TEST(DsaFrame, WhatIsNoFrameIsRefused) {
   std::vector<float> counts;
   const std::vector<unsigned> zero(486, 0);

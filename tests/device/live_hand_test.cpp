@@ -57,8 +57,8 @@ TEST_F(LiveHandTest, DeliversFramesInOrderWithTheirStamps) {
     EXPECT_GT(*frames[i].deviceUs, *frames[i - 1].deviceUs);
     EXPECT_EQ(frames[i].values.size(), 486u);
   }
-  EXPECT_EQ(hand.facts().serial, "1D9B0057");
-  EXPECT_EQ(hand.facts().firmware, "2.9.0.0");
+  EXPECT_EQ(hand.info().serial, "1D9B0057");
+  EXPECT_EQ(hand.info().firmware, "2.9.0.0");
   EXPECT_EQ(hand.hand().layout->numTaxels(), 456u);
   EXPECT_EQ(hand.status().tactile.items, frames.size());
   EXPECT_EQ(hand.status().tactile.lost, 0u);
@@ -82,8 +82,8 @@ TEST_F(LiveHandTest, ASettingPausesTheStreamAndLeavesAnEvent) {
   hand.submit(SetThreshold{2, 77}).get();
   EXPECT_EQ(controls.threshold2, 77u);
   EXPECT_FALSE(controls.setWhileStreaming);
-  EXPECT_EQ(hand.facts().matrices[2].thresholdCounts, 77);
-  EXPECT_EQ(hand.facts().matrices[3].thresholdCounts, 300);
+  EXPECT_EQ(hand.info().matrices[2].thresholdCounts, 77);
+  EXPECT_EQ(hand.info().matrices[3].thresholdCounts, 300);
   const std::size_t frames = sink.numFrames();
   ASSERT_TRUE(sink.awaitFrames(frames + 5)) << "the stream goes on";
   hand.stop();
@@ -101,7 +101,7 @@ TEST_F(LiveHandTest, SettingsInARowAreAllCarriedOut) {
     answers.push_back(hand.submit(SetThreshold{matrix, 60 + matrix}));
   for (auto& answer : answers) EXPECT_NO_THROW(answer.get());
   for (std::size_t m = 0; m < 6; ++m)
-    EXPECT_EQ(hand.facts().matrices[m].thresholdCounts, 60 + static_cast<int>(m));
+    EXPECT_EQ(hand.info().matrices[m].thresholdCounts, 60 + static_cast<int>(m));
 }
 
 TEST_F(LiveHandTest, AMaskChangesTheHandItDelivers) {

@@ -57,7 +57,7 @@ void recordAndCompare(const std::string& sender, float offset, const std::string
   EXPECT_EQ(program.wait(), 0) << program.err();
   ASSERT_TRUE(awaited([&] { return !session.recording(); })) << device.status().tactile.message;
   const PortStatus status = device.status().tactile;
-  EXPECT_EQ(device.facts().serial, serial);
+  EXPECT_EQ(device.info().serial, serial);
   session.stop();
   const RecordingReport report = session.stopRecording();
   EXPECT_TRUE(report.complete) << report.message;

@@ -250,7 +250,7 @@ TEST(EmulatedStream, RestsWhileNobodyIsConnectedAndGoesOnWithTheNextClient) {
     device.start(sink);
     ASSERT_TRUE(sink.awaitFrames(20));
     EXPECT_EQ(stream.counts().clients, client);
-    EXPECT_EQ(device.facts().firmware, "emulated");
+    EXPECT_EQ(device.info().firmware, "emulated");
     const std::int64_t firstUs = sink.takeFrames().front().deviceUs.value();
     EXPECT_TRUE(client == 1 ? firstUs == 0 : firstUs > 0);
     device.stop();

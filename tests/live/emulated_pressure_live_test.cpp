@@ -55,7 +55,7 @@ TEST(EmulatedPressureLive, AKnownPressureIsShownWithinItsBand) {
   bench.connect();
   auto stage = std::make_unique<PressureStage>(bench.session->device().hand(), [&] {
     std::vector<SensorSettings> settings;
-    for (const MatrixSettings& matrix : bench.session->device().facts().matrices)
+    for (const MatrixSettings& matrix : bench.session->device().info().matrices)
       settings.push_back({matrix.sensitivity, static_cast<double>(matrix.thresholdCounts), false});
     return settings;
   });

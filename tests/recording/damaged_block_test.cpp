@@ -4,8 +4,8 @@
 
 #include <sqlite3.h>
 
-#include "palpate/capture/playback.h"
 #include "palpate/core/error.h"
+#include "palpate/playback/playback.h"
 #include "palpate/recording/palpate_reader.h"
 #include "palpate/recording/palpate_schema.h"
 

@@ -41,6 +41,12 @@ TEST(Formula, NamesItsSignals) {
   EXPECT_EQ(Formula("42").names(), Names{});
 }
 
+TEST(Formula, PartsAtCommasOutsideOfBrackets) {
+  EXPECT_EQ(splitAtCommas("a, smooth(b, 3),c"),
+            (std::vector<std::string>{"a", " smooth(b, 3)", "c"}));
+  EXPECT_EQ(splitAtCommas(""), std::vector<std::string>{""});
+}
+
 // numpy 1.24: numpy.gradient([1, 4, 9, 7, 7.5], [0, 1, 1.5, 3, 3.2]).
 TEST(Formula, DerivativesAreNumPys) {
   const std::vector<double> timeS = {0.0, 1.0, 1.5, 3.0, 3.2};
@@ -229,14 +235,14 @@ TEST(DerivedSeries, AreComputedAtTheFrames) {
   const Profile profile = synthesize({.durationS = 6.0, .grasps = 2});
   const Series sum = readSeries(
       profile, {.index = profile.layout().numMatrices(), .signal = SignalKind::kSum}, 0.0, 6.0);
-  const Series derived = derivedSeries(profile, Formula("2 * hand_sum - 1"), 0.0, 6.0);
+  const Series derived = formulaSeries(profile, Formula("2 * hand_sum - 1"), 0.0, 6.0);
   ASSERT_EQ(derived.timeS.size(), sum.timeS.size());
   for (std::size_t i = 0; i < sum.values.size(); ++i) {
     EXPECT_NEAR(derived.timeS[i], sum.timeS[i], 1e-9);
     EXPECT_EQ(derived.values[i], 2.0 * sum.values[i] - 1.0);
   }
   // An angle is interpolated between its samples.
-  const Series angle = derivedSeries(profile, Formula("angle1 + 0 * m1_mean"), 1.0, 2.0);
+  const Series angle = formulaSeries(profile, Formula("angle1 + 0 * m1_mean"), 1.0, 2.0);
   const Series recorded =
       readSeries(profile, {.kind = SeriesChoice::Kind::kAngle, .index = 1}, 0.0, 6.0);
   const auto [low, high] = std::minmax_element(recorded.values.begin(), recorded.values.end());
@@ -245,7 +251,7 @@ TEST(DerivedSeries, AreComputedAtTheFrames) {
     EXPECT_GE(value, *low);
     EXPECT_LE(value, *high);
   }
-  EXPECT_EQ(derivedSeries(profile, Formula("t"), 0.0, 6.0).values, derived.timeS);
+  EXPECT_EQ(formulaSeries(profile, Formula("t"), 0.0, 6.0).values, derived.timeS);
 }
 
 // Frames of a real hand are not evenly spaced, so the mean rate of a part is another one.
@@ -264,8 +270,8 @@ TEST(DerivedSeries, ValuesDoNotDependOnTheSpan) {
                            "der(lowpass(hand_sum, 4))",
                            "smooth(hand_sum, 9)",
                            "der(hand_max)"}) {
-    const Series whole = derivedSeries(profile, Formula(text), 0.0, 40.0);
-    const Series part = derivedSeries(profile, Formula(text), 12.0, 21.0);
+    const Series whole = formulaSeries(profile, Formula(text), 0.0, 40.0);
+    const Series part = formulaSeries(profile, Formula(text), 12.0, 21.0);
     const auto at = static_cast<std::size_t>(
         std::lower_bound(whole.timeS.begin(), whole.timeS.end(), 12.0) - whole.timeS.begin());
     ASSERT_GT(part.values.size(), 100u);
@@ -286,34 +292,34 @@ TEST(DerivedSeries, LongWindowsDoNotDependOnTheSpan) {
                      std::vector<float>{static_cast<float>(i < kFrames / 2 ? 1 : 101)});
   const Profile profile = builder.finish({});
   for (const char* text : {"smooth(m0_sum, 50001)", "median(m0_sum, 50001)"}) {
-    const Series whole = derivedSeries(profile, Formula(text), 0.0, 600.0);
-    const Series part = derivedSeries(profile, Formula(text), 50.0, 51.0);
+    const Series whole = formulaSeries(profile, Formula(text), 0.0, 600.0);
+    const Series part = formulaSeries(profile, Formula(text), 50.0, 51.0);
     ASSERT_EQ(part.values.size(), 101u);
     for (std::size_t i = 0; i < part.values.size(); ++i)
       ASSERT_EQ(part.values[i], whole.values[5000 + i]) << text << " at " << part.timeS[i];
   }
   // By hand: frame 5000 has 5000 + 1 + 25,000 neighbours, of which one is 101.
   EXPECT_DOUBLE_EQ(
-      derivedSeries(profile, Formula("smooth(m0_sum, 50001)"), 50.0, 50.0).values.at(0),
+      formulaSeries(profile, Formula("smooth(m0_sum, 50001)"), 50.0, 50.0).values.at(0),
       (30'000.0 + 101.0) / 30'001.0);
 }
 
 TEST(DerivedSeries, RefusesWhatTheHandLacks) {
   const Profile profile = synthesize({.durationS = 1.0, .grasps = 1});
   for (const char* text : {"m9_mean", "angle77", "thumb"})
-    EXPECT_THROW(derivedSeries(profile, Formula(text), 0.0, 1.0), std::invalid_argument) << text;
+    EXPECT_THROW(formulaSeries(profile, Formula(text), 0.0, 1.0), std::invalid_argument) << text;
 }
 
 TEST(DerivedSeries, HasNoValueWhereASignalCannotBeRead) {
   const Profile whole = synthesize({.durationS = 20.0, .grasps = 2, .noiseCounts = 5.0});
   const Profile damaged = testing::withDamage(whole, 200, 279);
   const Formula formula("hand_sum + 2 * m1_max");
-  EXPECT_THROW(derivedSeries(damaged, formula, 0.0, 20.0), FormatError);
+  EXPECT_THROW(formulaSeries(damaged, formula, 0.0, 20.0), FormatError);
   UnreadableSamples unreadable;
-  const Series series = derivedSeries(damaged, formula, 0.0, 20.0, {}, &unreadable);
+  const Series series = formulaSeries(damaged, formula, 0.0, 20.0, {}, &unreadable);
   EXPECT_EQ(unreadable.count, 80u);
   EXPECT_EQ(unreadable.runs, (std::vector<UnreadableSamples::Run>{{200, 279}}));
-  const Series expected = derivedSeries(whole, formula, 0.0, 20.0);
+  const Series expected = formulaSeries(whole, formula, 0.0, 20.0);
   ASSERT_EQ(series.values.size(), expected.values.size());
   for (std::size_t i = 0; i < series.values.size(); ++i)
     if (i >= 200 && i <= 279) {

@@ -16,7 +16,7 @@ TEST(SlipMethod, IsCalledAsInTheCommands) {
   EXPECT_EQ(slipMethodNamed("phase"), SlipMethod::kPhase);
   EXPECT_EQ(slipMethodNamed("phase-normalized"), SlipMethod::kPhaseNormalized);
   EXPECT_EQ(slipMethodNamed("register"), SlipMethod::kRegister);
-  EXPECT_EQ(slipMethodNamed("contest"), SlipMethod::kHypotheses);
+  EXPECT_EQ(slipMethodNamed("contest"), SlipMethod::kContest);
   EXPECT_EQ(slipMethodNamed("Centroid"), std::nullopt);
   EXPECT_EQ(slipMethodNamed(""), std::nullopt);
 }

@@ -14,7 +14,7 @@ using testing::viewOf;
 
 std::vector<SlipMethod> methods() {
   std::vector<SlipMethod> all(slipMethods().begin(), slipMethods().end());
-  std::erase(all, SlipMethod::kHypotheses);
+  std::erase(all, SlipMethod::kContest);
   return all;
 }
 
@@ -237,7 +237,7 @@ TEST(SlipTracker, TakesNoMemoryPerFrame) {
 
 TEST(SlipTracker, RefusesWhatItCantDo) {
   SlipTrackerOptions options;
-  options.method = SlipMethod::kHypotheses;
+  options.method = SlipMethod::kContest;
   EXPECT_THROW(SlipTracker(MatrixLayout::full(2, 2, 3.4), options), std::invalid_argument);
   options = {};
   options.maxStepTaxels = 0;

@@ -18,6 +18,7 @@
 #include "palpate/signals/average_curve.h"
 #include "palpate/signals/characteristic_signals.h"
 #include "palpate/signals/curve_comparison.h"
+#include "palpate/signals/formula.h"
 #include "palpate/signals/frame_difference.h"
 
 #include "commands/command_line.h"
@@ -127,7 +128,7 @@ AverageOptions averageOptionsOf(const CommandLine& given) {
   if (given.choice("band", {"sd", "percentiles"}).value_or("sd") == "percentiles")
     options.band = AverageBand::kPercentiles;
   if (const auto text = given.text("percentiles")) {
-    const std::vector<std::string> parts = splitSignals(*text);
+    const std::vector<std::string> parts = splitAtCommas(*text);
     const auto low = parseDouble(parts.front()), high = parseDouble(parts.back());
     if (parts.size() != 2 || !low || !high || !(*low >= 0.0 && *low < *high && *high <= 100.0))
       throw UsageError("--percentiles needs two numbers LOW,HIGH from 0 to 100, as 10,90; is \"" +

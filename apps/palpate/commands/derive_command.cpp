@@ -83,7 +83,7 @@ int deriveCommand(const Arguments& words) {
   for (const NamedFormula& one : formulas) {
     line.setLabel("computing " + one.name);
     try {
-      curves.push_back(derivedSeries(profile,
+      curves.push_back(formulaSeries(profile,
                                      one.formula,
                                      0.0,
                                      static_cast<double>(profile.durationUs()) / 1e6 + 1.0,

@@ -18,7 +18,7 @@ const char* nameOf(StreamKind kind) { return kind == StreamKind::kSignals ? "sig
 
 std::vector<SensorSettings> settingsOf(const CaptureSession& session) {
   std::vector<SensorSettings> settings;
-  for (const MatrixSettings& matrix : session.device().facts().matrices)
+  for (const MatrixSettings& matrix : session.device().info().matrices)
     settings.push_back({matrix.sensitivity, static_cast<double>(matrix.thresholdCounts), false});
   return settings;
 }

@@ -95,27 +95,13 @@ Series typedSeries(const Profile& profile,
                    const std::string& file,
                    const Progress& progress) {
   try {
-    if (signal.formula) return derivedSeries(profile, *signal.formula, fromS, toS, progress);
+    if (signal.formula) return formulaSeries(profile, *signal.formula, fromS, toS, progress);
   } catch (const std::invalid_argument& error) {
     throw Error(file + ": " + error.what());
   }
   if (!hasSeries(profile, *signal.choice))
     throw Error(file + ": has no " + nameOf(*signal.choice, profile.layout()));
   return readSeries(profile, *signal.choice, fromS, toS, progress);
-}
-
-std::vector<std::string> splitSignals(const std::string& text) {
-  std::vector<std::string> parts(1);
-  int depth = 0;
-  for (const char letter : text) {
-    if (letter == '(') ++depth;
-    if (letter == ')') --depth;
-    if (letter == ',' && depth == 0)
-      parts.emplace_back();
-    else
-      parts.back() += letter;
-  }
-  return parts;
 }
 
 }  // namespace palpate::commands

@@ -44,7 +44,4 @@ Series typedSeries(const Profile& profile,
                    const std::string& file,
                    const Progress& progress);
 
-// Parts "A,B" at its commas outside of brackets.
-std::vector<std::string> splitSignals(const std::string& text);
-
 }  // namespace palpate::commands

@@ -14,6 +14,7 @@
 #include "palpate/recording/recording.h"
 #include "palpate/signals/coherence.h"
 #include "palpate/signals/curve_comparison.h"
+#include "palpate/signals/formula.h"
 #include "palpate/signals/profile_series.h"
 #include "palpate/signals/resampled_series.h"
 #include "palpate/signals/signal_name.h"
@@ -59,7 +60,7 @@ TypedSignal choiceOf(const CommandLine& given, const SensorLayout& layout) {
 std::pair<TypedSignal, TypedSignal> coherenceChoices(const CommandLine& given,
                                                      const SensorLayout& layout) {
   const std::string text = *given.text("coherence");
-  const std::vector<std::string> parts = splitSignals(text);
+  const std::vector<std::string> parts = splitAtCommas(text);
   if (parts.size() != 2)
     throw UsageError(
         "--coherence needs two signals A,B, as m1_mean,m3_mean or m5_x2_y9,m5_x3_y9; is \"" + text +

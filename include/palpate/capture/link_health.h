@@ -15,7 +15,6 @@
 #include <palpate/capture/recorder.h>
 #include <palpate/device/device.h>
 #include <palpate/model/hand_state.h>
-#include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 
@@ -36,16 +35,6 @@ struct HealthOptions {
   // Recorded hands reached 61 [deg C].
   double maxTemperatureDegC = 65.0;
 };
-
-// Frames per second that a DSACON32-M scans, as a function of the number of enabled taxels.
-// Measured on a real hand (recordings of 2014): 2 taxels 13.2 ms, a matrix of 78 places 17.7 ms,
-// all taxels of an SDH-2 31.55 ms; linear in between.
-double scanRateHz(std::size_t enabledTaxels);
-// Frames per second that 115200 baud can carry, for frames with this number of runs of equal counts
-// (a run has at most 15 taxels): 13 bytes per packet and 2 per run, 10 bits per byte.
-double lineRateHz(double runs);
-// Number of runs in a frame as the controller codes it.
-std::size_t runsOf(const TactileFrame& frame);
 
 // Measures rates and saturation of the received frames by their arrival times. Thread-safe.
 class LinkMonitor {
@@ -71,7 +60,7 @@ class LinkMonitor {
 
   // Sets the rate of the device at its present settings [Hz]; empty: not known.
   void expect(std::optional<double> rateHz);
-  // monoUs: monotonic time of arrival [us], never decreasing; runs: number from runsOf(), 0: not
+  // monoUs: monotonic time of arrival [us], never decreasing; runs: number from dsaRunsOf(), 0: not
   // known.
   void frame(std::int64_t monoUs, bool saturated, std::size_t runs = 0);
   Reading read(std::int64_t monoUs) const;

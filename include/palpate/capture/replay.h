@@ -39,7 +39,7 @@ class Replay : public Device {
   Replay& operator=(const Replay&) = delete;
 
   HandDescription hand() const override;
-  DeviceInfo facts() const override;
+  DeviceInfo info() const override;
   // Starts at the beginning. A sample that can't be read (the file is damaged) is counted as lost
   // and skipped; the first such sample causes an event "alarm". At the end comes an event "link".
   // Any other exception in the delivering thread, also one of the sink, ends the replay with an

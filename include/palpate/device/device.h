@@ -181,7 +181,7 @@ class Device {
   virtual ~Device() = default;  // stops the device
   // The hand whose frames are delivered. Changes only by a mask command or a reconnection.
   virtual HandDescription hand() const = 0;
-  virtual DeviceInfo facts() const = 0;
+  virtual DeviceInfo info() const = 0;
   // Starts delivering to `sink`, which must stay valid until stop() returns. Throws
   // std::logic_error when already started. A port that can't be opened causes no exception here:
   // the device looks for it until stop(), and status() reports it.

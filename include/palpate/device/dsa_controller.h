@@ -103,7 +103,7 @@ class DsaController {
   // answers: ports swapped), kRefused (error code, with its meaning), kProtocol, kUnsupported
   // (firmware too old), kDisconnected.
   const DsaControllerInfo& open();
-  const DsaControllerInfo& facts() const noexcept { return facts_; }
+  const DsaControllerInfo& info() const noexcept { return info_; }
 
   // Push mode: frames arrive as fast as the controller scans; it ignores a requested rate.
   void startStream();
@@ -167,7 +167,7 @@ class DsaController {
   DsaPacketParser parser_;
   std::vector<std::byte> buffer_;
   std::deque<Answer> answers_;
-  DsaControllerInfo facts_;
+  DsaControllerInfo info_;
   bool streaming_ = false;
   bool paused_ = false;
   std::uint64_t framesTaken_ = 0;

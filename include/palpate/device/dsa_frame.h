@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <palpate/model/matrix_layout.h>
+#include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 
@@ -31,6 +32,16 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
                                        const SensorLayout& layout,
                                        bool checkMask,
                                        std::span<float> counts);
+
+// Frames per second that a DSACON32-M scans, as a function of the number of enabled taxels.
+// Measured on a real hand (recordings of 2014): 2 taxels 13.2 ms, a matrix of 78 places 17.7 ms,
+// all taxels of an SDH-2 31.55 ms; linear in between.
+double dsaScanRateHz(std::size_t enabledTaxels);
+// Frames per second that 115200 baud can carry, for frames with this number of runs of equal counts
+// (a run has at most 15 taxels): 13 bytes per packet and 2 per run, 10 bits per byte.
+double dsaLineRateHz(double runs);
+// Number of runs in a frame as the controller codes it.
+std::size_t dsaRunsOf(const TactileFrame& frame);
 
 // Unwraps the controller's 32-bit clock and holds back frames whose time stamp isn't plausible (not
 // later than the last one, or further ahead than the elapsed host time allows). Such a frame is

@@ -41,7 +41,7 @@ class LiveHand : public Device {
   LiveHand& operator=(const LiveHand&) = delete;
 
   HandDescription hand() const override;
-  DeviceInfo facts() const override;
+  DeviceInfo info() const override;
   void start(DeviceSink& sink) override;
   // Also stops a motion that this object began; the axes keep their power.
   void stop() noexcept override;

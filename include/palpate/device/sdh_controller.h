@@ -104,7 +104,7 @@ class SdhController {
   // the call in which it is exceeded throws. The limit begins with the first such answer; a single
   // one does not exceed it. For a hand that may be moving.
   void limitBadAnswers(std::chrono::milliseconds limit) noexcept;
-  const SdhControllerInfo& facts() const noexcept { return facts_; }
+  const SdhControllerInfo& info() const noexcept { return info_; }
   SdhStats stats() const noexcept;
 
   // Actual state of the axes.
@@ -190,7 +190,7 @@ class SdhController {
   Values checkedVelocities(const Values& degPerS) const;
 
   std::unique_ptr<SdhLink> link_;
-  SdhControllerInfo facts_;
+  SdhControllerInfo info_;
   // True when binary records are used for the commands that exist in both forms.
   bool binary_ = false;
 };

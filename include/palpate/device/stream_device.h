@@ -67,7 +67,7 @@ class StreamDevice : public Device {
 
   HandDescription hand() const override;
   // Serial number and firmware as far as the sender described itself.
-  DeviceInfo facts() const override;
+  DeviceInfo info() const override;
   void start(DeviceSink& sink) override;
   void stop() noexcept override;
   DeviceStatus status() const override;

@@ -25,6 +25,9 @@
 
 namespace palpate {
 
+// Parts a text at its commas outside of brackets; what is around them stays.
+std::vector<std::string> splitAtCommas(const std::string& text);
+
 // Slope of a series over time: central differences of second order for uneven stamps, one-sided
 // ones at the ends, as numpy.gradient(values, timeS). Intervals longer than `longestS` are gaps:
 // each side ends there. NaN for a single sample. Throws std::invalid_argument unless times ascend,
@@ -64,12 +67,12 @@ class Formula {
                                const Progress& progress = {}) const;
 
  private:
-  struct Derivative;
+  struct SeriesCall;
   std::string text_;
   // With der(..) and filters replaced by variables.
   std::string parsed_;
   std::vector<std::string> names_;
-  std::vector<Derivative> derivatives_;
+  std::vector<SeriesCall> calls_;
 };
 
 // Computes the formula at every frame of fromS..toS. Angles and temperatures are interpolated at
@@ -78,7 +81,7 @@ class Formula {
 // lacks, and as Formula; Cancelled; Error (a frame that can't be read). With `unreadable`, frames
 // at which a signal can't be read are added to it instead, and their values are NaN; slopes and
 // filters beside them are computed as if the signal ran straight from one side to the other.
-Series derivedSeries(const Profile& profile,
+Series formulaSeries(const Profile& profile,
                      const Formula& formula,
                      double fromS,
                      double toS,

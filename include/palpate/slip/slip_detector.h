@@ -35,7 +35,7 @@ enum class SlipReference {
 };
 
 struct SlipDetectorOptions {
-  SlipMethod method = SlipMethod::kHypotheses;
+  SlipMethod method = SlipMethod::kContest;
   SlipReference reference = SlipReference::kWhenAtRest;
   // Whether the alarm comes from the hypotheses (slip_rule.h); false: from plain thresholds.
   bool hypothesisAlarm = true;

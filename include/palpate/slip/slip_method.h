@@ -24,7 +24,7 @@ enum class SlipMethod {
   // Rigid registration to a key frame.
   kRegister,
   // Registration, compared with the hypothesis that only the load changed (slip_hypotheses.h).
-  kHypotheses,
+  kContest,
 };
 
 // All methods, in this order.

@@ -18,7 +18,7 @@
 namespace palpate {
 
 struct SlipSeriesOptions {
-  SlipMethod method = SlipMethod::kHypotheses;
+  SlipMethod method = SlipMethod::kContest;
   SlipReference reference = SlipReference::kWhenAtRest;
   // If given, this frame becomes the reference of every matrix, whatever `reference` is; before it
   // there is no motion since the reference.

@@ -21,7 +21,7 @@
 namespace palpate {
 
 struct SlipTrackerOptions {
-  // Any method but kHypotheses.
+  // Any method but kContest.
   SlipMethod method = SlipMethod::kCentroid;
   // Whether the first frame with contact becomes the reference; if false, there is none until
   // setReference().

@@ -341,8 +341,8 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   ASSERT_TRUE(await([&] { return isEnabled("saveSettings"); }));
   QTest::qWait(0);
   ask_.texts = {"soft / things"};
-  ASSERT_TRUE(await(
-      [&] { return bench_->session->device().facts().matrices.at(0).thresholdCounts == 42; }));
+  ASSERT_TRUE(
+      await([&] { return bench_->session->device().info().matrices.at(0).thresholdCounts == 42; }));
   click("saveSettings");
   auto* names = find<QComboBox>("savedSettings");
   EXPECT_EQ(names->currentText(), "soft / things");
@@ -868,7 +868,7 @@ TEST_F(HandDockTest, HighSensitivityNeedsNoiseLinesAndEndsByAHandOnTheValues) {
   SensitivityModes& modes = dock_->sensitivity();
   int on = 0, off = 0;
   QObject::connect(&modes, &SensitivityModes::highChanged, [&](bool is) { ++(is ? on : off); });
-  const auto settings = [&] { return bench_->session->device().facts().matrices; };
+  const auto settings = [&] { return bench_->session->device().info().matrices; };
   find<QToolButton>("sensitivityHigh")->click();
   EXPECT_EQ(modes.mode(), SensitivityMode::kManual);
   EXPECT_TRUE(find<QToolButton>("sensitivityManual")->isChecked());

@@ -45,7 +45,7 @@ class PlanWindowTest : public WindowTest {
     ASSERT_TRUE(QTest::qWaitFor(
         [&] {
           const LiveSource* source = window().state().live.source();
-          return source && !source->session->device().facts().serial.empty() &&
+          return source && !source->session->device().info().serial.empty() &&
                  window().state().displayed.isLive() && !window().state().live.stale();
         },
         20'000));

@@ -566,7 +566,7 @@ TEST_F(LiveWindowTest, TheWheelChangesNothingThatHasNoFocus) {
       turn(box, [box] { return box->currentIndex(); });
   }
   EXPECT_GT(tried, 40);
-  const auto settings = live().source()->session->device().facts().matrices;
+  const auto settings = live().source()->session->device().info().matrices;
   EXPECT_EQ(settings.at(1).thresholdCounts, 300);
 }
 

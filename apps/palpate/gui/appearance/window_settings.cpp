@@ -3,7 +3,7 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 
-#include <palpate/capture/playback.h>
+#include <palpate/playback/playback.h>
 
 #include "gui/appearance/settings_table.h"
 

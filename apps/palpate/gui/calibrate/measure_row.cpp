@@ -112,7 +112,7 @@ QString MeasureRow::obstacle() const {
       }))
     return "the hand moves: wait until it stands still";
   if (!setup_.needsThreshold0) return {};
-  const std::vector<MatrixSettings> matrices = device.facts().matrices;
+  const std::vector<MatrixSettings> matrices = device.info().matrices;
   const auto hides = [](const MatrixSettings& matrix) { return matrix.thresholdCounts > 0; };
   if (std::any_of(matrices.begin(), matrices.end(), hides))
     return "the thresholds hide the noise: set them to 0 in the dock Hand";
@@ -157,7 +157,7 @@ void MeasureRow::complete() {
                  counted(measurement_->numScanned(), "taxel") + " scanned";
   for (const std::string& warning : measurement_->warnings())
     text += ", " + QString::fromStdString(warning);
-  const DeviceInfo device = session_->device().facts();
+  const DeviceInfo device = session_->device().info();
   ProfileInfo info;
   info.serial = device.serial;
   info.firmware = device.firmware;

@@ -10,8 +10,8 @@
 #include <map>
 #include <optional>
 
-#include <palpate/capture/movie_timing.h>
 #include <palpate/core/file_series.h>
+#include <palpate/playback/movie_timing.h>
 
 #include "gui/picture/exported_view.h"
 #include "gui/picture/picture_export.h"

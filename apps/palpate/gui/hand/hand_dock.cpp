@@ -132,8 +132,8 @@ HandDock::HandDock(QSettings& settings, Ask& ask, const HandActions& actions, QW
   });
   grasp_->highestLimit = [this](const GraspRequest& request) {
     if (!session_) return kMaxGraspLimitCounts;
-    const DeviceInfo facts = session_->device().facts();
-    return highestMeasurableLimit(session_->device().hand(), facts.matrices, request);
+    const DeviceInfo info = session_->device().info();
+    return highestMeasurableLimit(session_->device().hand(), info.matrices, request);
   };
   timer_.setInterval(kHandDockRefreshMs);
   connect(&timer_, &QTimer::timeout, this, &HandDock::refresh);
@@ -376,11 +376,11 @@ void HandDock::refresh() {
   grasp_->showStatus(offered);
   joint_->showStatus(offered, status.phase);
   sensitivity_->refresh();
-  const DeviceInfo facts = session_ ? session_->device().facts() : DeviceInfo{};
-  showUnmeasurable(facts.matrices);
+  const DeviceInfo info = session_ ? session_->device().info() : DeviceInfo{};
+  showUnmeasurable(info.matrices);
   followScene(status);
-  followRefusal(status, facts.matrices);
-  tactile_->refresh(status, facts);
+  followRefusal(status, info.matrices);
+  tactile_->refresh(status, info);
   showSamples();
   const bool gone = control_ && !status.cannotMove.empty();
   if (gone) goneUs_ = session_->nowUs();

@@ -170,7 +170,7 @@ void TactileSettingsPanel::makeButtons() {
     if (names_->findText(name, Qt::MatchExactly | Qt::MatchCaseSensitive) > 0 &&
         !ask_.confirmed("Replace the settings \"" + name + "\" by the present ones?", "Replace"))
       return;
-    saved().save(name, session_->device().facts().matrices);
+    saved().save(name, session_->device().info().matrices);
     listNames();
     names_->setCurrentText(name);
   });
@@ -192,11 +192,11 @@ void TactileSettingsPanel::setHand(CaptureSession* session, GraspControl* contro
   listedFor_ = QString();
   listNames();
   refresh(control ? control->status() : GraspStatus{},
-          session ? session->device().facts() : DeviceInfo{});
+          session ? session->device().info() : DeviceInfo{});
 }
 
 QString TactileSettingsPanel::serial() const {
-  return session_ ? QString::fromStdString(session_->device().facts().serial) : QString();
+  return session_ ? QString::fromStdString(session_->device().info().serial) : QString();
 }
 
 NamedItems<TactileSettings> TactileSettingsPanel::saved() const {
@@ -228,7 +228,7 @@ void TactileSettingsPanel::send(const std::vector<DeviceCommand>& commands) {
 void TactileSettingsPanel::applySettings(const TactileSettings& to) {
   if (!session_) return;
   try {
-    send(commandsBetween(session_->device().facts().matrices, to));
+    send(commandsBetween(session_->device().info().matrices, to));
   } catch (const std::invalid_argument& error) {
     emit refused(error.what());
   }
@@ -236,12 +236,12 @@ void TactileSettingsPanel::applySettings(const TactileSettings& to) {
 
 void TactileSettingsPanel::keepForUndo() {
   // Until the answers are there, the settings are those of a change that is only half done.
-  if (session_ && pending_.empty()) history_.changing(session_->device().facts().matrices);
+  if (session_ && pending_.empty()) history_.changing(session_->device().info().matrices);
 }
 
 void TactileSettingsPanel::restore(bool undo) {
   if (!session_ || !pending_.empty()) return;
-  const TactileSettings now = session_->device().facts().matrices;
+  const TactileSettings now = session_->device().info().matrices;
   const auto wanted = undo ? history_.undo(now) : history_.redo(now);
   if (!wanted) return;
   restoring_ = true;
@@ -289,9 +289,9 @@ void TactileSettingsPanel::pollReplies() {
   std::erase_if(pending_, isReady);
 }
 
-void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceInfo& facts) {
+void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceInfo& info) {
   pollReplies();
-  const TactileSettings& values = facts.matrices;
+  const TactileSettings& values = info.matrices;
   QString why;
   if (!session_)
     why = "No hand is connected.";
@@ -312,7 +312,7 @@ void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceInfo& 
   names_->setEnabled(may && names_->count() > 1);
   save_->setEnabled(may);
   remove_->setEnabled(may && names_->currentIndex() > 0);
-  if (listedFor_ != QString::fromStdString(facts.serial)) listNames();
+  if (listedFor_ != QString::fromStdString(info.serial)) listNames();
   if (pending_.empty() && !values.empty()) showValues(values);
   if (values.empty())
     for (const Row& row : rows_) {

@@ -34,7 +34,7 @@ class TactileSettingsPanel : public QWidget {
   void setMatrices(const HandDescription& hand);
   // Shows the values that the hand reports, and whether they can be changed now. Call it
   // repeatedly.
-  void refresh(const GraspStatus& status, const DeviceInfo& facts);
+  void refresh(const GraspStatus& status, const DeviceInfo& info);
   // Shows how many taxels are scanned, by the layout of the newest frame; null: not known.
   void showScanned(const std::shared_ptr<const SensorLayout>& layout);
   // Keeps the present settings, to which Undo goes back: something is about to change them.

@@ -13,7 +13,7 @@ namespace {
 
 // Facts about the live source besides its frames.
 std::vector<Fact> linkFacts(const LiveSource& source, const QString& calibration) {
-  const DeviceInfo device = source.session->device().facts();
+  const DeviceInfo device = source.session->device().info();
   const QString hand = QString::fromStdString(source.session->device().hand().name);
   std::vector<Fact> facts{{"source", describe(source.connection)}, {"hand", hand}};
   const auto add = [&](const QString& name, const std::string& value) {

@@ -109,7 +109,7 @@ std::vector<Fact> factsOf(const StreamDevice& stream) {
   std::vector<Fact> facts;
   if (const std::string notice = stream.notice(); !notice.empty())
     facts.push_back({"senders", QString::fromStdString(notice), stream.isOpenToOthers()});
-  const DeviceInfo info = stream.facts();
+  const DeviceInfo info = stream.info();
   QString sender = QString::fromStdString(escapedLine(info.serial));
   if (!info.firmware.empty())
     sender += (sender.isEmpty() ? "firmware " : ", firmware ") +

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <filesystem>
 
-#include <palpate/capture/movie_timing.h>
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
+#include <palpate/playback/movie_timing.h>
 
 #include "gui/picture/exported_view.h"
 #include "gui/picture/picture_export.h"

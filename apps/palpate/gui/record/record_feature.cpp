@@ -68,7 +68,7 @@ QString countedText(std::int64_t count, std::string_view noun) {
 // What tells hands apart for the plan: serial number and layout.
 QString handKey(const Device& device) {
   const HandDescription hand = device.hand();
-  QString text = QString::fromStdString(device.facts().serial + "\n" + hand.name);
+  QString text = QString::fromStdString(device.info().serial + "\n" + hand.name);
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
     text += QString(" %1x%2").arg(hand.layout->matrix(m).rows).arg(hand.layout->matrix(m).columns);
   return text;

@@ -20,7 +20,7 @@ constexpr const char* kReference = "slip/reference";
 constexpr const char* kStep = "slip/step_taxels";
 constexpr const char* kWhole = "slip/reference_taxels";
 constexpr const char* kRotation = "slip/rotation_deg";
-constexpr SlipMethod kUsualMethod = SlipMethod::kHypotheses;
+constexpr SlipMethod kUsualMethod = SlipMethod::kContest;
 constexpr SlipMethod kUsualLiveMethod = SlipMethod::kCentroid;
 enum ReferenceRow { kRestRow, kFirstRow, kFrameRow };
 
@@ -40,7 +40,7 @@ QString tipOf(SlipMethod method) {
       return "Phase of the cross-power spectrum alone";
     case SlipMethod::kRegister:
       return "Rigid registration of a key frame: no drift";
-    case SlipMethod::kHypotheses:
+    case SlipMethod::kContest:
       return "Registration, compared with a load shift without motion";
   }
   return {};
@@ -160,7 +160,7 @@ void SlipControls::setLive(bool live) {
 void SlipControls::showLimits() {
   const SlipMethod method = options().method;
   method_->setToolTip(tipOf(method));
-  const bool contest = method == SlipMethod::kHypotheses;
+  const bool contest = method == SlipMethod::kContest;
   for (QDoubleSpinBox* each : {step_, whole_, rotation_})
     each->setToolTip(each->accessibleName() +
                      (contest ? "\nWith contest it only scales which motions of several frames are "

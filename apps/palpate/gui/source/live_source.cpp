@@ -85,7 +85,7 @@ PressureStage::AskSettings settingsOf(LiveSource& source) {
   }
   return [&session = *source.session] {
     std::vector<SensorSettings> settings;
-    for (const MatrixSettings& matrix : session.device().facts().matrices)
+    for (const MatrixSettings& matrix : session.device().info().matrices)
       settings.push_back({matrix.sensitivity, static_cast<double>(matrix.thresholdCounts), false});
     return settings;
   };

@@ -9,8 +9,8 @@
 #include <optional>
 #include <span>
 
-#include <palpate/capture/playback.h>
 #include <palpate/core/time.h>
+#include <palpate/playback/playback.h>
 
 namespace palpate::gui {
 

@@ -75,7 +75,7 @@ QString problemOf(const QString& formula, const Profile* profile) {
     const std::size_t last = std::min(profile->numFrames() - 1, kTriedFrames);
     const double toS =
         static_cast<double>(profile->frameTimeUs(last) - profile->frameTimeUs(0)) / kUsPerS;
-    (void)derivedSeries(cropped(*profile, 0, last), parsed, 0.0, toS);
+    (void)formulaSeries(cropped(*profile, 0, last), parsed, 0.0, toS);
     return {};
   } catch (const Error&) {
     return {};  // the beginning is damaged: it can't be tried there

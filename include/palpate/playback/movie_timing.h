@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <palpate/capture/playback.h>
+#include <palpate/playback/playback.h>
 
 namespace palpate {
 

@@ -1,4 +1,4 @@
-#include "palpate/capture/playback.h"
+#include "palpate/playback/playback.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "palpate/interop/derived_series.h"
+#include "palpate/batch/derived_series.h"
 
 #include <limits>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "palpate/capture/movie_timing.h"
+#include "palpate/playback/movie_timing.h"
 
 #include <algorithm>
 #include <cmath>
