@@ -52,7 +52,7 @@ void setSlipMethod(SlipRowsOptions& table, std::string_view name) {
   const auto method = slipMethodNamed(name);
   if (!method) throw std::invalid_argument("there is no method '" + shortened(name) + "' of slip");
   table.pass.detector.method = *method;
-  table.pass.detector.hypothesisAlarm = *method == SlipMethod::kHypotheses;
+  table.pass.detector.hypothesisAlarm = *method == SlipMethod::kContest;
 }
 
 void setSlipReference(SlipRowsOptions& table, const std::string& word) {
