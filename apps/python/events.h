@@ -6,12 +6,12 @@
 
 #include <pybind11/pybind11.h>
 
-#include "palpate/recording/recording_event.h"
+#include "palpate/model/event.h"
 
 namespace palpate::python {
 
-pybind11::list toPython(const std::vector<RecordingEvent>& events);
+pybind11::list toPython(const std::vector<Event>& events);
 // From a list of such dicts; t_us and kind are required. Raises ValueError.
-std::vector<RecordingEvent> eventsFrom(const pybind11::object& events);
+std::vector<Event> eventsFrom(const pybind11::object& events);
 
 }  // namespace palpate::python

@@ -212,7 +212,7 @@ void save(const Profile& profile,
           const std::filesystem::path& path,
           const py::object& events,
           bool force) {
-  const std::vector<RecordingEvent> noted = eventsFrom(events);
+  const std::vector<Event> noted = eventsFrom(events);
   unlocked([&](const Progress& progress) {
     saveRecording(profile, noted, path, force ? Overwrite::kReplace : Overwrite::kRefuse, progress);
   });

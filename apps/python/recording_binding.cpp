@@ -20,9 +20,9 @@
 namespace palpate::python {
 namespace py = pybind11;
 
-py::list toPython(const std::vector<RecordingEvent>& events) {
+py::list toPython(const std::vector<Event>& events) {
   py::list list;
-  for (const RecordingEvent& event : events) {
+  for (const Event& event : events) {
     py::dict one;
     one["t_us"] = event.tUs;
     one["t1_us"] = event.t1Us;
@@ -35,8 +35,8 @@ py::list toPython(const std::vector<RecordingEvent>& events) {
   return list;
 }
 
-std::vector<RecordingEvent> eventsFrom(const py::object& events) {
-  std::vector<RecordingEvent> list;
+std::vector<Event> eventsFrom(const py::object& events) {
+  std::vector<Event> list;
   for (const py::handle item : events) {
     const auto one = item.cast<py::dict>();
     const auto required = [&](const char* key) {
@@ -48,7 +48,7 @@ std::vector<RecordingEvent> eventsFrom(const py::object& events) {
       return one.contains(key) && !one[key].is_none() ? one[key].cast<std::string>()
                                                       : std::string();
     };
-    RecordingEvent event;
+    Event event;
     event.tUs = required("t_us").cast<std::int64_t>();
     event.t1Us = one.contains("t1_us") ? one["t1_us"].cast<std::int64_t>() : event.tUs;
     event.kind = required("kind").cast<std::string>();

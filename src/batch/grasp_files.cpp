@@ -46,19 +46,18 @@ GraspFrames framesWithin(const Profile& profile, std::int64_t fromUs, std::int64
 }  // namespace
 
 std::vector<GraspFrames> graspFrames(const Profile& profile,
-                                     std::span<const RecordingEvent> events,
+                                     std::span<const Event> events,
                                      const Progress& progress) {
   std::vector<GraspFrames> grasps;
   if (profile.numFrames() == 0) return grasps;
-  const bool corrected = std::any_of(events.begin(), events.end(), [](const RecordingEvent& event) {
-    return event.kind == kSegment;
-  });
+  const bool corrected = std::any_of(
+      events.begin(), events.end(), [](const Event& event) { return event.kind == kSegment; });
   if (!corrected) {
     for (const GraspSegment& found : findGrasps(profile, {}, progress))
       grasps.push_back({found.begin, found.end});
     return grasps;
   }
-  for (const RecordingEvent& event : events) {
+  for (const Event& event : events) {
     if (event.kind != kSegment || !isTabledLabel(event)) continue;
     const GraspFrames frames = framesWithin(profile, event.tUs, event.t1Us);
     if (frames.begin <= frames.end) grasps.push_back(frames);
@@ -99,7 +98,7 @@ std::string GraspTemplate::ending() const { return fs::path(text_).extension().s
 
 void saveGrasps(const fs::path& source,
                 const Profile& profile,
-                std::span<const RecordingEvent> events,
+                std::span<const Event> events,
                 std::span<const GraspFrames> grasps,
                 std::span<const fs::path> paths,
                 const GraspFilesOptions& options,

@@ -40,12 +40,12 @@ std::int64_t stampOf(const CaptureItem& item) noexcept {
   if (const auto* frame = std::get_if<SharedFrame>(&item)) return (*frame)->hostUs;
   if (const auto* angles = std::get_if<JointAngles>(&item)) return angles->hostUs;
   if (const auto* sample = std::get_if<Temperatures>(&item)) return sample->hostUs;
-  return std::get_if<RecordingEvent>(&item)->tUs;
+  return std::get_if<Event>(&item)->tUs;
 }
 
-RecordingEvent gapEvent(CaptureStream stream, const CaptureLoss& loss, std::string_view reason) {
+Event gapEvent(CaptureStream stream, const CaptureLoss& loss, std::string_view reason) {
   const auto index = static_cast<std::size_t>(stream);
-  RecordingEvent event;
+  Event event;
   event.tUs = loss.firstUs;
   event.t1Us = loss.lastUs;
   event.kind = "gap";
@@ -108,8 +108,7 @@ bool CaptureQueue::put(CaptureItem item) {
   return taken;
 }
 
-std::size_t CaptureQueue::take(std::vector<CaptureItem>& out,
-                               std::vector<RecordingEvent>* ownGaps) {
+std::size_t CaptureQueue::take(std::vector<CaptureItem>& out, std::vector<Event>* ownGaps) {
   const auto before = static_cast<std::ptrdiff_t>(out.size());
   // Frames first: angles that were put before a frame are then taken together with it.
   moveAll(tactile_, out);
@@ -125,12 +124,11 @@ std::size_t CaptureQueue::take(std::vector<CaptureItem>& out,
   return out.size() - static_cast<std::size_t>(before);
 }
 
-void CaptureQueue::takeOpenGaps(std::vector<CaptureItem>& out,
-                                std::vector<RecordingEvent>* ownGaps) {
+void CaptureQueue::takeOpenGaps(std::vector<CaptureItem>& out, std::vector<Event>* ownGaps) {
   const std::lock_guard lock(lossMutex_);
   for (std::size_t i = 0; i < kCaptureStreams; ++i) {
     if (!open_.at(i)) continue;
-    RecordingEvent gap =
+    Event gap =
         gapEvent(static_cast<CaptureStream>(i), *open_.at(i), consumer_ + " could not keep up");
     if (ownGaps) ownGaps->push_back(gap);
     out.emplace_back(std::move(gap));

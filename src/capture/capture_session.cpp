@@ -64,15 +64,6 @@ std::map<std::string, std::int64_t> countersOf(const DeviceStatus& status) {
   return counters;
 }
 
-RecordingEvent recordingEventOf(DeviceEvent&& event) {
-  return {event.tUs,
-          event.t1Us,
-          std::move(event.kind),
-          event.matrix,
-          std::move(event.text),
-          std::move(event.json)};
-}
-
 }  // namespace
 
 CaptureSession::CaptureSession(std::unique_ptr<Device> device,
@@ -84,7 +75,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
       recorder_(
           [this] {
             RecorderOptions forRecorder = options_.recorder;
-            forRecorder.notice = [this](const RecordingEvent& event) {
+            forRecorder.notice = [this](const Event& event) {
               show(event);
               if (options_.recorder.notice) options_.recorder.notice(event);
             };
@@ -140,8 +131,8 @@ void CaptureSession::startRecording(RecordingOptions options) {
   const auto atEnd = std::make_shared<std::optional<std::map<std::string, std::int64_t>>>();
   options.openGaps = [this, atEnd](std::int64_t untilUs) {
     auto& counters = atEnd->emplace(countersOf(device_->status()));
-    std::vector<RecordingEvent> gaps;
-    if (auto gap = device_->openGap(untilUs)) gaps.push_back(recordingEventOf(std::move(*gap)));
+    std::vector<Event> gaps;
+    if (auto gap = device_->openGap(untilUs)) gaps.push_back(std::move(*gap));
     for (const RecordingLoss& loss : lossesOf(gaps))
       for (const char* name : {"lost", "lost_estimated"})
         counters[name] += static_cast<std::int64_t>(loss.lost);
@@ -170,7 +161,7 @@ void CaptureSession::startRecording(RecordingOptions options) {
 RecordingReport CaptureSession::stopRecording() { return recorder_.stop(); }
 
 void CaptureSession::mark(const std::string& text, std::optional<int> digit) {
-  RecordingEvent event;
+  Event event;
   event.tUs = event.t1Us = nowUs();
   event.kind = text.empty() ? "mark" : "label";
   event.text = text;
@@ -178,7 +169,7 @@ void CaptureSession::mark(const std::string& text, std::optional<int> digit) {
   note(event);
 }
 
-void CaptureSession::note(const RecordingEvent& event) {
+void CaptureSession::note(const Event& event) {
   show(event);
   pass(event);
 }
@@ -212,10 +203,9 @@ void CaptureSession::onTemperatures(Temperatures&& temperatures) {
   pass(CaptureItem(std::move(temperatures)));
 }
 
-void CaptureSession::onEvent(DeviceEvent&& event) {
-  const RecordingEvent item = recordingEventOf(std::move(event));
-  show(item);
-  pass(item);
+void CaptureSession::onEvent(Event&& event) {
+  show(event);
+  pass(CaptureItem(std::move(event)));
 }
 
 void CaptureSession::pass(const CaptureItem& item) {
@@ -232,7 +222,7 @@ void CaptureSession::pass(const CaptureItem& item) {
   recorder_.push(item);
 }
 
-void CaptureSession::show(const RecordingEvent& event) {
+void CaptureSession::show(const Event& event) {
   const std::lock_guard lock(shownMutex_);
   if (shown_.size() == kMostShown) shown_.pop_front();
   shown_.push_back(event);
@@ -257,9 +247,9 @@ std::optional<Temperatures> CaptureSession::takeTemperatures() {
   return screenTemperatures_.take();
 }
 
-std::vector<RecordingEvent> CaptureSession::takeEvents() {
+std::vector<Event> CaptureSession::takeEvents() {
   const std::lock_guard lock(shownMutex_);
-  std::vector<RecordingEvent> events(shown_.begin(), shown_.end());
+  std::vector<Event> events(shown_.begin(), shown_.end());
   shown_.clear();
   return events;
 }

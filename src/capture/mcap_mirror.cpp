@@ -112,7 +112,7 @@ void McapMirror::work(Task& task) {
   else if (const auto* temperatures = std::get_if<Temperatures>(&item))
     writer_->addTemperatures(*temperatures);
   else
-    writer_->addEvent(std::get<RecordingEvent>(item));
+    writer_->addEvent(std::get<Event>(item));
 }
 
 }  // namespace palpate

@@ -85,7 +85,7 @@ struct Recorder::Impl {
       kept.pop_front();
   }
 
-  void notify(const RecordingEvent& event) const {
+  void notify(const Event& event) const {
     if (options.notice) options.notice(event);
   }
 
@@ -96,7 +96,7 @@ struct Recorder::Impl {
     const double seconds = static_cast<double>(offsetUs - wallOffsetUs) / 1e6;
     wallOffsetUs = offsetUs;
     const std::int64_t atUs = nowUs();
-    const RecordingEvent event{
+    const Event event{
         atUs,
         atUs,
         "clock",
@@ -117,9 +117,7 @@ struct Recorder::Impl {
     }
     if (!asked) return;
     parts = std::make_unique<RecordingParts>(
-        std::move(*asked), options, askedAt, clock, [this](const RecordingEvent& event) {
-          notify(event);
-        });
+        std::move(*asked), options, askedAt, clock, [this](const Event& event) { notify(event); });
     freeBytesMonoUs.reset();
     finishAttempts = 0;
     const RoundTime time = now();
@@ -157,10 +155,10 @@ struct Recorder::Impl {
     moveWhenAsked();
     // Items that arrived during a slow write are as old as that write; so the time is taken again.
     const std::int64_t takingMonoUs = clock.monotonicUs();
-    std::vector<RecordingEvent> ownGaps;
+    std::vector<Event> ownGaps;
     queue.take(items, &ownGaps);
     if (stopping) queue.takeOpenGaps(items, &ownGaps);
-    for (const RecordingEvent& gap : ownGaps) notify(gap);
+    for (const Event& gap : ownGaps) notify(gap);
     checkClock(items);
     handle(items);
     takenMonoUs = takingMonoUs;

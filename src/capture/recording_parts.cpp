@@ -422,7 +422,7 @@ void append(PalpateWriter& writer, const CaptureItem& item) {
     writer.addAngles(*angles);
   else if (const auto* temperatures = std::get_if<Temperatures>(&item))
     writer.addTemperatures(*temperatures);
-  else if (const auto* event = std::get_if<RecordingEvent>(&item))
+  else if (const auto* event = std::get_if<Event>(&item))
     writer.addEvent(*event);
 }
 
@@ -580,7 +580,7 @@ void RecordingParts::endLossIntervals() {
   for (std::size_t stream = 0; stream < kCaptureStreams; ++stream) endLossInterval(stream);
 }
 
-void RecordingParts::addOwn(RecordingEvent event) {
+void RecordingParts::addOwn(Event event) {
   if (notice_) notice_(event);
   unwrittenEvents_.push_back(std::move(event));
 }
@@ -588,7 +588,7 @@ void RecordingParts::addOwn(RecordingEvent event) {
 // What is missing at the end has no end that the device would tell in time.
 void RecordingParts::addOpenGaps(RoundTime time) {
   if (!options_.openGaps || std::exchange(gapsTaken_, true)) return;
-  for (RecordingEvent& gap : options_.openGaps(std::min(time.nowUs, endUs_.value_or(time.nowUs)))) {
+  for (Event& gap : options_.openGaps(std::min(time.nowUs, endUs_.value_or(time.nowUs)))) {
     counts_.openGapS = std::max(counts_.openGapS, static_cast<double>(gap.t1Us - gap.tUs) / 1e6);
     unwrittenEvents_.push_back(std::move(gap));
   }

@@ -41,7 +41,7 @@ struct RoundTime {
 
 class RecordingParts {
  public:
-  using Notice = std::function<void(const RecordingEvent&)>;
+  using Notice = std::function<void(const Event&)>;
   // `start` is the time at which the recording was requested. The clock must outlive it.
   RecordingParts(RecordingOptions options,
                  const RecorderOptions& recorder,
@@ -113,7 +113,7 @@ class RecordingParts {
   void recordLoss(const CaptureItem& item);
   void endLossIntervals();
   void endLossInterval(std::size_t stream);
-  void addOwn(RecordingEvent event);
+  void addOwn(Event event);
   void addOpenGaps(RoundTime time);
   void writePendingEvents();
   void updateCounters(RoundTime time);
@@ -184,7 +184,7 @@ class RecordingParts {
   // Items that wait for a commit.
   std::optional<std::int64_t> dirtySinceMonoUs_;
   std::size_t dirtyItems_ = 0;
-  std::vector<RecordingEvent> unwrittenEvents_;  // own events that are not written yet
+  std::vector<Event> unwrittenEvents_;  // own events that are not written yet
   std::optional<std::int64_t> countersMonoUs_;
   std::map<std::string, std::int64_t> lastCounters_;
 

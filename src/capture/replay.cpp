@@ -30,7 +30,7 @@ void requireSpeed(double factor) {
 struct Replay::Impl {
   Impl(Profile recorded,
        const ReplayOptions& given,
-       std::vector<RecordingEvent> noted,
+       std::vector<Event> noted,
        const Clock& theClock)
       : profile(std::move(recorded)),
         pace(given.pace),
@@ -72,11 +72,7 @@ struct Replay::Impl {
   }
 
   void deliver(const InTimeOrder::Item& item) {
-    if (item.kind == InTimeOrder::Kind::kEvent) {
-      const RecordingEvent& noted = events[item.index];
-      return sink->onEvent(
-          {noted.tUs, noted.t1Us, noted.kind, noted.matrix, noted.text, noted.json});
-    }
+    if (item.kind == InTimeOrder::Kind::kEvent) return sink->onEvent(Event(events[item.index]));
     const bool tactile = item.kind == InTimeOrder::Kind::kFrame;
     try {
       if (tactile)
@@ -179,7 +175,7 @@ struct Replay::Impl {
 
   const Profile profile;
   const ReplayPace pace;
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
   const Clock& clock;
   DeviceSink* sink = nullptr;
 
@@ -201,7 +197,7 @@ struct Replay::Impl {
 
 Replay::Replay(Profile profile,
                const ReplayOptions& options,
-               std::vector<RecordingEvent> events,
+               std::vector<Event> events,
                const Clock& clock) {
   requireSpeed(options.speed);
   impl_ = std::make_unique<Impl>(std::move(profile), options, std::move(events), clock);

@@ -574,7 +574,7 @@ std::vector<GraspChange> GraspControl::takeChanges() {
   return changes;
 }
 
-void GraspControl::note(RecordingEvent event, bool ends) {
+void GraspControl::note(Event event, bool ends) {
   pendingEvents_.push_back({std::move(event), ends});
   if (ends) ++pendingEndEvents_;
   pendingEventsChanged_.notify_one();

@@ -304,7 +304,7 @@ std::string describe(const GraspRequest& request) {
   return text;
 }
 
-RecordingEvent beginEvent(const GraspReport& report) {
+Event beginEvent(const GraspReport& report) {
   return {report.beginUs,
           report.beginUs,
           "grasp",
@@ -313,17 +313,17 @@ RecordingEvent beginEvent(const GraspReport& report) {
           parameters(report.request).text(-1)};
 }
 
-RecordingEvent endEvent(const GraspReport& report) {
+Event endEvent(const GraspReport& report) {
   Json json = parameters(report.request);
   json.set("outcome", nameOf(report.outcome));
   // The reading is observed until half a second after the stop.
   const bool atLimit = report.outcome == GraspOutcome::kLimitReached && report.limitUs > 0;
-  RecordingEvent event{report.beginUs,
-                       atLimit ? std::max(report.beginUs, report.limitUs) : report.endUs,
-                       "grasp",
-                       {},
-                       report.text,
-                       {}};
+  Event event{report.beginUs,
+              atLimit ? std::max(report.beginUs, report.limitUs) : report.endUs,
+              "grasp",
+              {},
+              report.text,
+              {}};
   if (report.outcome == GraspOutcome::kLimitReached || report.peak.counts > 0.0F) {
     event.matrix = static_cast<int>(report.peak.matrix);
     json.set("matrix", report.peak.matrix)
@@ -350,12 +350,12 @@ RecordingEvent endEvent(const GraspReport& report) {
   return event;
 }
 
-RecordingEvent noteEvent(const GraspReport& report, const GraspStep& note, std::int64_t hostUs) {
+Event noteEvent(const GraspReport& report, const GraspStep& note, std::int64_t hostUs) {
   Json json = Json::object();
   json.set("mode", nameOf(report.request.mode))
       .set("action", note.action)
       .set("limit_counts", note.limitCounts);
-  RecordingEvent event{hostUs, hostUs, "grasp", {}, note.text, {}};
+  Event event{hostUs, hostUs, "grasp", {}, note.text, {}};
   if (note.matrix) {
     event.matrix = static_cast<int>(*note.matrix);
     json.set("matrix", *note.matrix);

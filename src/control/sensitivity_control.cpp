@@ -174,7 +174,7 @@ void SensitivityControl::processFrames() {
     if (const auto* frame = std::get_if<SharedFrame>(&item)) onFrame(**frame);
     if (const auto* temperatures = std::get_if<Temperatures>(&item)) degC_ = temperatures->degC;
     // A pause of the stream must not count as a low rate.
-    if (const auto* event = std::get_if<RecordingEvent>(&item))
+    if (const auto* event = std::get_if<Event>(&item))
       if (event->kind == "settings" || event->kind == "gap") stampsUs_.clear();
   }
 }

@@ -136,7 +136,7 @@ std::future<CommandAnswer> LiveHand::submit(DeviceCommand command) {
   return nobody.get_future();
 }
 
-std::optional<DeviceEvent> LiveHand::openGap(std::int64_t untilUs) const {
+std::optional<Event> LiveHand::openGap(std::int64_t untilUs) const {
   return impl_->tactile ? impl_->tactile->openGap(untilUs) : std::nullopt;
 }
 

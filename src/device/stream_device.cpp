@@ -100,7 +100,7 @@ std::string StreamDevice::lastOutOfRange() const { return impl_->link.lastOutOfR
 
 std::vector<std::string> StreamDevice::remarks() const { return impl_->link.remarks(); }
 
-std::optional<DeviceEvent> StreamDevice::openGap(std::int64_t untilUs) const {
+std::optional<Event> StreamDevice::openGap(std::int64_t untilUs) const {
   return impl_->link.openGap(untilUs);
 }
 

@@ -57,10 +57,10 @@ std::uint64_t framesIn(std::int64_t us, double periodUs, bool withoutLast) {
 }
 
 // An event of kind "gap"; `missing` frames, if their number is known.
-DeviceEvent gapEventOf(std::int64_t fromUs,
-                       std::int64_t toUs,
-                       std::optional<std::uint64_t> missing,
-                       bool estimated) {
+Event gapEventOf(std::int64_t fromUs,
+                 std::int64_t toUs,
+                 std::optional<std::uint64_t> missing,
+                 bool estimated) {
   const double seconds = static_cast<double>(toUs - fromUs) / kSecondUs;
   Json json = Json::object().set("seconds", seconds);
   std::string text = "no frames for " + numberText(std::round(seconds * 1000.0) / 1000.0) + " s";
@@ -109,7 +109,7 @@ std::vector<std::string> StreamLink::remarks() const {
   return remarks_;
 }
 
-std::optional<DeviceEvent> StreamLink::openGap(std::int64_t untilUs) const {
+std::optional<Event> StreamLink::openGap(std::int64_t untilUs) const {
   std::lock_guard lock(mutex_);
   if (!openGap_) return std::nullopt;
   const std::int64_t toUs = std::min(untilUs, openGap_->closedUs.value_or(untilUs));
@@ -557,7 +557,7 @@ void StreamLink::reportLoss(bool atOnce) {
   if (!atOnce && session_.lossReportedUs && nowUs - *session_.lossReportedUs < kLossEveryUs) return;
   session_.lossReportedUs = nowUs;
   const std::uint64_t missing = std::exchange(session_.lossFrames, 0);
-  DeviceEvent event = gapEventOf(session_.lossFromUs, session_.lossToUs, missing, false);
+  Event event = gapEventOf(session_.lossFromUs, session_.lossToUs, missing, false);
   event.text = counted(missing, "frame") + (missing == 1 ? " is missing" : " are missing");
   sink_->onEvent(std::move(event));
 }

@@ -42,7 +42,7 @@ class StreamLink : public PortLink {
   std::string lastFault() const;
   std::string lastOutOfRange() const;
   std::vector<std::string> remarks() const;
-  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const;
+  std::optional<Event> openGap(std::int64_t untilUs) const;
 
  protected:
   void connect(ByteChannel& channel) override;

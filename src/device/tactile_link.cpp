@@ -49,7 +49,7 @@ std::optional<DsaControllerInfo> TactileLink::info() const {
   return known_;
 }
 
-std::optional<DeviceEvent> TactileLink::openGap(std::int64_t untilUs) const {
+std::optional<Event> TactileLink::openGap(std::int64_t untilUs) const {
   std::lock_guard lock(mutex_);
   if (!openGap_ || untilUs <= openGap_->fromUs) return std::nullopt;
   return gapEvent(openGap_->fromUs, untilUs, missingIn(*openGap_, untilUs, false));
@@ -277,7 +277,7 @@ TactileLink::Missing TactileLink::missingIn(const OpenGap& gap,
   return {static_cast<std::uint64_t>(std::max(frames, 0.0)), true};
 }
 
-DeviceEvent TactileLink::gapEvent(std::int64_t fromUs, std::int64_t toUs, const Missing& missing) {
+Event TactileLink::gapEvent(std::int64_t fromUs, std::int64_t toUs, const Missing& missing) {
   const double seconds = static_cast<double>(toUs - fromUs) / 1e6;
   Json json = Json::object().set("seconds", seconds);
   std::string text = "no frames for " + numberText(std::round(seconds * 1000.0) / 1000.0) + " s";
@@ -303,7 +303,7 @@ void TactileLink::endGap(std::int64_t nowUs, const Missing& missing) {
     status.lost += missing.frames.value_or(0);
     if (missing.estimated) status.estimatedLost += missing.frames.value_or(0);
   });
-  const DeviceEvent gap = gapEvent(fromUs, nowUs, missing);
+  const Event gap = gapEvent(fromUs, nowUs, missing);
   event(gap.kind, gap.text, gap.tUs, gap.t1Us, {}, gap.json);
 }
 

@@ -26,7 +26,7 @@ class TactileLink : public PortLink {
 
   HandDescription hand() const;  // may be called from any thread
   std::optional<DsaControllerInfo> info() const;
-  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const;  // see Device
+  std::optional<Event> openGap(std::int64_t untilUs) const;  // see Device
 
  protected:
   void connect(ByteChannel& channel) override;
@@ -61,7 +61,7 @@ class TactileLink : public PortLink {
     double periodMs = 0.0;  // as Session::periodMs
   };
   static Missing missingIn(const OpenGap& gap, std::int64_t nowUs, bool frameReceived);
-  static DeviceEvent gapEvent(std::int64_t fromUs, std::int64_t toUs, const Missing& missing);
+  static Event gapEvent(std::int64_t fromUs, std::int64_t toUs, const Missing& missing);
   Missing missingSince(std::int64_t fromUs, std::int64_t nowUs, bool frameReceived) const {
     return missingIn({fromUs, session_.periodMs}, nowUs, frameReceived);
   }

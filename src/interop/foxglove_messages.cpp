@@ -315,7 +315,7 @@ std::string FoxgloveMessages::joints(const JointAngles& angles) const {
   return out;
 }
 
-std::string FoxgloveMessages::event(const RecordingEvent& event) const {
+std::string FoxgloveMessages::event(const Event& event) const {
   std::string text = event.text;
   if (event.matrix && *event.matrix >= 0)
     text = hand_.matrixName(static_cast<std::size_t>(*event.matrix)) + (text.empty() ? "" : ": ") +

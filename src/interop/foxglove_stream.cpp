@@ -128,7 +128,7 @@ void FoxgloveStream::send(const LiveResults& results) {
   if (wantsTaxels) server.publish(*taxels, nowUs, messages.taxels(frame));
 }
 
-void FoxgloveStream::send(const RecordingEvent& event) {
+void FoxgloveStream::send(const Event& event) {
   const std::lock_guard lock(mutex_);
   if (!open_) return;
   const std::size_t channel = open_->messages.eventsChannel();

@@ -94,7 +94,7 @@ struct RemoteRecorder::Impl {
   RemoteAnswer note(const std::string& text) {
     if (current() != State::kRecording || !session.recording())
       return RemoteAnswer::refused("not_recording", "nothing is being recorded: start first");
-    RecordingEvent event;
+    Event event;
     event.tUs = event.t1Us = session.nowUs();
     event.kind = text.empty() ? "mark" : "label";
     event.text = text;

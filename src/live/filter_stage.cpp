@@ -35,11 +35,11 @@ void FilterStage::reset() {
   if (chain_) chain_->finish();
 }
 
-void FilterStage::onEvent(const RecordingEvent& event) {
+void FilterStage::onEvent(const Event& event) {
   if (event.kind == "settings" && chain_) chain_->restart();
 }
 
-void FilterStage::onFrame(LiveResults& results, std::vector<RecordingEvent>&) {
+void FilterStage::onFrame(LiveResults& results, std::vector<Event>&) {
   {
     const std::lock_guard lock(mutex_);
     if (changed_) {

@@ -27,7 +27,7 @@ std::string framesText(std::uint64_t count) {
 }
 
 // Frames that a gap event reports as lost; 0 where it doesn't say, or speaks of other items.
-std::uint64_t framesLostIn(const RecordingEvent& event) {
+std::uint64_t framesLostIn(const Event& event) {
   for (const RecordingLoss& loss : lossesOf({&event, 1}))
     if (loss.stream == "tactile") return loss.lost;
   return 0;
@@ -65,7 +65,7 @@ void LiveMeasurement::add(const CaptureItem& item) {
   else if (const auto* temperatures = std::get_if<Temperatures>(&item))
     addTemperatures(*temperatures);
   else
-    addEvent(std::get<RecordingEvent>(item));
+    addEvent(std::get<Event>(item));
 }
 
 void LiveMeasurement::addFrame(const TactileFrame& frame) {
@@ -112,7 +112,7 @@ void LiveMeasurement::addTemperatures(const Temperatures& temperatures) {
   }
 }
 
-void LiveMeasurement::addEvent(const RecordingEvent& event) {
+void LiveMeasurement::addEvent(const Event& event) {
   if (event.kind == "gap") numLost_ += framesLostIn(event);
   if (event.kind == "settings") fail("the sensor's settings were changed");
   if (event.kind == "motion") fail("the hand was commanded: " + event.text);

@@ -36,7 +36,7 @@ void PressureStage::reset() {
   lastSettingsJson_.clear();
 }
 
-void PressureStage::onEvent(const RecordingEvent& event) {
+void PressureStage::onEvent(const Event& event) {
   if (event.kind != "settings") return;
   const std::lock_guard lock(mutex_);
   settingsChanged_ = true;
@@ -60,7 +60,7 @@ void PressureStage::useSettings() {
   }
 }
 
-void PressureStage::onFrame(LiveResults& results, std::vector<RecordingEvent>&) {
+void PressureStage::onFrame(LiveResults& results, std::vector<Event>&) {
   const std::lock_guard lock(mutex_);
   if (!map_) return;
   if (settingsChanged_) useSettings();

@@ -133,7 +133,7 @@ void ProcessingChain::process(const CaptureItem& item) {
     temperatures_ = *temperatures;
     for (const auto& stage : stages_) stage->onTemperatures(*temperatures);
   } else {
-    for (const auto& stage : stages_) stage->onEvent(std::get<RecordingEvent>(item));
+    for (const auto& stage : stages_) stage->onEvent(std::get<Event>(item));
   }
 }
 
@@ -154,12 +154,12 @@ void ProcessingChain::processFrame(const SharedFrame& frame) {
   }
   if (options_.onResults) options_.onResults(results);
   if (options_.onEvent)
-    for (const RecordingEvent& event : found_) options_.onEvent(event);
+    for (const Event& event : found_) options_.onEvent(event);
   newest_.put(std::move(results));
 }
 
 void ProcessingChain::runOver(const Profile& profile,
-                              std::vector<RecordingEvent> events,
+                              std::vector<Event> events,
                               const Progress& progress) {
   if (thread_.joinable()) throw std::logic_error("ProcessingChain::runOver: it is running");
   reset();

@@ -2,7 +2,7 @@
 
 namespace palpate {
 
-void SignalsStage::onFrame(LiveResults& results, std::vector<RecordingEvent>&) {
+void SignalsStage::onFrame(LiveResults& results, std::vector<Event>&) {
   results.matrixSignals = characteristicSignals(*results.frame);
   results.wholeSignals = wholeFrameSignals(*results.frame);
   results.peak = taxelPeak(*results.frame);

@@ -16,7 +16,7 @@ std::string textOf(double pathTaxels, double turnDeg) {
 
 // Whether the hand opens after an event of a grasp (control/grasp_request.h, beginEvent() and
 // endEvent()); nothing: the event tells neither.
-std::optional<bool> opensAfter(const RecordingEvent& event) {
+std::optional<bool> opensAfter(const Event& event) {
   if (event.kind != "grasp" || event.json.empty()) return std::nullopt;
   try {
     const Json json = Json::parse(event.json);
@@ -82,7 +82,7 @@ void SlipStage::resetDetection() {
 }
 
 // After changed settings the counts have another meaning, so the reference is no longer valid.
-void SlipStage::onEvent(const RecordingEvent& event) {
+void SlipStage::onEvent(const Event& event) {
   if (event.kind == "settings") resetDetection();
   const bool ordered = opensAfter(event).value_or(ordered_);
   if (std::exchange(ordered_, ordered) != ordered) setOpens(ordered_);
@@ -108,7 +108,7 @@ void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
   referenceRequests_.clear();
 }
 
-void SlipStage::onFrame(LiveResults& results, std::vector<RecordingEvent>& out) {
+void SlipStage::onFrame(LiveResults& results, std::vector<Event>& out) {
   const TactileFrame& frame = *results.frame;
   applyReferenceRequests(*frame.layout);
   setOpens(ordered_ || (opensByItself && opensByItself()));
@@ -138,7 +138,7 @@ void SlipStage::onFrame(LiveResults& results, std::vector<RecordingEvent>& out) 
 void SlipStage::emitSlipEvents(std::size_t matrix,
                                const SlipDetection& detection,
                                std::int64_t hostUs,
-                               std::vector<RecordingEvent>& out) {
+                               std::vector<Event>& out) {
   auto& slip = slipping_[matrix];
   const int number = static_cast<int>(matrix);
   if (detection.slipping && !slip) {

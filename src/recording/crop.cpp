@@ -58,13 +58,12 @@ Profile cropped(const Profile& profile,
   return builder.finish(profile.info());
 }
 
-std::vector<RecordingEvent> eventsWithin(std::span<const RecordingEvent> events,
-                                         const Profile& profile) {
-  std::vector<RecordingEvent> within;
+std::vector<Event> eventsWithin(std::span<const Event> events, const Profile& profile) {
+  std::vector<Event> within;
   if (profile.numFrames() == 0) return within;
   const std::int64_t beginUs = profile.frameTimeUs(0);
   const std::int64_t endUs = profile.frameTimeUs(profile.numFrames() - 1);
-  for (const RecordingEvent& event : events) {
+  for (const Event& event : events) {
     if (event.tUs > endUs || event.t1Us < beginUs) continue;
     within.push_back(event);
     within.back().tUs = std::max(event.tUs, beginUs);

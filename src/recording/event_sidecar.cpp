@@ -16,8 +16,8 @@ constexpr std::string_view kEventNotesFormat = "palpate notes";
 constexpr std::int64_t kEventNotesVersion = 1;
 constexpr std::uintmax_t kLargestSidecar = 32u << 20;
 
-RecordingEvent eventFrom(const Json& json) {
-  RecordingEvent event;
+Event eventFrom(const Json& json) {
+  Event event;
   event.tUs = json.at("t_us").asInteger();
   event.t1Us = json.at("t1_us").asInteger();
   event.kind = json.at("kind").asString();
@@ -78,8 +78,8 @@ fs::path sidecarPathOf(const fs::path& recording) {
   return path;
 }
 
-Json eventsToJson(std::span<const RecordingEvent> events) {
-  return jsonList(events, [](const RecordingEvent& event) {
+Json eventsToJson(std::span<const Event> events) {
+  return jsonList(events, [](const Event& event) {
     return Json::object()
         .set("t_us", event.tUs)
         .set("t1_us", event.t1Us)
@@ -105,7 +105,7 @@ EventsReport readEventSidecar(const fs::path& recording) {
   return report;
 }
 
-void replaceEventSidecar(const fs::path& recording, std::span<const RecordingEvent> events) {
+void replaceEventSidecar(const fs::path& recording, std::span<const Event> events) {
   Json list = eventsToJson(events);
   forEachNote(recording, [&list](const Json& json) {
     try {
@@ -122,7 +122,7 @@ void replaceEventSidecar(const fs::path& recording, std::span<const RecordingEve
 }
 
 EventSidecar::EventSidecar(const fs::path& recording,
-                           std::span<const RecordingEvent> events,
+                           std::span<const Event> events,
                            Overwrite overwrite)
     : path_(sidecarPathOf(recording)) {
   requireWritable(recording, overwrite);

@@ -8,14 +8,14 @@
 
 #include "palpate/core/json.h"
 #include "palpate/core/output_file.h"
-#include "palpate/recording/recording_event.h"
+#include "palpate/model/event.h"
 
 namespace palpate {
 
 // The path of the sidecar: NAME.dsa.notes.json beside NAME.dsa.
 std::filesystem::path sidecarPathOf(const std::filesystem::path& recording);
 
-Json eventsToJson(std::span<const RecordingEvent> events);
+Json eventsToJson(std::span<const Event> events);
 
 // The events in the sidecar of a recording; none where there is no sidecar. Throws FileError,
 // FormatError.
@@ -23,8 +23,7 @@ EventsReport readEventSidecar(const std::filesystem::path& recording);
 
 // Replaces the events in the sidecar, whole or not at all; what was damaged in it stays. The
 // sidecar is removed when nothing is left to stand in it. Throws FileError, FormatError.
-void replaceEventSidecar(const std::filesystem::path& recording,
-                         std::span<const RecordingEvent> events);
+void replaceEventSidecar(const std::filesystem::path& recording, std::span<const Event> events);
 
 // The sidecar of a recording that is about to be written: it is prepared before the recording and
 // published after it.
@@ -32,7 +31,7 @@ class EventSidecar {
  public:
   // Throws FileError where a sidecar exists and may not be replaced, or can't be written.
   EventSidecar(const std::filesystem::path& recording,
-               std::span<const RecordingEvent> events,
+               std::span<const Event> events,
                Overwrite overwrite);
   // Publishes the sidecar; without events, removes one that belonged to what was replaced.
   void commit() const;

@@ -29,25 +29,25 @@ using EventKey = std::
 // How often each event stands in a list.
 using EventCounts = std::map<EventKey, int>;
 
-EventKey keyOf(const RecordingEvent& event) {
+EventKey keyOf(const Event& event) {
   return {event.tUs, event.t1Us, event.kind, event.matrix, event.text, event.json};
 }
 
-EventCounts countsOf(std::span<const RecordingEvent> events) {
+EventCounts countsOf(std::span<const Event> events) {
   EventCounts counts;
-  for (const RecordingEvent& event : events) ++counts[keyOf(event)];
+  for (const Event& event : events) ++counts[keyOf(event)];
   return counts;
 }
 
-EventCounts happened(std::span<const RecordingEvent> events) {
+EventCounts happened(std::span<const Event> events) {
   EventCounts counts;
-  for (const RecordingEvent& event : events)
+  for (const Event& event : events)
     if (!isUserEvent(event)) ++counts[keyOf(event)];
   return counts;
 }
 
-void eventStoreRequireStorable(const EventsReport& asRead, std::span<const RecordingEvent> events) {
-  for (const RecordingEvent& event : events) {
+void eventStoreRequireStorable(const EventsReport& asRead, std::span<const Event> events) {
+  for (const Event& event : events) {
     if (event.kind.empty()) throw std::invalid_argument("event: has no kind");
     if (event.t1Us < event.tUs) throw std::invalid_argument("event: ends before it begins");
     if (event.kind.size() + event.text.size() + event.json.size() > kMaxEventBytes)
@@ -61,9 +61,9 @@ void eventStoreRequireStorable(const EventsReport& asRead, std::span<const Recor
 // What stands there now, against what was read. False: it is the new list already (a commit that
 // reported a failure may have reached the disk all the same). Throws FileError.
 bool needsSaving(const fs::path& path,
-                 std::span<const RecordingEvent> now,
+                 std::span<const Event> now,
                  const EventsReport& asRead,
-                 std::span<const RecordingEvent> events) {
+                 std::span<const Event> events) {
   const EventCounts there = countsOf(now);
   if (there == countsOf(events)) return false;
   if (there != countsOf(asRead.events))
@@ -106,10 +106,10 @@ std::unique_ptr<RecordingLock> locked(const fs::path& recording, const fs::path&
 
 // Rows that are in the new list stay as they are; the others go, and what is new gets numbers
 // behind all that ever were.
-void replaceRows(SqliteDatabase& database, std::span<const RecordingEvent> events) {
+void replaceRows(SqliteDatabase& database, std::span<const Event> events) {
   EventCounts wanted = countsOf(events);
   std::vector<std::int64_t> obsolete;
-  forEachEventRow(database, [&](std::int64_t id, RecordingEvent&& event) {
+  forEachEventRow(database, [&](std::int64_t id, Event&& event) {
     const auto found = wanted.find(keyOf(event));
     if (found == wanted.end() || found->second == 0)
       obsolete.push_back(id);
@@ -122,7 +122,7 @@ void replaceRows(SqliteDatabase& database, std::span<const RecordingEvent> event
   SqliteStatement remove = database.prepare("DELETE FROM event WHERE id=?");
   for (const std::int64_t row : obsolete) remove.bind(1, row).run();
   RowWriter rows(database);
-  for (const RecordingEvent& event : events) {
+  for (const Event& event : events) {
     int& missing = wanted.at(keyOf(event));
     if (missing == 0) continue;
     --missing;
@@ -146,7 +146,7 @@ void requireFinished(const fs::path& path) {
 
 void saveEventRows(const fs::path& given,
                    const EventsReport& asRead,
-                   std::span<const RecordingEvent> events,
+                   std::span<const Event> events,
                    const SaveEventsOptions& options) {
   std::error_code ignored;
   // Journal and lock lie beside the file itself, not beside a link to it.
@@ -182,7 +182,7 @@ void saveEventRows(const fs::path& given,
 
 void saveEventSidecar(const fs::path& path,
                       const EventsReport& asRead,
-                      std::span<const RecordingEvent> events,
+                      std::span<const Event> events,
                       const SaveEventsOptions&) {
   const fs::path sidecar = sidecarPathOf(path);
   requireWritableBy(path, sidecar);
@@ -191,7 +191,7 @@ void saveEventSidecar(const fs::path& path,
   if (needsSaving(path, now.events, asRead, events)) replaceEventSidecar(path, events);
 }
 
-bool isUserEvent(const RecordingEvent& event) {
+bool isUserEvent(const Event& event) {
   constexpr std::array<std::string_view, 7> kNoted{
       "label", "mark", "note", "recipe", "segment", "sensor_settings", "tare"};
   return std::find(kNoted.begin(), kNoted.end(), event.kind) != kNoted.end();
@@ -199,7 +199,7 @@ bool isUserEvent(const RecordingEvent& event) {
 
 void saveEvents(const fs::path& path,
                 const EventsReport& asRead,
-                std::span<const RecordingEvent> events,
+                std::span<const Event> events,
                 const SaveEventsOptions& options) {
   eventStoreRequireStorable(asRead, events);
   requireThere(path);

@@ -43,7 +43,7 @@ struct FormatReader {
   // Null: files of this kind ("an HDF5 file") take no events.
   void (*saveEvents)(const Path& path,
                      const EventsReport& asRead,
-                     std::span<const RecordingEvent> events,
+                     std::span<const Event> events,
                      const SaveEventsOptions& options) = nullptr;
   const char* kind = nullptr;
   // Fills in what a list shows, faster than by opening the recording; null: it is opened.
@@ -78,11 +78,11 @@ Recording withEventDamage(Recording recording);
 // Of event_store.h, and of the lists of recordings: what each format does there.
 void saveEventRows(const std::filesystem::path& path,
                    const EventsReport& asRead,
-                   std::span<const RecordingEvent> events,
+                   std::span<const Event> events,
                    const SaveEventsOptions& options);
 void saveEventSidecar(const std::filesystem::path& path,
                       const EventsReport& asRead,
-                      std::span<const RecordingEvent> events,
+                      std::span<const Event> events,
                       const SaveEventsOptions& options);
 void addPalpateDetails(RecordingDetails& details);
 std::vector<SecondSummary> readPalpateSeconds(const std::filesystem::path& path);

@@ -54,7 +54,7 @@ void addOrigin(Recording& recording, const fs::path& in, const std::string& miss
     if (profile.numTemperatures() > 0) take(profile.temperatureTimeUs(0));
   }
   if (!firstUs) return;
-  RecordingEvent note;
+  Event note;
   note.tUs = note.t1Us = *firstUs;
   note.kind = "note";
   note.text = "Recovered from the damaged file " + in.filename().string() + ": " + missing;
@@ -62,7 +62,7 @@ void addOrigin(Recording& recording, const fs::path& in, const std::string& miss
       std::lower_bound(recording.events.begin(),
                        recording.events.end(),
                        note.tUs,
-                       [](const RecordingEvent& event, std::int64_t us) { return event.tUs < us; });
+                       [](const Event& event, std::int64_t us) { return event.tUs < us; });
   recording.events.insert(at, std::move(note));
 }
 
@@ -204,7 +204,7 @@ void requireOther(const fs::path& in, const fs::path& out) {
 }
 
 SaveReport saveRecording(const Profile& profile,
-                         std::span<const RecordingEvent> events,
+                         std::span<const Event> events,
                          const fs::path& path,
                          Overwrite overwrite,
                          const Progress& progress,

@@ -43,7 +43,7 @@ void addNote(std::string& notes, std::string_view text) {
 }
 
 void addEvents(RecordingDetails& details, const EventsReport& report) {
-  for (const RecordingEvent& event : report.events) {
+  for (const Event& event : report.events) {
     if (event.kind == "note") addNote(details.notes, event.text);
     if ((event.kind != "label" && event.kind != "segment") || event.text.empty()) continue;
     const std::string label = bounded(event.text);

@@ -19,7 +19,7 @@ constexpr std::array<LossStream, 4> kLossStreams{{{"tactile", "frame"},
                                                   {"temperatures", "temperature sample"},
                                                   {"events", "event"}}};
 
-Json detailsOf(const RecordingEvent& event) {
+Json detailsOf(const Event& event) {
   if (event.json.empty()) return {};
   try {
     return Json::parse(event.json);
@@ -49,9 +49,9 @@ std::string RecordingLoss::text() const {
          " s";
 }
 
-std::vector<RecordingLoss> lossesOf(std::span<const RecordingEvent> events) {
+std::vector<RecordingLoss> lossesOf(std::span<const Event> events) {
   std::array<RecordingLoss, kLossStreams.size()> all;
-  for (const RecordingEvent& event : events) {
+  for (const Event& event : events) {
     if (event.kind != "gap") continue;
     const Json details = detailsOf(event);
     const Json lost = details.at("lost");

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "palpate/model/event.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile.h"
 #include "palpate/recording/exported_series.h"
-#include "palpate/recording/recording_event.h"
 
 namespace palpate {
 
@@ -72,11 +72,11 @@ inline WrittenSamples writtenTemperatures(const Profile& profile) {
           hand, count > 0 ? profile.temperatures(0).degC.size() : hand.temperatureSensors.size())};
 }
 
-// RecordingEvent; `matrices` has the value `noMatrix` where an event belongs to no single one.
+// Event; `matrices` has the value `noMatrix` where an event belongs to no single one.
 template <typename Matrix>
 struct EventColumns {
-  EventColumns(std::span<const RecordingEvent> events, Matrix noMatrix) {
-    for (const RecordingEvent& event : events) {
+  EventColumns(std::span<const Event> events, Matrix noMatrix) {
+    for (const Event& event : events) {
       timesUs.push_back(event.tUs);
       endsUs.push_back(event.t1Us);
       kinds.push_back(event.kind);

@@ -31,14 +31,13 @@ TEST(GraspFiles, AreOfTheGraspsThatAreFound) {
 TEST(GraspFiles, AreOfTheGraspsThatAPersonHasCorrected) {
   const Profile profile = threeGrasps();
   const auto at = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
-  const std::vector<RecordingEvent> events = {
+  const std::vector<Event> events = {
       {at(200), at(300), "segment", std::nullopt, "grasp", ""},
       {at(50), at(50), "label", std::nullopt, "ball", ""},
       {at(10), at(20), "segment", std::nullopt, "grasp", ""},
       {at(30) + 1, at(30) + 2, "segment", std::nullopt, "between two frames", ""}};
   EXPECT_EQ(graspFrames(profile, events), (std::vector<GraspFrames>{{10, 20}, {200, 300}}));
-  const std::vector<RecordingEvent> none = {
-      {at(0), at(0), "segment", std::nullopt, "no grasp", ""}};
+  const std::vector<Event> none = {{at(0), at(0), "segment", std::nullopt, "no grasp", ""}};
   EXPECT_TRUE(graspFrames(profile, none).empty());
 }
 
@@ -75,9 +74,8 @@ TEST(GraspFiles, HoldTheirFramesAndTheLabelsThatTouchThem) {
   const Profile profile = threeGrasps();
   const std::vector<GraspFrames> grasps = {{10, 20}, {200, 300}};
   const auto at = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
-  const std::vector<RecordingEvent> events = {
-      {at(15), at(15), "label", std::nullopt, "first", ""},
-      {at(250), at(400), "note", std::nullopt, "second", ""}};
+  const std::vector<Event> events = {{at(15), at(15), "label", std::nullopt, "first", ""},
+                                     {at(250), at(400), "note", std::nullopt, "second", ""}};
   const std::vector<fs::path> paths = {folder / "new/a.palpate", folder / "new/b.palpate"};
   saveGrasps(folder / "whole.palpate", profile, events, grasps, paths);
   const Profile second = openRecording(paths[1]);

@@ -34,7 +34,7 @@ TEST(CaptureQueue, handsOutInOrderOfTimeWhateverThePort) {
   queue.put(JointAngles{10, {1.0}});
   queue.put(JointAngles{40, {2.0}});
   queue.put(Temperatures{40, {30.0}});
-  queue.put(RecordingEvent{30, 30, "label", {}, "x", ""});
+  queue.put(Event{30, 30, "label", {}, "x", ""});
   std::vector<std::int64_t> stamps;
   std::vector<CaptureStream> streams;
   for (const CaptureItem& item : taken(queue)) {
@@ -59,7 +59,7 @@ TEST(CaptureQueue, whatDoesNotFitIsOneGapOverExactlyTheLostSpan) {
   EXPECT_TRUE(queue.put(frameAt(9)));
   const auto items = taken(queue);
   ASSERT_EQ(items.size(), 2u);
-  const auto& gap = std::get<RecordingEvent>(items[0]);
+  const auto& gap = std::get<Event>(items[0]);
   EXPECT_EQ(gap.kind, "gap");
   EXPECT_EQ(gap.tUs, 4);
   EXPECT_EQ(gap.t1Us, 8);
@@ -74,13 +74,12 @@ TEST(CaptureQueue, onePortThatOverflowsCostsTheOtherNothing) {
   CaptureQueue queue("the test", small(2));
   for (std::int64_t t = 1; t <= 5; ++t) queue.put(JointAngles{t, {0.0}});
   EXPECT_TRUE(queue.put(frameAt(6)));
-  EXPECT_TRUE(queue.put(RecordingEvent{7, 7, "mark", {}, "", ""}));
+  EXPECT_TRUE(queue.put(Event{7, 7, "mark", {}, "", ""}));
   EXPECT_EQ(queue.stats().lost, (std::array<std::uint64_t, 4>{0, 3, 0, 0}));
   std::vector<CaptureItem> open;
   queue.takeOpenGaps(open);
   ASSERT_EQ(open.size(), 1u);
-  EXPECT_EQ(std::get<RecordingEvent>(open[0]).text,
-            "3 angle samples lost: the test could not keep up");
+  EXPECT_EQ(std::get<Event>(open[0]).text, "3 angle samples lost: the test could not keep up");
   queue.takeOpenGaps(open);
   EXPECT_EQ(open.size(), 1u);  // reported once
 }
@@ -91,7 +90,7 @@ TEST(CaptureQueue, everyItemIsEitherHandedOutOrInAGap) {
   std::uint64_t gone = 0;
   const auto count = [&](std::vector<CaptureItem> items) {
     for (const CaptureItem& item : items) {
-      if (const auto* event = std::get_if<RecordingEvent>(&item))
+      if (const auto* event = std::get_if<Event>(&item))
         gone += static_cast<std::uint64_t>(Json::parse(event->json).at("lost").asInteger());
       else
         ++got;

@@ -174,7 +174,7 @@ TEST(CaptureSession, eventsOfTheDeviceAndMarksAreRecordedAndShown) {
       {markedUs + 1, markedUs + 900, "gap", 2, "no frames came", "{\"missed\":28}"});
   scripted.run(0.1);
   scripted.session->stopRecording();
-  const std::vector<RecordingEvent> expected{
+  const std::vector<Event> expected{
       {markedUs, markedUs, "mark", {}, "", ""},
       {markedUs + 1, markedUs + 900, "gap", 2, "no frames came", "{\"missed\":28}"},
       {markedUs + 500'000, markedUs + 500'000, "label", {}, "touch", "{\"digit\":3}"}};

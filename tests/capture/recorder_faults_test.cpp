@@ -84,7 +84,7 @@ TEST(RecorderFaults, aDiskThatFailsAtAnyOperationAndRecoversCostsNothing) {
       expectFrames(report.paths[0], scripted.frames, scripted.frames);
       EXPECT_EQ(openRecording(report.paths[0]).numAngles(), scripted.samples);
       std::size_t told = 0;
-      for (const RecordingEvent& event : readEvents(report.paths[0]).events)
+      for (const Event& event : readEvents(report.paths[0]).events)
         told += event.kind == "alarm" ? 1 : 0;
       EXPECT_EQ(told, vfs.struck() ? 1u : 0u) << "in the recording, too";
     }
@@ -296,7 +296,7 @@ TEST(RecorderFaults, whatTheMemoryCanNotHoldIsAnExactGap) {
   const Profile profile = openRecording(folder / "a.palpate");
   std::int64_t lost = 0;
   std::int64_t lostFrames = 0;
-  for (const RecordingEvent& event : readEvents(folder / "a.palpate").events) {
+  for (const Event& event : readEvents(folder / "a.palpate").events) {
     if (event.kind != "gap") continue;
     const Json json = Json::parse(event.json);
     lost += json.at("lost").asInteger();

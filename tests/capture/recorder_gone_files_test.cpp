@@ -45,7 +45,7 @@ struct GoneSession {
       return found == room.end() ? std::uint64_t{1} << 40 : found->second;
     };
     options.recorder.vfs = vfs;
-    options.recorder.notice = [this](const RecordingEvent& event) {
+    options.recorder.notice = [this](const Event& event) {
       if (event.kind == "alarm") told.push_back(event.text);
     };
     return options;
@@ -121,7 +121,7 @@ TEST(RecorderGoneFiles, oneThatIsDeletedIsThereAgainWithEverything) {
     session.expectAllIn(session.stop(), {session.path});
     EXPECT_FALSE(alarms(session)) << "ends with the recording";
     std::size_t said = 0;
-    for (const RecordingEvent& event : readEvents(session.path).events)
+    for (const Event& event : readEvents(session.path).events)
       said += event.kind == "alarm" ? 1 : 0;
     EXPECT_EQ(said, 1u) << "in the recording, too";
     GoneSession::expectNames(session.here, {"a.palpate"});
@@ -548,7 +548,7 @@ TEST(RecorderGoneFiles, oneThatIsOverwrittenInPlaceGoesOnInANewPart) {
           << session.told.front();
       if (after == 0.0) continue;  // no event of that moment can be in the file any more
       std::size_t gaps = 0;
-      for (const RecordingEvent& event : readEvents(session.here / "a_002.palpate").events)
+      for (const Event& event : readEvents(session.here / "a_002.palpate").events)
         gaps += event.kind == "gap" ? 1 : 0;
       EXPECT_EQ(gaps, 1u);
     }

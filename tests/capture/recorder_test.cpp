@@ -153,7 +153,7 @@ TEST(Recorder, anMcapFileThatCanNotBeWrittenStopsAndTheRecordingGoesOn) {
   EXPECT_TRUE(report.complete) << report.message;
   EXPECT_EQ(numbersIn(folder / "a.palpate"), upTo(0, 300));
   std::size_t alarms = 0;
-  for (const RecordingEvent& event : readEvents(folder / "a.palpate").events)
+  for (const Event& event : readEvents(folder / "a.palpate").events)
     alarms += event.kind == "alarm" && event.text.find("MCAP") != std::string::npos ? 1u : 0u;
   EXPECT_EQ(alarms, 1u);
 }
@@ -366,9 +366,9 @@ TEST(Recorder, rateAndGapsOfTheReportAreThoseOfTheFile) {
 
 // C-A11: only the recorder's own gaps are reported as its own.
 TEST(Recorder, onlyItsOwnGapsAreToldAsItsOwn) {
-  std::vector<RecordingEvent> told;
+  std::vector<Event> told;
   CaptureOptions options;
-  options.recorder.notice = [&told](const RecordingEvent& event) { told.push_back(event); };
+  options.recorder.notice = [&told](const Event& event) { told.push_back(event); };
   ScriptedSession scripted(options);
   const std::int64_t atUs = scripted.clock.hostUs();
   scripted.device->sink->onEvent(
@@ -379,11 +379,11 @@ TEST(Recorder, onlyItsOwnGapsAreToldAsItsOwn) {
 
 // C-A11: only the recorder empties its queues, so it must not wait for room in them.
 TEST(Recorder, aClockThatJumpsWhileTheEventsWaitIsTold) {
-  std::vector<RecordingEvent> told;
+  std::vector<Event> told;
   CaptureOptions options;
   options.recorder.queue.blockWhenFull = true;
   options.recorder.queue.eventItems = 2;
-  options.recorder.notice = [&told](const RecordingEvent& event) { told.push_back(event); };
+  options.recorder.notice = [&told](const Event& event) { told.push_back(event); };
   const TemporaryFolder folder;
   ScriptedSession scripted(options);
   scripted.session->startRecording(to(folder / "a.palpate"));
@@ -396,7 +396,7 @@ TEST(Recorder, aClockThatJumpsWhileTheEventsWaitIsTold) {
   EXPECT_EQ(told[0].kind, "clock");
   EXPECT_TRUE(scripted.session->stopRecording().complete);
   std::size_t recorded = 0;
-  for (const RecordingEvent& event : readEvents(folder / "a.palpate").events)
+  for (const Event& event : readEvents(folder / "a.palpate").events)
     recorded += event.kind == "clock" ? 1 : 0;
   EXPECT_EQ(recorded, 1u);
 }

@@ -28,7 +28,7 @@ class Listener : public DeviceSink {
   std::vector<TactileFrame> frames;
   std::vector<JointAngles> angles;
   std::vector<Temperatures> temperatures;
-  std::vector<DeviceEvent> events;
+  std::vector<Event> events;
 
   void onFrame(TactileFrame&& frame) override {
     items.push_back({'f', frame.hostUs});
@@ -42,7 +42,7 @@ class Listener : public DeviceSink {
     items.push_back({'t', sample.hostUs});
     temperatures.push_back(std::move(sample));
   }
-  void onEvent(DeviceEvent&& event) override {
+  void onEvent(Event&& event) override {
     items.push_back({'e', event.tUs});
     events.push_back(std::move(event));
   }
@@ -70,7 +70,7 @@ ReplayOptions byHand() { return {ReplayPace::kManual, 1.0}; }
 
 TEST(Replay, deliversInOrderOfTimeAndWhatBelongsToAFrameBeforeIt) {
   Listener listener;
-  const RecordingEvent label{kWallStartUs + 10'000, kWallStartUs + 12'000, "label", 2, "x", "{}"};
+  const Event label{kWallStartUs + 10'000, kWallStartUs + 12'000, "label", 2, "x", "{}"};
   Replay replay(shortProfile(), byHand(), {label});
   replay.start(listener);
   EXPECT_EQ(listener.order(), "");
@@ -292,7 +292,7 @@ TEST(Replay, whatADamagedBlockHeldIsCountedToldAndPassedOver) {
     EXPECT_EQ(replay.status().tactile.lost, lost);
     EXPECT_EQ(listener.angles.size(), 4 * kFrames);
     std::size_t alarms = 0;
-    for (const DeviceEvent& event : listener.events) alarms += event.kind == "alarm" ? 1 : 0;
+    for (const Event& event : listener.events) alarms += event.kind == "alarm" ? 1 : 0;
     EXPECT_EQ(alarms, 1u);
     for (std::size_t i = 1; i < listener.items.size(); ++i)
       EXPECT_LE(listener.items[i - 1].tUs, listener.items[i].tUs);

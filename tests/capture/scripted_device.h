@@ -73,10 +73,10 @@ class ScriptedDevice : public Device {
     state.tactile.state = PortState::kClosed;
   }
   DeviceStatus status() const override { return state; }
-  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const override {
+  std::optional<Event> openGap(std::int64_t untilUs) const override {
     if (afterOpenGap) afterOpenGap();
     if (silentSinceUs == 0) return std::nullopt;
-    return DeviceEvent{silentSinceUs, untilUs, "gap", {}, "silent", R"({"lost":7})"};
+    return Event{silentSinceUs, untilUs, "gap", {}, "silent", R"({"lost":7})"};
   }
   std::future<CommandAnswer> submit(DeviceCommand) override {
     std::promise<CommandAnswer> none;

@@ -33,7 +33,7 @@ class ReplayCheck : public DeviceSink {
   }
   void onAngles(JointAngles&&) override { ++angles; }
   void onTemperatures(Temperatures&&) override {}
-  void onEvent(DeviceEvent&&) override {}
+  void onEvent(Event&&) override {}
   std::size_t frames = 0, angles = 0, different = 0;
 
  private:

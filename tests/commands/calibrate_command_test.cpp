@@ -318,7 +318,7 @@ TEST(CalibrateCommand, SettingsThatTheRecordingNotesAreTaken) {
       "calibrate", "apply", folder / "step4.dsa", "--calibration", folder / "c.json"};
   const auto note = [&](const std::string& json) {
     const EventsReport before = readEvents(folder / "step4.dsa");
-    RecordingEvent event;
+    Event event;
     event.tUs = event.t1Us = 1'000'000;
     event.kind = "sensor_settings";
     event.json = json;

@@ -222,7 +222,7 @@ TEST_F(ConvertCommand, aTreeIsConvertedAndTheInputUntouched) {
   fs::create_directories(tree / "deep/er");
   fs::copy_file(in("a.dsa"), tree / "a.dsa");
   fs::copy_file(in("a.dsa"), tree / "deep/er/b.dsa");
-  const RecordingEvent label{1'400'000'000'000'000, 1'400'000'000'000'000, "label", 2, "edge", ""};
+  const Event label{1'400'000'000'000'000, 1'400'000'000'000'000, "label", 2, "edge", ""};
   saveRecording(openRecording(in("a.dsa")), std::vector{label}, tree / "deep/c.palpate");
   const fs::path out = made / "new/folder";
   const auto result = palpate({"convert", tree.string(), out.string(), "--to-form", "palpate"});
@@ -284,8 +284,8 @@ TEST_F(ConvertCommand, aFolderAndAFileAreNotMistakenForEachOther) {
 }
 
 TEST_F(ConvertCommand, labelsComeAlong) {
-  const RecordingEvent label{1'400'000'000'000'000, 1'400'000'000'000'000, "label", 2, "edge", ""};
-  const std::vector<RecordingEvent> events{label};
+  const Event label{1'400'000'000'000'000, 1'400'000'000'000'000, "label", 2, "edge", ""};
+  const std::vector<Event> events{label};
   saveRecording(openRecording(in("a.dsa")), events, in("b.palpate"));
   ASSERT_EQ(palpate({"convert", in("b.palpate"), in("c.dsa")}).exitCode, 0);
   ASSERT_EQ(palpate({"convert", in("c.dsa"), in("d.palpate")}).exitCode, 0);
@@ -301,7 +301,7 @@ TEST_F(ConvertCommand, MakesAFileOfEachGrasp) {
   const std::int64_t t1 = profile.frameTimeUs(profile.numFrames() - 1);
   fs::create_directories(folder / "in/day");
   saveRecording(profile,
-                std::vector<RecordingEvent>{{t0, t1, "label", std::nullopt, "ball", ""}},
+                std::vector<Event>{{t0, t1, "label", std::nullopt, "ball", ""}},
                 folder / "in/day/run.palpate");
   const std::string names = (folder / "out/{name}_{n}.palpate").string();
   const auto made = palpate({"convert", "--each-grasp", folder / "in", "-o", names});

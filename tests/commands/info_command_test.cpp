@@ -367,7 +367,7 @@ TEST(InfoCommand, ReadsTheNotesBesideADsa) {
   ASSERT_EQ(palpate({"synthesize", "-o", folder / "z.dsa", "--duration", "1"}).exitCode, 0);
   EXPECT_EQ(infoOf(folder / "z.dsa").at("events").size(), 0u);
   const std::int64_t us = openRecording(folder / "z.dsa").frameTimeUs(3);
-  saveEvents(folder / "z.dsa", {}, std::vector<RecordingEvent>{{us, us, "label", {}, "held", ""}});
+  saveEvents(folder / "z.dsa", {}, std::vector<Event>{{us, us, "label", {}, "held", ""}});
   const Json info = infoOf(folder / "z.dsa");
   ASSERT_EQ(info.at("labels").size(), 1u);
   EXPECT_EQ(info.at("labels").at(0).asString(), "held");

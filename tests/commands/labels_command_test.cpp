@@ -16,11 +16,11 @@ class LabelsCommandTest : public ::testing::Test {
   LabelsCommandTest() : path_(folder_ / "run.palpate") {
     const Profile profile = synthesize({.durationS = 10.0, .grasps = 1});
     const std::int64_t t0 = profile.frameTimeUs(0);
-    saveRecording(profile,
-                  std::vector<RecordingEvent>{
-                      {t0 + 1'000'000, t0 + 2'500'000, "label", 2, "ball, red", ""},
-                      {t0 + 3'000'000, t0 + 3'000'000, "note", std::nullopt, "slipped", ""}},
-                  path_);
+    saveRecording(
+        profile,
+        std::vector<Event>{{t0 + 1'000'000, t0 + 2'500'000, "label", 2, "ball, red", ""},
+                           {t0 + 3'000'000, t0 + 3'000'000, "note", std::nullopt, "slipped", ""}},
+        path_);
   }
   TemporaryFolder folder_;
   fs::path path_;

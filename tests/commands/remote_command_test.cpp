@@ -98,7 +98,7 @@ TEST_F(RemoteCommandTest, RecordsAsItIsAsked) {
   EXPECT_EQ(meta["operator"], "Ada");
   EXPECT_EQ(meta["object"], "foam ball");
   int labels = 0;
-  for (const RecordingEvent& event : readEvents(path).events)
+  for (const Event& event : readEvents(path).events)
     labels += event.kind == "label" && event.text == "contact" ? 1 : 0;
   EXPECT_EQ(labels, 1);
 
@@ -189,7 +189,7 @@ TEST_F(RemoteCommandTest, TheWindowRecordsAsItIsAsked) {
   const Profile profile = openRecording(path);
   EXPECT_EQ(stopped.at("frames").asInteger(), static_cast<std::int64_t>(profile.numFrames()));
   int labels = 0;
-  for (const RecordingEvent& event : readEvents(path).events) labels += event.text == "contact";
+  for (const Event& event : readEvents(path).events) labels += event.text == "contact";
   EXPECT_EQ(labels, 1);
   program_->signal(SIGTERM);
   EXPECT_EQ(program_->wait(), 0) << program_->err();

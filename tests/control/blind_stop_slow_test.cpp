@@ -46,7 +46,7 @@ class BadlyAnsweringChannel : public ByteChannel {
 
 // Host time at which the port's thread decided to stop blindly; 0 without such an event.
 std::int64_t decidedUs(CaptureSession& session) {
-  for (const RecordingEvent& event : session.takeEvents())
+  for (const Event& event : session.takeEvents())
     if (event.kind == "motion" && event.text.find("without waiting") != std::string::npos)
       return event.tUs;
   return 0;

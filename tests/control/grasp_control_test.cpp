@@ -111,8 +111,8 @@ TEST(GraspControl, ARecordingHoldsWhatHappened) {
   bench.session->step();
   bench.session->stopRecording();
   const EventsReport events = readEvents(folder / "grasp.palpate");
-  std::vector<RecordingEvent> grasps;
-  for (const RecordingEvent& event : events.events)
+  std::vector<Event> grasps;
+  for (const Event& event : events.events)
     if (event.kind == "grasp") grasps.push_back(event);
   ASSERT_EQ(grasps.size(), 3u);
   EXPECT_FALSE(Json::parse(grasps[0].json).contains("outcome"));
@@ -199,7 +199,7 @@ void hold(GraspBench& bench) {
 
 std::vector<std::string> textsOf(CaptureSession& session, const std::string& kind) {
   std::vector<std::string> texts;
-  for (const RecordingEvent& event : session.takeEvents())
+  for (const Event& event : session.takeEvents())
     if (event.kind == kind) texts.push_back(event.text);
   return texts;
 }
@@ -431,7 +431,7 @@ TEST(GraspControl, AHandThatStandsStillIsRelaxedNotSilently) {
   bench.control->relax();
   EXPECT_TRUE(bench.control->status().motorsOff);
   std::vector<std::string> said;
-  for (const RecordingEvent& event : bench.session->takeEvents())
+  for (const Event& event : bench.session->takeEvents())
     if (event.kind == "grasp") said.push_back(event.text);
   EXPECT_EQ(said, std::vector<std::string>{"relaxed by the user: the motors are off"});
   bench.control->stop();
@@ -465,8 +465,7 @@ TEST(GraspControl, ARecordingThatIsReplayedCannotBeMoved) {
   testing::HandClock clock;
   CaptureOptions capture;
   capture.ownThread = false;
-  auto replay =
-      std::make_unique<Replay>(synthesize(options), byHand, std::vector<RecordingEvent>{}, clock);
+  auto replay = std::make_unique<Replay>(synthesize(options), byHand, std::vector<Event>{}, clock);
   Replay& source = *replay;
   CaptureSession session(std::move(replay), capture, clock);
   GraspControl control(session, clock);

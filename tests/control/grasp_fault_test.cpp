@@ -25,7 +25,7 @@ GraspRequest slipAware() {
 }
 
 bool alarmSays(CaptureSession& session, const std::string& word) {
-  for (const RecordingEvent& event : session.takeEvents())
+  for (const Event& event : session.takeEvents())
     if (event.kind == "alarm" && event.text.find(word) != std::string::npos) return true;
   return false;
 }
@@ -83,7 +83,7 @@ TEST(GraspFault, EndsTheGraspAlsoWhereItIsThrownInEveryRound) {
   EXPECT_EQ(bench.control->status().phase, GraspPhase::kIdle);
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
   std::size_t alarms = 0;
-  for (const RecordingEvent& event : bench.session->takeEvents()) alarms += event.kind == "alarm";
+  for (const Event& event : bench.session->takeEvents()) alarms += event.kind == "alarm";
   EXPECT_EQ(alarms, 1u) << "said once";
   bench.hand->fails = nullptr;
   EXPECT_NO_THROW(bench.control->grasp({}));
@@ -100,7 +100,7 @@ TEST(GraspFault, TheSameIsSaidAgainAfterTenSecondsOrInANewGrasp) {
   const auto alarmsOf = [&](std::int64_t us) {
     for (std::int64_t passed = 0; passed < us; passed += 100'000) bench.wait(100'000);
     std::size_t found = 0;
-    for (const RecordingEvent& event : bench.session->takeEvents()) found += event.kind == "alarm";
+    for (const Event& event : bench.session->takeEvents()) found += event.kind == "alarm";
     return found;
   };
   bench.control->grasp({});

@@ -132,7 +132,7 @@ TEST(GraspReport, IsAnEventWithParametersAndOutcome) {
   report.request.startRatio = 0.25;
   report.beginUs = 5'000'000;
   report.endUs = 7'000'000;
-  const RecordingEvent begin = beginEvent(report);
+  const Event begin = beginEvent(report);
   EXPECT_EQ(begin.kind, "grasp");
   EXPECT_EQ(begin.tUs, 5'000'000);
   EXPECT_EQ(begin.t1Us, 5'000'000);
@@ -146,7 +146,7 @@ TEST(GraspReport, IsAnEventWithParametersAndOutcome) {
   report.outcome = GraspOutcome::kLimitReached;
   report.text = "limit reached";
   report.peak = {3, 4, 5, 231.0F};
-  const RecordingEvent end = endEvent(report);
+  const Event end = endEvent(report);
   EXPECT_EQ(end.tUs, 5'000'000);
   EXPECT_EQ(end.t1Us, 7'000'000);
   EXPECT_EQ(end.matrix, 3);

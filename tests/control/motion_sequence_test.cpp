@@ -174,7 +174,7 @@ TEST_F(SequenceRunTest, ATaskThatThrowsStopsTheHandAndRaisesAnAlarm) {
   EXPECT_FALSE(run_.running());
   EXPECT_EQ(numMotions(), 1u);
   const auto events = bench_.session->takeEvents();
-  EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const RecordingEvent& event) {
+  EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const Event& event) {
     return event.kind == "alarm" && event.text.find("the program failed") != std::string::npos;
   }));
 }

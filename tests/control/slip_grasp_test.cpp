@@ -569,7 +569,7 @@ TEST(SlipGrasp, RefusesWhatItCantDo) {
 TEST(SlipGrasp, ItsEventsTellWhatHappened) {
   GraspReport report;
   report.request = slipAware("centrical", 400);
-  const RecordingEvent slip =
+  const Event slip =
       noteEvent(report, {"slip", "slips: finger 0 distal", 1, 700}, 1'400'000'000'000'000);
   EXPECT_EQ(slip.kind, "grasp");
   EXPECT_EQ(slip.matrix, 1);

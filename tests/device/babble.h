@@ -45,7 +45,7 @@ inline double misbehave(Behaviour behaviour, std::uint64_t bytes) {
   EXPECT_TRUE(sink.awaitFrames(frames + 10, std::chrono::seconds(20))) << "came back";
   hand.stop();
   std::size_t gaps = 0;
-  for (const DeviceEvent& event : sink.takeEvents())
+  for (const Event& event : sink.takeEvents())
     if (event.kind == "gap") ++gaps;
   EXPECT_EQ(gaps, 1u);
   return ms;

@@ -28,7 +28,7 @@ class CollectingSink : public DeviceSink {
     temperatures.push_back(std::move(sample));
     changed_.notify_all();
   }
-  void onEvent(DeviceEvent&& event) override {
+  void onEvent(Event&& event) override {
     std::lock_guard lock(mutex_);
     events.push_back(std::move(event));
     changed_.notify_all();
@@ -60,7 +60,7 @@ class CollectingSink : public DeviceSink {
     std::lock_guard lock(mutex_);
     return frames;
   }
-  std::vector<DeviceEvent> takeEvents() {
+  std::vector<Event> takeEvents() {
     std::lock_guard lock(mutex_);
     return events;
   }
@@ -68,7 +68,7 @@ class CollectingSink : public DeviceSink {
   std::vector<TactileFrame> frames;
   std::vector<JointAngles> angles;
   std::vector<Temperatures> temperatures;
-  std::vector<DeviceEvent> events;
+  std::vector<Event> events;
 
  private:
   std::mutex mutex_;

@@ -73,7 +73,7 @@ int run(const std::string& port, const std::string& how) {
   hand.start(sink);
   if (!awaited([&] { return hand.status().motion->state == PortState::kStreaming; })) return 1;
   hand.submit(MoveJoints{{0, -10, 10, -10, 10, -10, 10}, {}, false}).get();
-  for (const DeviceEvent& event : sink.takeEvents())
+  for (const Event& event : sink.takeEvents())
     if (event.kind == "alarm") say(event.text);
   say("moves");
   die(how);

@@ -98,7 +98,7 @@ class FaultyMotionPort : public ByteChannel {
 };
 
 bool hasAlarm(CollectingSink& sink, const std::string& word) {
-  for (const DeviceEvent& event : sink.takeEvents())
+  for (const Event& event : sink.takeEvents())
     if (event.kind == "alarm" && event.text.find(word) != std::string::npos) return true;
   return false;
 }

@@ -41,7 +41,7 @@ class LiveHandTest : public ::testing::Test {
   }
   std::size_t numEvents(const std::string& kind) {
     std::size_t count = 0;
-    for (const DeviceEvent& event : sink.takeEvents())
+    for (const Event& event : sink.takeEvents())
       if (event.kind == kind) ++count;
     return count;
   }
@@ -152,7 +152,7 @@ TEST_F(LiveHandTest, AHandThatReturnsStreamsAgainWithItsSettings) {
   EXPECT_EQ(hand.status().tactile.reconnects, 1u);
   EXPECT_EQ(numEvents("gap"), 1u);
   const auto all = sink.takeFrames();
-  for (const DeviceEvent& event : sink.takeEvents())
+  for (const Event& event : sink.takeEvents())
     if (event.kind == "gap") {
       EXPECT_EQ(event.tUs, all[frames - 1].hostUs);
       EXPECT_EQ(event.t1Us, all[frames].hostUs);

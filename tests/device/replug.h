@@ -109,7 +109,7 @@ class ReplugRun {
   }
   std::size_t numGaps() {
     std::size_t count = 0;
-    for (const DeviceEvent& event : sink_.takeEvents())
+    for (const Event& event : sink_.takeEvents())
       if (event.kind == "gap") ++count;
     return count;
   }

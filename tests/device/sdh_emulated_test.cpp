@@ -228,7 +228,7 @@ TEST(SdhEmulatedHand, WhatAnswersAtTheOtherOnesPortIsSaidInItsStatus) {
   hand.start(sink);
   EXPECT_EQ(hand.status().tactile.found, std::nullopt);
   ASSERT_TRUE(sink.await([&] {
-    return std::any_of(sink.events.begin(), sink.events.end(), [](const DeviceEvent& event) {
+    return std::any_of(sink.events.begin(), sink.events.end(), [](const Event& event) {
       return event.text.find("swapped") != std::string::npos;
     });
   }));

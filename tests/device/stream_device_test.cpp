@@ -69,7 +69,7 @@ struct Bench {
   // Frames of all gaps that are told.
   std::int64_t lostByEvents() const {
     std::int64_t lost = 0;
-    for (const DeviceEvent& event : sink.events)
+    for (const Event& event : sink.events)
       if (event.kind == "gap" && Json::parse(event.json).contains("lost"))
         lost += Json::parse(event.json).at("lost").asInteger();
     return lost;
@@ -88,7 +88,7 @@ struct Bench {
     return static_cast<std::size_t>(std::count_if(
         sink.events.begin(), sink.events.end(), [&](const auto& e) { return e.kind == kind; }));
   }
-  const DeviceEvent& lastEvent(const std::string& kind) const {
+  const Event& lastEvent(const std::string& kind) const {
     for (auto event = sink.events.rbegin(); event != sink.events.rend(); ++event)
       if (event->kind == kind) return *event;
     throw std::logic_error("no event " + kind);
@@ -178,7 +178,7 @@ TEST(StreamDevice, TwoSendersAreOneEventAndNoLoss) {
   EXPECT_EQ(bench.status().items, 2000u);
   EXPECT_EQ(bench.status().lost, 0u);
   std::vector<std::string> told;
-  for (const DeviceEvent& event : bench.sink.events) told.push_back(event.kind + ": " + event.text);
+  for (const Event& event : bench.sink.events) told.push_back(event.kind + ": " + event.text);
   EXPECT_EQ(told,
             (std::vector<std::string>{"link: the stream is connected",
                                       "link: the numbers of the frames started anew: the sender "
@@ -191,7 +191,7 @@ TEST(StreamDevice, EachLossIsAGapOverItsFrames) {
   for (std::uint32_t n = 0; n < 10; ++n) bench.frame(n);
   const std::int64_t fromUs = bench.time.nowUs();
   bench.frame(15);
-  const DeviceEvent first = bench.lastEvent("gap");
+  const Event first = bench.lastEvent("gap");
   EXPECT_EQ(first.text, "5 frames are missing");
   EXPECT_EQ(first.tUs, fromUs);
   EXPECT_EQ(first.t1Us, bench.time.nowUs());
@@ -503,7 +503,7 @@ TEST(StreamDevice, AWrongUnitOfTimeIsReportedOnce) {
   for (int i = 0; i < 1000; ++i)
     bench.send(std::to_string(3'000'000 + 5'000 * i) + ",1,2,3\n", 5'000);
   std::size_t told = 0;
-  for (const DeviceEvent& event : bench.sink.events)
+  for (const Event& event : bench.sink.events)
     told += event.text.find("is the unit of its times right?") != std::string::npos;
   EXPECT_EQ(told, 1u);
   EXPECT_EQ(bench.status().items, 1000u);
@@ -780,7 +780,7 @@ TEST(StreamDevice, ASenderThatCameBackIsReadInsteadOfADeadConnection) {
   ::close(dead);
   ::close(back);
   bool gap = false;
-  for (const DeviceEvent& event : sink.takeEvents()) gap = gap || event.kind == "gap";
+  for (const Event& event : sink.takeEvents()) gap = gap || event.kind == "gap";
   EXPECT_TRUE(gap);
 }
 

@@ -75,16 +75,16 @@ struct Bench {
     link.finish();
     dsa.streaming = false;
   }
-  std::vector<DeviceEvent> events(const std::string& kind) {
-    std::vector<DeviceEvent> found;
-    for (DeviceEvent& event : sink.takeEvents())
+  std::vector<Event> events(const std::string& kind) {
+    std::vector<Event> found;
+    for (Event& event : sink.takeEvents())
       if (event.kind == kind) found.push_back(std::move(event));
     return found;
   }
 };
 
 // Number of frames that a hand would have sent in a gap, one per period.
-double expectedLost(const DeviceEvent& gap) {
+double expectedLost(const Event& gap) {
   return static_cast<double>(gap.t1Us - gap.tUs) / static_cast<double>(kPeriodUs) - 1.0;
 }
 
@@ -264,7 +264,7 @@ TEST(TactileLink, ASecondStartCountsFromItself) {
   const PortStatus status = bench.link.status();
   EXPECT_EQ(status.items, 10u);
   EXPECT_EQ(status.lost, 0u);
-  for (const DeviceEvent& gap : bench.events("gap")) EXPECT_GE(gap.tUs, secondUs) << gap.text;
+  for (const Event& gap : bench.events("gap")) EXPECT_GE(gap.tUs, secondUs) << gap.text;
   EXPECT_EQ(bench.events("gap").size(), 1u);
 }
 

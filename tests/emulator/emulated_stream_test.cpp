@@ -283,7 +283,7 @@ TEST(EmulatedStream, FramesThatTheClientDoesNotReadAreLostAndCounted) {
     }
     void onAngles(JointAngles&&) override {}
     void onTemperatures(Temperatures&&) override {}
-    void onEvent(DeviceEvent&&) override {}
+    void onEvent(Event&&) override {}
     std::atomic<int> frames{0};
 
    private:

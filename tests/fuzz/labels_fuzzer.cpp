@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const LabelTable table = readLabelTable({reinterpret_cast<const char*>(data), size}, profile);
     require(table.events.size() <= kMaximumLabels);
     require(table.problems.size() <= kMaximumTableProblems + 1);
-    for (const RecordingEvent& event : table.events) {
+    for (const Event& event : table.events) {
       require(event.tUs >= profile.frameTimeUs(0) - 1 && event.t1Us >= event.tUs);
       require(event.t1Us <= profile.frameTimeUs(profile.numFrames() - 1) + 1);
     }

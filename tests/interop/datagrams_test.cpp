@@ -26,7 +26,7 @@ LiveResults largeResults(std::size_t numMatrices, std::size_t numAxes) {
     frame.values[i] = 1000.0F + static_cast<float>(i % 97) / 7.0F;
   LiveResults results;
   results.frame = std::make_shared<const TactileFrame>(std::move(frame));
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
   SignalsStage().onFrame(results, events);
   results.slip.resize(numMatrices);
   for (SlipDetection& slip : results.slip) {

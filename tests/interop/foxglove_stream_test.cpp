@@ -87,7 +87,7 @@ TEST(FoxgloveStream, EventsAreALog) {
   WebSocketClient client(stream.port());
   ASSERT_TRUE(client.join());
   subscribe(client, {"/events"});
-  stream.send(RecordingEvent{7'000'000, 7'000'000, "slip", 1, "begins", ""});
+  stream.send(Event{7'000'000, 7'000'000, "slip", 1, "begins", ""});
   const Json log = Json::parse(client.frame().value().payload.substr(13));
   EXPECT_EQ(log.at("name").asString(), "slip");
   EXPECT_EQ(log.at("message").asString(), "finger 0 distal: begins");

@@ -102,7 +102,7 @@ TEST_F(RemoteRecorderTest, ARunFromStartToStop) {
   EXPECT_EQ(verifyRecording(path).state, VerifyReport::State::kSound);
   EXPECT_EQ(readRecordingMeta(path)["object"], "foam ball");
   std::vector<std::string> labels;
-  for (const RecordingEvent& event : readEvents(path).events)
+  for (const Event& event : readEvents(path).events)
     if (event.kind == "label" || event.kind == "mark") {
       labels.push_back(event.kind + " " + event.text);
       if (event.kind == "label") {

@@ -17,7 +17,7 @@ inline LiveResults sampleResults(std::int64_t hostUs = 1'416'996'123'250'007) {
   frame.matrix(1)(9, 2) = 100.0F;
   LiveResults results;
   results.frame = std::make_shared<const TactileFrame>(std::move(frame));
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
   SignalsStage().onFrame(results, events);
   return results;
 }

@@ -24,7 +24,7 @@ struct Found {
 
 std::vector<Found> processed(const Profile& profile,
                              const std::string& recipe,
-                             std::vector<RecordingEvent> events = {}) {
+                             std::vector<Event> events = {}) {
   auto stage = std::make_unique<FilterStage>();
   stage->setRecipe(recipeOf(recipe));
   std::vector<std::unique_ptr<Stage>> stages;
@@ -78,7 +78,7 @@ TEST(FilterStage, WhatNeedsLaterFramesIsLeftOut) {
 TEST(FilterStage, ARecipeMayChangeOnTheWay) {
   const Profile profile = grasps();
   FilterStage stage;
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
   const auto at = [&](std::size_t i) {
     LiveResults results;
     results.frame = std::make_shared<const TactileFrame>(profile.frame(i));

@@ -25,7 +25,7 @@ JointAngles anglesAt(std::int64_t us, double deg) {
   return {kBeginUs + us, std::vector<double>(sdh2().axes.size(), deg)};
 }
 
-RecordingEvent eventOf(const std::string& kind, const std::string& json = {}) {
+Event eventOf(const std::string& kind, const std::string& json = {}) {
   return {kBeginUs, kBeginUs, kind, std::nullopt, "what happened", json};
 }
 

@@ -30,7 +30,7 @@ struct Seen {
 Seen seen(const Profile& profile,
           const std::optional<Calibration>& by,
           PressureStage::AskSettings settings = {},
-          std::vector<RecordingEvent> events = {},
+          std::vector<Event> events = {},
           const std::string& filter = {}) {
   std::vector<std::unique_ptr<Stage>> stages;
   if (!filter.empty()) {

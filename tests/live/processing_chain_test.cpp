@@ -137,14 +137,14 @@ TEST(ProcessingChain, ReplayAndOfflineGiveTheSameBitsForARealRecording) {
 
 TEST(ProcessingChain, CountsWhatItSkipsAndTellsTheStages) {
   struct Gaps final : Stage {
-    explicit Gaps(std::vector<RecordingEvent>& all) : gaps(all) {}
-    void onFrame(LiveResults&, std::vector<RecordingEvent>&) override {}
-    void onEvent(const RecordingEvent& event) override {
+    explicit Gaps(std::vector<Event>& all) : gaps(all) {}
+    void onFrame(LiveResults&, std::vector<Event>&) override {}
+    void onEvent(const Event& event) override {
       if (event.kind == "gap") gaps.push_back(event);
     }
-    std::vector<RecordingEvent>& gaps;
+    std::vector<Event>& gaps;
   };
-  std::vector<RecordingEvent> gaps;
+  std::vector<Event> gaps;
   auto stages = signalsOnly();
   stages.push_back(std::make_unique<Gaps>(gaps));
   ChainOptions options;

@@ -14,7 +14,7 @@ TEST(SignalsStage, FillsInTheSignalsOfEveryMatrixAndThePeak) {
   frame->matrix(1)(4, 3) = 300.0F;
   LiveResults results;
   results.frame = frame;
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
   SignalsStage stage;
   stage.onFrame(results, events);
   ASSERT_EQ(results.matrixSignals.size(), 6u);

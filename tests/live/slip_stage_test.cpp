@@ -35,13 +35,13 @@ Profile slipOnce() {
 
 struct Found {
   std::vector<std::vector<SlipDetection>> detections;
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
 };
 
 Found processed(const Profile& profile,
                 const std::function<void(SlipStage&)>& prepare = {},
                 const std::function<void(SlipStage&, std::size_t)>& before = {},
-                std::vector<RecordingEvent> events = {}) {
+                std::vector<Event> events = {}) {
   auto stage = std::make_unique<SlipStage>(sdh2());
   SlipStage& slip = *stage;
   if (prepare) prepare(slip);
@@ -53,7 +53,7 @@ Found processed(const Profile& profile,
     found.detections.push_back(results.slip);
     if (before) before(slip, found.detections.size());
   };
-  options.onEvent = [&](const RecordingEvent& event) { found.events.push_back(event); };
+  options.onEvent = [&](const Event& event) { found.events.push_back(event); };
   ProcessingChain(std::move(stages), options).runOver(profile, std::move(events));
   return found;
 }
@@ -70,13 +70,13 @@ TEST(SlipStage, ShowsTheVectorOfEveryMatrixAndTellsOfSlip) {
   EXPECT_TRUE(found.detections[104][3].slipping);
   EXPECT_FALSE(found.detections[199][3].slipping);
   ASSERT_EQ(found.events.size(), 2U);
-  const RecordingEvent& begins = found.events[0];
+  const Event& begins = found.events[0];
   EXPECT_EQ(begins.kind, "slip");
   EXPECT_EQ(begins.matrix, 3);
   EXPECT_EQ(begins.tUs, begins.t1Us);
   EXPECT_GE(begins.tUs, profile.frameTimeUs(95));
   EXPECT_LE(begins.tUs, profile.frameTimeUs(104));
-  const RecordingEvent& ends = found.events[1];
+  const Event& ends = found.events[1];
   EXPECT_EQ(ends.tUs, begins.tUs);
   EXPECT_GT(ends.t1Us, profile.frameTimeUs(106));
   EXPECT_GT(Json::parse(ends.json).at("dy_taxels").asDouble(), 1.0);
@@ -86,12 +86,12 @@ TEST(SlipStage, ShowsTheVectorOfEveryMatrixAndTellsOfSlip) {
 TEST(SlipStage, DoesNotTellOfSlipWhileTheHandLetsGo) {
   const auto at = [](int frame, const std::string& json) {
     const std::int64_t tUs = 1'400'000'000'000'000 + 31'500 * frame - 1;
-    return RecordingEvent{tUs, tUs, "grasp", {}, "opening", json};
+    return Event{tUs, tUs, "grasp", {}, "opening", json};
   };
-  const RecordingEvent begins = at(80, R"({"mode":"plain","preshape":"centrical","close":0})");
-  const RecordingEvent ends =
+  const Event begins = at(80, R"({"mode":"plain","preshape":"centrical","close":0})");
+  const Event ends =
       at(90, R"({"mode":"plain","preshape":"centrical","close":0,"outcome":"finished"})");
-  const RecordingEvent closes = at(90, R"({"mode":"plain","preshape":"centrical","close":1})");
+  const Event closes = at(90, R"({"mode":"plain","preshape":"centrical","close":1})");
   const Profile profile = slipOnce();
   const Found opening = processed(profile, {}, {}, {begins});
   EXPECT_TRUE(opening.events.empty());
@@ -102,9 +102,9 @@ TEST(SlipStage, DoesNotTellOfSlipWhileTheHandLetsGo) {
   }
   EXPECT_TRUE(opening.detections[100][3].motion.valid) << "the motion is measured nevertheless";
   // Changed settings don't end the opening; what slipped before its end is not told after it.
-  RecordingEvent settings = at(92, {});
+  Event settings = at(92, {});
   settings.kind = "settings";
-  RecordingEvent ended = ends;
+  Event ended = ends;
   ended.tUs = ended.t1Us = at(104, {}).tUs;
   EXPECT_TRUE(processed(profile, {}, {}, {begins, settings}).events.empty());
   EXPECT_TRUE(processed(profile, {}, {}, {begins, ended}).events.empty());

@@ -19,7 +19,7 @@ class NotingStage final : public Stage {
  public:
   explicit NotingStage(std::vector<std::string>& notes) : notes_(notes) {}
   void reset() override { notes_.push_back("reset"); }
-  void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override {
+  void onFrame(LiveResults& results, std::vector<Event>& out) override {
     notes_.push_back("frame " + std::to_string(testing::numberOf(*results.frame)) +
                      (results.angles ? " angles" : "") +
                      (results.temperatures ? " temperatures" : ""));
@@ -28,7 +28,7 @@ class NotingStage final : public Stage {
   }
   void onAngles(const JointAngles&) override { notes_.push_back("angles"); }
   void onTemperatures(const Temperatures&) override { notes_.push_back("temperatures"); }
-  void onEvent(const RecordingEvent& event) override { notes_.push_back(event.kind); }
+  void onEvent(const Event& event) override { notes_.push_back(event.kind); }
 
  private:
   std::vector<std::string>& notes_;
@@ -37,20 +37,16 @@ class NotingStage final : public Stage {
 // Doubles a result of the stage before it.
 class DoublingStage final : public Stage {
  public:
-  void onFrame(LiveResults& results, std::vector<RecordingEvent>&) override {
-    results.peak.counts *= 2.0F;
-  }
+  void onFrame(LiveResults& results, std::vector<Event>&) override { results.peak.counts *= 2.0F; }
 };
 class ConstantStage final : public Stage {
  public:
-  void onFrame(LiveResults& results, std::vector<RecordingEvent>&) override {
-    results.peak.counts = 21.0F;
-  }
+  void onFrame(LiveResults& results, std::vector<Event>&) override { results.peak.counts = 21.0F; }
 };
 
 class ThrowingStage final : public Stage {
  public:
-  void onFrame(LiveResults&, std::vector<RecordingEvent>&) override {
+  void onFrame(LiveResults&, std::vector<Event>&) override {
     throw std::runtime_error("the stage broke");
   }
 };
@@ -64,9 +60,9 @@ std::vector<std::unique_ptr<Stage>> stagesOf(Stages... stages) {
 
 TEST(Stage, IsToldEverythingInOrderOfTime) {
   std::vector<std::string> notes;
-  std::vector<RecordingEvent> found;
+  std::vector<Event> found;
   ChainOptions options;
-  options.onEvent = [&](const RecordingEvent& event) { found.push_back(event); };
+  options.onEvent = [&](const Event& event) { found.push_back(event); };
   ScriptedSession scripted;
   ProcessingChain chain(stagesOf(std::make_unique<NotingStage>(notes)), options);
   chain.connect(*scripted.session);

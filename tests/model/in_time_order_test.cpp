@@ -9,10 +9,6 @@ namespace {
 
 using Kind = InTimeOrder::Kind;
 
-struct Event {
-  std::int64_t tUs;
-};
-
 Profile profileAt(const std::vector<std::int64_t>& framesUs,
                   const std::vector<std::int64_t>& anglesUs,
                   const std::vector<std::int64_t>& temperaturesUs) {
@@ -23,6 +19,12 @@ Profile profileAt(const std::vector<std::int64_t>& framesUs,
   for (const std::int64_t us : anglesUs) builder.addAngles(us, value);
   for (const std::int64_t us : temperaturesUs) builder.addTemperatures(us, value);
   return builder.finish({});
+}
+
+std::vector<Event> eventsAt(const std::vector<std::int64_t>& timesUs) {
+  std::vector<Event> events(timesUs.size());
+  for (std::size_t i = 0; i < events.size(); ++i) events[i].tUs = timesUs[i];
+  return events;
 }
 
 std::vector<InTimeOrder::Item> allOf(InTimeOrder order) {
@@ -36,7 +38,7 @@ std::vector<InTimeOrder::Item> allOf(InTimeOrder order) {
 }
 
 TEST(InTimeOrder, ofEqualTimesEventsTemperaturesAnglesFrames) {
-  EXPECT_EQ(allOf({profileAt({10, 20}, {5, 20}, {20, 30}), std::vector<Event>{{20}, {40}}}),
+  EXPECT_EQ(allOf({profileAt({10, 20}, {5, 20}, {20, 30}), eventsAt({20, 40})}),
             (std::vector<InTimeOrder::Item>{{Kind::kAngles, 0, 5},
                                             {Kind::kFrame, 0, 10},
                                             {Kind::kEvent, 0, 20},
@@ -48,7 +50,7 @@ TEST(InTimeOrder, ofEqualTimesEventsTemperaturesAnglesFrames) {
 }
 
 TEST(InTimeOrder, eventsKeepTheirOrder) {
-  EXPECT_EQ(allOf({profileAt({10, 20}, {}, {}), std::vector<Event>{{15}, {5}}}),
+  EXPECT_EQ(allOf({profileAt({10, 20}, {}, {}), eventsAt({15, 5})}),
             (std::vector<InTimeOrder::Item>{{Kind::kFrame, 0, 10},
                                             {Kind::kEvent, 0, 15},
                                             {Kind::kEvent, 1, 5},
@@ -56,8 +58,8 @@ TEST(InTimeOrder, eventsKeepTheirOrder) {
 }
 
 TEST(InTimeOrder, mayBeEmptyAndReachTheEndOfTime) {
-  EXPECT_TRUE(allOf({profileAt({}, {}, {}), std::vector<Event>{}}).empty());
-  EXPECT_EQ(allOf({profileAt({}, {}, {}), std::vector<Event>{{INT64_MAX}}}).size(), 1u);
+  EXPECT_TRUE(allOf({profileAt({}, {}, {}), eventsAt({})}).empty());
+  EXPECT_EQ(allOf({profileAt({}, {}, {}), eventsAt({INT64_MAX})}).size(), 1u);
 }
 
 }  // namespace

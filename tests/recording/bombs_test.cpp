@@ -75,8 +75,8 @@ Profile someFrames() {
 }
 
 // 250,000 letters each.
-std::vector<RecordingEvent> longEvents(std::size_t count) {
-  std::vector<RecordingEvent> events;
+std::vector<Event> longEvents(std::size_t count) {
+  std::vector<Event> events;
   for (std::size_t i = 0; i < count; ++i) {
     const auto timeUs = static_cast<std::int64_t>(i);
     events.push_back({timeUs, timeUs, "note", {}, std::string(250'000, 'x'), ""});
@@ -119,7 +119,7 @@ TEST(McapBombs, eventsBeyond64MegabytesAreLeftOutAndCounted) {
 TEST(NativeBombs, eventsOfAnyNumberAreWritten) {
   const TemporaryFolder folder;
   const fs::path path = folder / "events.palpate";
-  const std::vector<RecordingEvent> events = longEvents(kMaxPendingBytes / 250'000 + 10);
+  const std::vector<Event> events = longEvents(kMaxPendingBytes / 250'000 + 10);
   writePalpate(someFrames(), events, path, Overwrite::kRefuse);
   EXPECT_EQ(readEvents(path).events.size(), events.size());
 }

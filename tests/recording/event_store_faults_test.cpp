@@ -23,8 +23,8 @@ using Fault = FaultyVfs::Fault;
 constexpr std::size_t kFrames = 60;
 
 // Notes long enough to need pages of their own.
-std::vector<RecordingEvent> notes(int version) {
-  std::vector<RecordingEvent> events;
+std::vector<Event> notes(int version) {
+  std::vector<Event> events;
   for (int i = 0; i < 12; ++i)
     events.push_back({kSampleStartUs + i,
                       kSampleStartUs + i,

@@ -23,15 +23,13 @@ namespace {
 namespace fs = std::filesystem;
 using namespace testing;
 
-const RecordingEvent kGap{kSampleStartUs + 50, kSampleStartUs + 90, "gap", {}, "no frames", "{}"};
-const RecordingEvent kLabel{
-    kSampleStartUs + 10, kSampleStartUs + 10, "label", 2, "b\xC3\xA4ll", ""};
-const RecordingEvent kNote{
-    kSampleStartUs + 70, kSampleStartUs + 99, "note", {}, "one\ntwo \"3\"", ""};
-const RecordingEvent kSegment{
+const Event kGap{kSampleStartUs + 50, kSampleStartUs + 90, "gap", {}, "no frames", "{}"};
+const Event kLabel{kSampleStartUs + 10, kSampleStartUs + 10, "label", 2, "b\xC3\xA4ll", ""};
+const Event kNote{kSampleStartUs + 70, kSampleStartUs + 99, "note", {}, "one\ntwo \"3\"", ""};
+const Event kSegment{
     kSampleStartUs + 20, kSampleStartUs + 80, "segment", {}, "ball", "{\"quality\":0.5}"};
 
-std::vector<RecordingEvent> sortedByTime(std::vector<RecordingEvent> events) {
+std::vector<Event> sortedByTime(std::vector<Event> events) {
   std::stable_sort(
       events.begin(), events.end(), [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
   return events;
@@ -66,9 +64,9 @@ TEST_P(EventStore, addsChangesAndRemovesWhatAPersonNoted) {
   const TemporaryFolder folder;
   const fs::path path = makeRecording(folder.path(), GetParam());
   const std::string before = dumped(openRecording(path));
-  RecordingEvent renamed = kLabel;
+  Event renamed = kLabel;
   renamed.text = "foam ball";
-  for (const std::vector<RecordingEvent>& events :
+  for (const std::vector<Event>& events :
        {std::vector{kGap, kLabel, kNote},
         std::vector{kSegment, kNote, kGap},
         std::vector{kNote, kNote, renamed, kGap},  // the same twice
@@ -89,20 +87,20 @@ TEST_P(EventStore, whatHappenedCantBeChanged) {
   const TemporaryFolder folder;
   const fs::path path = makeRecording(folder.path(), GetParam());
   const EventsReport asRead = readEvents(path);
-  RecordingEvent shorter = kGap;
+  Event shorter = kGap;
   --shorter.t1Us;
-  RecordingEvent backwards = kNote;
+  Event backwards = kNote;
   backwards.t1Us = backwards.tUs - 1;
-  RecordingEvent nothing = kNote;
+  Event nothing = kNote;
   nothing.kind.clear();
-  RecordingEvent endless = kNote;
+  Event endless = kNote;
   endless.text.assign(kMaxEventBytes, 'x');
-  for (const std::vector<RecordingEvent>& events : {std::vector{kLabel},
-                                                    std::vector{kLabel, shorter},
-                                                    std::vector{kLabel, kGap, kGap},
-                                                    std::vector{kGap, backwards},
-                                                    std::vector{kGap, nothing},
-                                                    std::vector{kGap, endless}})
+  for (const std::vector<Event>& events : {std::vector{kLabel},
+                                           std::vector{kLabel, shorter},
+                                           std::vector{kLabel, kGap, kGap},
+                                           std::vector{kGap, backwards},
+                                           std::vector{kGap, nothing},
+                                           std::vector{kGap, endless}})
     EXPECT_THROW(saveEvents(path, asRead, events), std::invalid_argument);
   EXPECT_EQ(readEvents(path).events, asRead.events);
 }
@@ -138,7 +136,7 @@ TEST_P(EventStore, aLinkLeadsToTheRecording) {
   const fs::path link = links / (std::string("link") + GetParam());
   fs::create_symlink(path, link);
   const EventsReport asRead = readEvents(link);
-  std::vector<RecordingEvent> events = asRead.events;
+  std::vector<Event> events = asRead.events;
   events.push_back(kNote);
   saveEvents(link, asRead, events);
   EXPECT_EQ(readEvents(link).events, sortedByTime(events));
@@ -197,7 +195,7 @@ TEST(EventStoreState, twoThatSaveAtOnceHarmNothing) {
     for (std::int64_t i = from; i < from + 20;) {
       try {
         const EventsReport asRead = readEvents(path);
-        std::vector<RecordingEvent> events = asRead.events;
+        std::vector<Event> events = asRead.events;
         events.push_back({i, i, "note", {}, "n", ""});
         saveEvents(path, asRead, events);
         ++saved;

@@ -452,7 +452,7 @@ with h5py.File(sys.argv[1] + '/table.h5', 'w') as f:
 TEST(Hdf5Program, manyEventsAreReadBack) {
   const TemporaryFolder folder;
   testing::writeSamples(folder / "a.palpate", 10);
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
   for (int i = 0; i < 50'000; ++i)
     events.push_back({i, i + 1, "note", {}, "event " + std::to_string(i), ""});
   saveRecording(openRecording(folder / "a.palpate"), events, folder / "a.h5");

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::TemporaryFolder;
 
-const RecordingEvent kOddEvent{5, 9, "note", 1, std::string("a\0b\xC0 \xC3\xBC", 7), "{\"k\":1}"};
+const Event kOddEvent{5, 9, "note", 1, std::string("a\0b\xC0 \xC3\xBC", 7), "{\"k\":1}"};
 
 // Rows of a recording's frames, one column.
 class Ramp final : public ExportedSeries {
@@ -112,7 +112,7 @@ void write(const Profile& profile, const fs::path& path, const Hdf5WriteOptions&
   ExportExtras extras;
   extras.provenance = {"palpate 9", "a.dsa", "00ff", "median:size=3", "", "pads"};
   extras.series.push_back(std::make_unique<Ramp>(profile.numFrames()));
-  const std::vector<RecordingEvent> events{kOddEvent, {7, 7, "mark", {}, "", ""}};
+  const std::vector<Event> events{kOddEvent, {7, 7, "mark", {}, "", ""}};
   writeHdf5({profile, events, {{"operator", "A. B."}, {"frames", "99"}}, extras},
             path,
             Overwrite::kReplace,
@@ -139,7 +139,7 @@ TEST(Hdf5Recording, randomRecordingsComeBackBitByBit) {
       write(profile, folder / "a.h5");
       const Recording read = readHdf5(folder / "a.h5");
       expectSame(profile, read.profile);
-      EXPECT_EQ(read.events, (std::vector<RecordingEvent>{kOddEvent, {7, 7, "mark", {}, "", ""}}));
+      EXPECT_EQ(read.events, (std::vector<Event>{kOddEvent, {7, 7, "mark", {}, "", ""}}));
       EXPECT_EQ(read.meta.at("operator"), "A. B.");
       EXPECT_FALSE(read.meta.contains("frames"));  // of the file of the source
       EXPECT_EQ(read.provenance.filters, "median:size=3");

@@ -11,7 +11,7 @@ namespace {
 
 Profile tenSeconds() { return synthesize({.durationS = 10.0, .grasps = 1}); }
 
-std::string csvOf(std::span<const RecordingEvent> events, const Profile& profile) {
+std::string csvOf(std::span<const Event> events, const Profile& profile) {
   std::string csv = csvLine(labelHeader());
   for (const auto& row : labelRows(events, profile)) csv += csvLine(row);
   return csv;
@@ -20,7 +20,7 @@ std::string csvOf(std::span<const RecordingEvent> events, const Profile& profile
 TEST(LabelTable, HasARowForEachLabelInOrderOfTime) {
   const Profile profile = tenSeconds();
   const std::int64_t t0 = profile.frameTimeUs(0);
-  const std::vector<RecordingEvent> events = {
+  const std::vector<Event> events = {
       {t0 + 4'000'001, t0 + 5'500'000, "segment", std::nullopt, "grasp", ""},
       {t0, t0, "gap", std::nullopt, "", ""},
       {t0 + 1'250'000, t0 + 1'250'000, "label", 3, "slips, a little", ""}};
@@ -34,7 +34,7 @@ TEST(LabelTable, ReadsBackTheSameEvents) {
   const Profile profile = tenSeconds();
   const std::int64_t t0 = profile.frameTimeUs(0);
   const std::int64_t t1 = profile.frameTimeUs(profile.numFrames() - 1);
-  std::vector<RecordingEvent> events = {
+  std::vector<Event> events = {
       {t0, t1, "note", std::nullopt, "all of it; \"quoted\"\nin two lines", ""},
       {t0 + 7, t0 + 123'457, "label", 0, "a\tb", ""},
       {t1, t1, "mark", 5, "=1+1", ""}};
@@ -130,7 +130,7 @@ TEST(LabelTable, ALabelThatStandsTwiceIsAddedOnce) {
   const Profile profile = tenSeconds();
   const LabelTable table =
       readLabelTable("begin_s,text,matrix\n1,a,\n1,a,\n1,a,0\n2,a,\n1,b,\n", profile);
-  RecordingEvent there = table.events[3];
+  Event there = table.events[3];
   there.json = "{}";
   EXPECT_EQ(newLabels(table, std::vector{there}),
             (std::vector{table.events[0], table.events[2], table.events[4]}));

@@ -30,8 +30,8 @@ TEST(MatOctave, structuresArraysTextsAndTimesAreRead) {
   }
   ExportExtras extras;
   extras.provenance.sourceFile = "a.dsa";
-  const std::vector<RecordingEvent> events{{5, 9, "note", 1, "first", "{}"},
-                                           {7, 7, "mark", std::nullopt, "", ""}};
+  const std::vector<Event> events{{5, 9, "note", 1, "first", "{}"},
+                                  {7, 7, "mark", std::nullopt, "", ""}};
   writeMat(builder.finish({}), events, {{"operator", "A. B."}}, extras, folder / "a.mat");
   testing::writeFile(folder / "check.m", R"(
 a = load(argv(){1});

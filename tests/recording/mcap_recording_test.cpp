@@ -26,9 +26,9 @@ using testing::TemporaryFolder;
 
 // NUL, a byte that is no UTF-8, a character of two bytes, and the one that stands for a NUL in
 // files.
-const RecordingEvent kOddEvent{
+const Event kOddEvent{
     5, 9, "note", 1, std::string("a\0b\xC0 \xC3\xBC \xF4\x8F\xBC\x80", 12), "{\"k\":1}"};
-const std::vector<RecordingEvent> kEvents{kOddEvent, {7, 7, "gap", {}, "", ""}};
+const std::vector<Event> kEvents{kOddEvent, {7, 7, "gap", {}, "", ""}};
 
 // Rows of a recording's frames, two columns.
 class Ramp final : public ExportedSeries {
@@ -732,7 +732,7 @@ TEST(McapLiveWriter, whatIsFlushedCanBeReadBeforeTheEnd) {
   writer.finish();
   const Recording whole = readMcap(folder / "a.mcap");
   EXPECT_EQ(testing::dumped(whole.profile), testing::dumped(profile));
-  EXPECT_EQ(whole.events, std::vector<RecordingEvent>{kOddEvent});
+  EXPECT_EQ(whole.events, std::vector<Event>{kOddEvent});
 }
 
 TEST(McapLiveWriter, refusesWhatDoesNotFitAndAddsNothing) {

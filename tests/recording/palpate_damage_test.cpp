@@ -91,10 +91,10 @@ TEST(PalpateDamage, theRecoveredRecordingTellsOfEachLostSpan) {
             SQLITE_OK);
   sqlite3_close(db);
   recoverRecording(folder / "a.palpate", folder / "b.palpate");
-  const std::vector<RecordingEvent> before = readEvents(folder / "a.palpate").events;
-  const std::vector<RecordingEvent> events = readEvents(folder / "b.palpate").events;
+  const std::vector<Event> before = readEvents(folder / "a.palpate").events;
+  const std::vector<Event> events = readEvents(folder / "b.palpate").events;
   ASSERT_EQ(events.size(), before.size() + 2);
-  const auto gap = std::find_if(events.begin(), events.end(), [&](const RecordingEvent& event) {
+  const auto gap = std::find_if(events.begin(), events.end(), [&](const Event& event) {
     return event.kind == "gap" && event.tUs == beforeUs;
   });
   ASSERT_NE(gap, events.end());
@@ -103,7 +103,7 @@ TEST(PalpateDamage, theRecoveredRecordingTellsOfEachLostSpan) {
             R"({"stream":"tactile","lost":)" + std::to_string(lost) +
                 R"(,"reason":"the file was damaged"})");
   EXPECT_NE(gap->text.find(std::to_string(lost) + " frame"), std::string::npos) << gap->text;
-  const auto note = std::find_if(events.begin(), events.end(), [](const RecordingEvent& event) {
+  const auto note = std::find_if(events.begin(), events.end(), [](const Event& event) {
     return event.kind == "note" &&
            event.text.starts_with("Recovered from the damaged file a.palpate: ");
   });
@@ -317,7 +317,7 @@ TEST(PalpateDamage, whatIsReadableIsGivenAndTheRestTold) {
   ASSERT_EQ(damaged.events.size(), 3u);
   EXPECT_EQ(std::count_if(damaged.events.begin(),
                           damaged.events.end(),
-                          [](const RecordingEvent& event) { return event.kind == "gap"; }),
+                          [](const Event& event) { return event.kind == "gap"; }),
             1)
       << "the lost span, beside the two events of the file";
   ASSERT_EQ(damaged.damage.notInFile.size(), 1u);

@@ -180,7 +180,7 @@ TEST(PalpateRecording, randomAccessGivesWhatReadingInOrderGives) {
 TEST(PalpateRecording, eventsSurviveEveryFormThatHasAPlaceForThem) {
   const TemporaryFolder folder;
   writeSamples(folder / "e.palpate", 100);
-  const std::vector<RecordingEvent> expected{
+  const std::vector<Event> expected{
       {kSampleStartUs,
        kSampleStartUs + 10,
        "label",
@@ -223,10 +223,10 @@ TEST(PalpateRecording, aCropKeepsTheEventsInsideAndTheDeviceTimes) {
   EXPECT_EQ(crop.frame(3).deviceUs, sampleFrame(13).deviceUs);
   const std::int64_t begin = crop.frameTimeUs(0);
   const std::int64_t end = crop.frameTimeUs(9);
-  const std::vector<RecordingEvent> events{{begin - 9, begin - 1, "a", {}, "", ""},
-                                           {begin - 9, begin, "b", {}, "", ""},
-                                           {end, end + 5, "c", {}, "", ""},
-                                           {end + 1, end + 5, "d", {}, "", ""}};
+  const std::vector<Event> events{{begin - 9, begin - 1, "a", {}, "", ""},
+                                  {begin - 9, begin, "b", {}, "", ""},
+                                  {end, end + 5, "c", {}, "", ""},
+                                  {end + 1, end + 5, "d", {}, "", ""}};
   const auto within = eventsWithin(events, crop);
   ASSERT_EQ(within.size(), 2u);
   EXPECT_EQ(within[0].kind, "b");

@@ -81,13 +81,13 @@ TEST_F(RecordingCatalog, theSecondTimeNothingIsReadAndNothingIsDifferent) {
 
 TEST_F(RecordingCatalog, onlyWhatChangedIsReadAgain) {
   scanAll();
-  saveEvents(recordings / "b.dsa", {}, std::vector{RecordingEvent{5, 5, "label", {}, "new", ""}});
+  saveEvents(recordings / "b.dsa", {}, std::vector{Event{5, 5, "label", {}, "new", ""}});
   Scan now = scanAll();
   EXPECT_EQ(now.report.numRead, 1u);
   EXPECT_EQ(now.details.back().labels, std::vector<std::string>{"new"});
 
   const EventsReport asRead = readEvents(recordings / "a.palpate");
-  std::vector<RecordingEvent> events = asRead.events;
+  std::vector<Event> events = asRead.events;
   events.push_back({6, 6, "label", {}, "newer", ""});
   saveEvents(recordings / "a.palpate", asRead, events);
   now = scanAll();

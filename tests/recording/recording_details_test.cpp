@@ -21,7 +21,7 @@ const std::map<std::string, std::string> kMeta{{"operator", "Ada"},
                                                {"notes", "cold room"},
                                                {"program", "palpate"}};
 
-RecordingEvent event(std::int64_t at, const char* kind, const char* text) {
+Event event(std::int64_t at, const char* kind, const char* text) {
   return {kSampleStartUs + at, kSampleStartUs + at, kind, {}, text, ""};
 }
 

@@ -5,12 +5,12 @@
 namespace palpate::recording_losses_test {
 namespace {
 
-RecordingEvent gap(std::int64_t fromUs, std::int64_t toUs, const char* json) {
+Event gap(std::int64_t fromUs, std::int64_t toUs, const char* json) {
   return {fromUs, toUs, "gap", {}, "lost", json};
 }
 
 TEST(RecordingLosses, AreCountedForEachStream) {
-  const std::vector<RecordingEvent> events = {
+  const std::vector<Event> events = {
       gap(1'000'000, 1'250'000, R"({"stream":"angles","lost":9,"reason":"damage"})"),
       gap(2'000'000, 2'100'000, R"({"stream":"angles","lost":3,"reason":"damage"})"),
       gap(3'000'000, 6'200'000, R"({"seconds":3.2,"lost":101,"estimated":true})"),

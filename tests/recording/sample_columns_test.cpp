@@ -46,7 +46,7 @@ TEST(SampleColumns, withoutSamplesTheyAreThoseOfTheHand) {
 }
 
 TEST(SampleColumns, anEventOfNoMatrixHasTheGivenNumber) {
-  const std::vector<RecordingEvent> events{{1, 2, "note", {}, "a", "{}"}, {3, 3, "gap", 4, "", ""}};
+  const std::vector<Event> events{{1, 2, "note", {}, "a", "{}"}, {3, 3, "gap", 4, "", ""}};
   const EventColumns<double> columns(events, -1.0);
   EXPECT_EQ(columns.timesUs, (std::vector<std::int64_t>{1, 3}));
   EXPECT_EQ(columns.endsUs, (std::vector<std::int64_t>{2, 3}));

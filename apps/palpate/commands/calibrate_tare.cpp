@@ -17,15 +17,15 @@ namespace palpate::commands {
 namespace {
 
 // The events without those of kind "tare".
-std::vector<RecordingEvent> withoutTare(const EventsReport& events) {
-  std::vector<RecordingEvent> kept;
-  for (const RecordingEvent& event : events.events)
+std::vector<Event> withoutTare(const EventsReport& events) {
+  std::vector<Event> kept;
+  for (const Event& event : events.events)
     if (event.kind != "tare") kept.push_back(event);
   return kept;
 }
 
-RecordingEvent eventOf(const Tare& tare, const Profile& profile) {
-  RecordingEvent event;
+Event eventOf(const Tare& tare, const Profile& profile) {
+  Event event;
   event.tUs = profile.frameTimeUs(0);
   event.t1Us = profile.frameTimeUs(profile.numFrames() - 1);
   event.kind = "tare";
@@ -64,7 +64,7 @@ int calibrateTare(const Arguments& words) {
   const std::filesystem::path file = given.words().front();
   if (given.has("remove")) {
     const EventsReport events = readEvents(file);
-    const std::vector<RecordingEvent> kept = withoutTare(events);
+    const std::vector<Event> kept = withoutTare(events);
     if (kept.size() == events.events.size()) throw FileError(file, "has no tare");
     saveEvents(file, events, kept);
     if (!given.quiet()) std::printf("%s: tare removed\n", escapedLine(file.string()).c_str());
@@ -89,7 +89,7 @@ int calibrateTare(const Arguments& words) {
                       "or a recording in which nothing touches the hand");
     recording.requireEvents();
     const EventsReport events{recording.events, recording.damage.events};
-    std::vector<RecordingEvent> all = withoutTare(events);
+    std::vector<Event> all = withoutTare(events);
     all.push_back(eventOf(tare, profile));
     saveEvents(file, events, all);
   }

@@ -12,7 +12,7 @@ namespace {
 // The tare of the last event "tare"; nothing when there is none.
 std::optional<Tare> tareIn(const std::filesystem::path& file, const Recording& recording) {
   std::optional<Tare> tare;
-  for (const RecordingEvent& event : recording.events)
+  for (const Event& event : recording.events)
     if (event.kind == "tare") try {
         tare = tareFrom(Json::parse(event.json), recording.profile.layout());
       } catch (const Error& error) {
@@ -36,8 +36,8 @@ PressureMapOptions withNoted(PressureMapOptions options,
   if (!options.settings.empty()) return options;
   // From the last event.
   std::optional<SensorSettings> noted;
-  const std::vector<RecordingEvent>& events = recording.events;
-  for (const RecordingEvent& event : events)
+  const std::vector<Event>& events = recording.events;
+  for (const Event& event : events)
     if (event.kind == "sensor_settings") try {
         noted = sensorSettingsFrom(Json::parse(event.json));
       } catch (const Error& error) {
@@ -50,7 +50,7 @@ PressureMapOptions withNoted(PressureMapOptions options,
     return options;
   }
   std::vector<ReportedChange> changes;
-  for (const RecordingEvent& event : events)
+  for (const Event& event : events)
     if (event.kind == "settings") changes.push_back({event.t1Us, event.json});
   try {
     const auto reported = recording.meta.find("settings");

@@ -50,7 +50,7 @@ struct ReplayComparison : DeviceSink {
     const std::size_t i = temperatures++;
     same = same && i < profile.numTemperatures() && profile.temperatures(i).degC == sample.degC;
   }
-  void onEvent(DeviceEvent&&) override {}
+  void onEvent(Event&&) override {}
 
   const Profile& profile;
   std::size_t frames = 0, angles = 0, temperatures = 0;

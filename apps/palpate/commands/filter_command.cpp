@@ -24,7 +24,7 @@ std::string latencyText(const Recipe& recipe, double rateHz) {
          " later";
 }
 
-RecordingEvent filteredEvent(const Recipe& recipe, const Profile& profile) {
+Event filteredEvent(const Recipe& recipe, const Profile& profile) {
   const std::int64_t us = profile.numFrames() == 0 ? 0 : profile.frameTimeUs(0);
   return {us, us, "filtered", std::nullopt, fullRecipeText(recipe), recipeJson(recipe).text(-1)};
 }
@@ -80,7 +80,7 @@ int filterCommand(const Arguments& words) {
   const Profile& profile = recording.profile;
   line.setLabel("filtering " + in);
   const Profile filtered = filteredBy(recipe, recording, in, line.callback());
-  std::vector<RecordingEvent> events = recording.events;
+  std::vector<Event> events = recording.events;
   events.push_back(filteredEvent(recipe, profile));
   line.setLabel("writing " + out);
   saveRecording(filtered, events, out, overwrite, line.callback());

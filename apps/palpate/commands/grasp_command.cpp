@@ -408,7 +408,7 @@ int graspCommand(const Arguments& words) {
   session.start();
   awaitHand(control, request, waitS, interruption);
   // Nothing was asked for yet: what is said of the motion is that the hand moved when it was found.
-  for (const RecordingEvent& event : session.takeEvents())
+  for (const Event& event : session.takeEvents())
     if (event.kind == "motion") showState(lines, "stopped", event.text);
   const bool feelsObject = !sequence && request.mode != GraspMode::kPlain;
   lines.show("ready", feelsObject ? describe(control.forecast(request), request) : std::string());

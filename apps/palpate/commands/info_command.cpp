@@ -51,7 +51,7 @@ std::string saidOf(const Recording& recording, const std::string& key) {
 // Texts of events "label" and "segment", each once, ordered by time.
 std::vector<std::string> labelsOf(const Recording& recording) {
   std::vector<std::string> texts;
-  for (const RecordingEvent& event : recording.events)
+  for (const Event& event : recording.events)
     if ((event.kind == "label" || event.kind == "segment") && !event.text.empty() &&
         std::find(texts.begin(), texts.end(), event.text) == texts.end())
       texts.push_back(event.text);
@@ -68,7 +68,7 @@ std::vector<std::string> warningsOf(const Recording& recording) {
 // The details that operators enter before a recording (docs/palpate_format.md).
 constexpr const char* kSaid[] = {"operator", "object", "run", "notes"};
 
-Json detailsOf(const RecordingEvent& event) {
+Json detailsOf(const Event& event) {
   if (event.json.empty()) return {};
   try {
     return Json::parse(event.json);
@@ -78,7 +78,7 @@ Json detailsOf(const RecordingEvent& event) {
 }
 
 Json eventsJson(const Recording& recording) {
-  return jsonList(recording.events, [](const RecordingEvent& event) {
+  return jsonList(recording.events, [](const Event& event) {
     return Json::object()
         .set("time_ms", event.tUs / kUsPerMs)
         .set("end_ms", event.t1Us / kUsPerMs)
@@ -117,7 +117,7 @@ Json matricesJson(const SensorLayout& layout) {
   return matrices;
 }
 
-Json lossesJson(const std::vector<RecordingEvent>& events) {
+Json lossesJson(const std::vector<Event>& events) {
   return jsonList(lossesOf(events), [](const RecordingLoss& loss) {
     return Json::object()
         .set("stream", loss.stream)
@@ -127,7 +127,7 @@ Json lossesJson(const std::vector<RecordingEvent>& events) {
   });
 }
 
-std::vector<std::string> lossTexts(const std::vector<RecordingEvent>& events) {
+std::vector<std::string> lossTexts(const std::vector<Event>& events) {
   std::vector<std::string> texts;
   for (const RecordingLoss& loss : lossesOf(events)) texts.push_back(loss.text());
   return texts;
@@ -208,7 +208,7 @@ std::string notesText(const Recording& recording) {
     return fixedText(static_cast<double>(us - beginUs) / kUsPerS, 2);
   };
   for (std::size_t i = 0; i < std::min(events.size(), kMostListed); ++i) {
-    const RecordingEvent& event = events[i];
+    const Event& event = events[i];
     std::string when = seconds(event.tUs);
     if (event.t1Us != event.tUs) when += " to " + seconds(event.t1Us);
     std::string what = event.kind;

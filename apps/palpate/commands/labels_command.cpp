@@ -35,9 +35,9 @@ int importLabels(const CommandLine& given, const std::string& file, const std::s
       throw FormatError(from, error.what());
     }
   }();
-  const std::vector<RecordingEvent> added = newLabels(table, present.events);
+  const std::vector<Event> added = newLabels(table, present.events);
   if (!added.empty()) {
-    std::vector<RecordingEvent> all = present.events;
+    std::vector<Event> all = present.events;
     all.insert(all.end(), added.begin(), added.end());
     saveEvents(file, present, all);
   }

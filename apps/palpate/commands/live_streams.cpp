@@ -36,7 +36,7 @@ ChainOptions sendingTo(LiveStream& stream, FoxgloveStream& foxglove) {
     stream.send(results);
     foxglove.send(results);
   };
-  options.onEvent = [&](const RecordingEvent& event) { foxglove.send(event); };
+  options.onEvent = [&](const Event& event) { foxglove.send(event); };
   return options;
 }
 

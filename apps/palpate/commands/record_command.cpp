@@ -38,9 +38,9 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  void show(const LinkHealth& health, const std::vector<RecordingEvent>& events) {
+  void show(const LinkHealth& health, const std::vector<Event>& events) {
     if (!enabled_) return;
-    for (const RecordingEvent& event : events) {
+    for (const Event& event : events) {
       wipe();
       std::fprintf(
           stderr, "%s: %s\n", escapedLine(event.kind).c_str(), escapedLine(event.text).c_str());

@@ -27,7 +27,7 @@ struct GraspFrames {
 // out); without such events those that findGrasps() finds by its general rule. In order of time.
 // Throws Cancelled.
 std::vector<GraspFrames> graspFrames(const Profile& profile,
-                                     std::span<const RecordingEvent> events,
+                                     std::span<const Event> events,
                                      const Progress& progress = {});
 
 // Names files by a template of batches (batch_plan.h) with one more field, {n}: the number of the
@@ -68,7 +68,7 @@ struct GraspFilesOptions {
 // are whole, and stay.
 void saveGrasps(const std::filesystem::path& source,
                 const Profile& profile,
-                std::span<const RecordingEvent> events,
+                std::span<const Event> events,
                 std::span<const GraspFrames> grasps,
                 std::span<const std::filesystem::path> paths,
                 const GraspFilesOptions& options = {},

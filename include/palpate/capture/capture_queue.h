@@ -22,15 +22,15 @@
 #include <vector>
 
 #include <palpate/core/bounded_queue.h>
+#include <palpate/model/event.h>
 #include <palpate/model/hand_state.h>
 #include <palpate/model/tactile_frame.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
 // Frames are shared by all consumers and never changed.
 using SharedFrame = std::shared_ptr<const TactileFrame>;
-using CaptureItem = std::variant<SharedFrame, JointAngles, Temperatures, RecordingEvent>;
+using CaptureItem = std::variant<SharedFrame, JointAngles, Temperatures, Event>;
 
 // The kind of an item, in the order of CaptureItem.
 enum class CaptureStream : std::uint8_t { kTactile, kAngles, kTemperatures, kEvents };
@@ -49,7 +49,7 @@ struct CaptureLoss {
   std::uint64_t count = 0;
 };
 // The loss as an event of kind "gap": text for the user, json {"stream", "lost", "reason"}.
-RecordingEvent gapEvent(CaptureStream stream, const CaptureLoss& loss, std::string_view reason);
+Event gapEvent(CaptureStream stream, const CaptureLoss& loss, std::string_view reason);
 
 struct CaptureQueueOptions {
   // Capacity for frames: 27 s at 300 frames/s, 258 s at 31.7. An SDH-2's frame takes 2.1 kB: 17 MB
@@ -92,9 +92,9 @@ class CaptureQueue {
   // angles, then the frame they belong to), including completed gaps. Never waits. Returns the
   // number of items. `ownGaps` receives copies of the gaps that this queue itself caused; gaps of
   // the device are only in `out`.
-  std::size_t take(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps = nullptr);
+  std::size_t take(std::vector<CaptureItem>& out, std::vector<Event>* ownGaps = nullptr);
   // Completes the gaps that no later item has completed yet, and appends them.
-  void takeOpenGaps(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps = nullptr);
+  void takeOpenGaps(std::vector<CaptureItem>& out, std::vector<Event>* ownGaps = nullptr);
   // Waits for `wakeAtItems` items, wake(), close(), a stop request or the timeout.
   void wait(std::chrono::microseconds timeout, const std::stop_token& stop = {});
   void wake();
@@ -115,7 +115,7 @@ class CaptureQueue {
 
   mutable std::mutex lossMutex_;
   std::array<std::optional<CaptureLoss>, kCaptureStreams> open_;
-  std::vector<RecordingEvent> ended_;  // gap events to be returned by take()
+  std::vector<Event> ended_;  // gap events to be returned by take()
   std::array<std::uint64_t, kCaptureStreams> lost_{};
 
   std::mutex wakeMutex_;

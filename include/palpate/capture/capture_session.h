@@ -70,7 +70,7 @@ class CaptureSession : private DeviceSink {
 
   // Adds an event from a user of this session (begin of a grasp, a note): it is shown, and recorded
   // during a recording. Its stamps are as of nowUs(). Safe from any thread.
-  void note(const RecordingEvent& event);
+  void note(const Event& event);
 
   LinkHealth health() const;
   PreflightCheck checkPreflight(const std::filesystem::path& folder) const;
@@ -87,7 +87,7 @@ class CaptureSession : private DeviceSink {
   std::optional<Temperatures> takeTemperatures();
   LatestValueStats screenStats() const { return screenFrame_.stats(); }
   // Events since the last call, at most the last 1000.
-  std::vector<RecordingEvent> takeEvents();
+  std::vector<Event> takeEvents();
 
   // Runs one round of the recorder, when it has no thread of its own.
   void step() { recorder_.step(); }
@@ -98,10 +98,10 @@ class CaptureSession : private DeviceSink {
   void onFrame(TactileFrame&& frame) override;
   void onAngles(JointAngles&& angles) override;
   void onTemperatures(Temperatures&& temperatures) override;
-  void onEvent(DeviceEvent&& event) override;
+  void onEvent(Event&& event) override;
 
   void pass(const CaptureItem& item);
-  void show(const RecordingEvent& event);
+  void show(const Event& event);
   LinkInputs inputs() const;
 
   const CaptureOptions options_;
@@ -119,7 +119,7 @@ class CaptureSession : private DeviceSink {
   LatestValue<JointAngles> screenAngles_;
   LatestValue<Temperatures> screenTemperatures_;
   mutable std::mutex shownMutex_;
-  std::deque<RecordingEvent> shown_;
+  std::deque<Event> shown_;
   std::optional<Temperatures> lastTemperatures_;
 
   std::mutex feedsMutex_;

@@ -41,7 +41,7 @@ struct RecorderOptions {
   // used.
   std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes;
   // Called with every event that the recorder itself creates (gap, clock, alarm), on its thread.
-  std::function<void(const RecordingEvent&)> notice;
+  std::function<void(const Event&)> notice;
 };
 
 // Options of one recording. Limits count from the first frame after the start; items kept from
@@ -56,7 +56,7 @@ struct RecordingOptions {
   std::function<std::map<std::string, std::int64_t>()> counters;
   // Returns the events of gaps that are still going on at this time [us since 1970], at which the
   // recording ends; called once, before the last `counters`; may be empty.
-  std::function<std::vector<RecordingEvent>(std::int64_t untilUs)> openGaps;
+  std::function<std::vector<Event>(std::int64_t untilUs)> openGaps;
   double preTriggerS = 2.0;                     // [s], limited to what the recorder keeps
   std::optional<double> splitS;                 // a new part after this time [s], >= 1
   std::optional<std::int64_t> splitBytes;       // or at about this size of a part, >= 64 KiB

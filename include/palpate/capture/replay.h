@@ -11,8 +11,8 @@
 
 #include <palpate/core/time.h>
 #include <palpate/device/device.h>
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -32,7 +32,7 @@ class Replay : public Device {
   // The clock must outlive the replay. Throws std::invalid_argument (speed).
   explicit Replay(Profile profile,
                   const ReplayOptions& options = {},
-                  std::vector<RecordingEvent> events = {},
+                  std::vector<Event> events = {},
                   const Clock& clock = systemClock());
   ~Replay() override;
   Replay(const Replay&) = delete;

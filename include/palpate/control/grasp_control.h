@@ -167,7 +167,7 @@ class GraspControl {
   void guarded(auto&& work) noexcept;  // an exception becomes a fault()
   void runGuardedCycle() noexcept;
   void fault(const char* what) noexcept;
-  void note(RecordingEvent event, bool ends = false);
+  void note(Event event, bool ends = false);
   void processFrames();  // of the tactile stream
   void onTemperatures(const std::vector<double>& degC);
   void pollReplies();  // answers of the hand
@@ -222,7 +222,7 @@ class GraspControl {
   std::string lastFault_;
   std::int64_t lastFaultUs_ = 0;  // [monotonic us]
   struct PendingEvent {
-    RecordingEvent event;
+    Event event;
     bool ends = false;  // true for the end of a grasp
   };
   std::deque<PendingEvent> pendingEvents_;

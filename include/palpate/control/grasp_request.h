@@ -11,9 +11,9 @@
 #include <palpate/control/limit_feasibility.h>
 #include <palpate/device/device.h>
 #include <palpate/device/sdh2.h>
+#include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/tactile_frame.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -226,8 +226,8 @@ struct GraspReport {
 inline constexpr std::string_view kRelaxedText = "relaxed by the user: the motors are off";
 // The report as events of kind "grasp" in a recording: parameters at the begin, and the outcome at
 // the end, as JSON.
-RecordingEvent beginEvent(const GraspReport& report);
-RecordingEvent endEvent(const GraspReport& report);
+Event beginEvent(const GraspReport& report);
+Event endEvent(const GraspReport& report);
 // A step of a slip-aware grasp while it runs; also recorded as an event "grasp".
 struct GraspStep {
   std::string action;  // "holding", "slip", "regrasp", "lower", "loosen", "friction", "at_limit",
@@ -237,6 +237,6 @@ struct GraspStep {
   std::optional<std::size_t> matrix = {};
   int limitCounts = 0;
 };
-RecordingEvent noteEvent(const GraspReport& report, const GraspStep& note, std::int64_t hostUs);
+Event noteEvent(const GraspReport& report, const GraspStep& note, std::int64_t hostUs);
 
 }  // namespace palpate

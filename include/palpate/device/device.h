@@ -10,16 +10,16 @@
 #include <vector>
 
 #include <palpate/device/port_probe.h>
+#include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/hand_state.h>
 #include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 
-// Something that happened on the connection, at a host time or over a time span. Kinds: "gap" (no
-// frames arrived in between), "link" (connected, lost, restored), "settings" (the stream was paused
-// to change settings), "clock" (the wall clock jumped), "motion" (a command to the joints),
-// "alarm".
+// Kinds of events that devices tell of: "gap" (no frames arrived in between), "link" (connected,
+// lost, restored), "settings" (the stream was paused to change settings), "clock" (the wall clock
+// jumped), "motion" (a command to the joints), "alarm".
 //
 // The JSON of "gap" is {"seconds": 3.2, "lost": 101, "estimated": true}. The lost frames are
 // counted by the controller's clock if that clock continued; otherwise they are estimated from the
@@ -30,17 +30,6 @@ namespace palpate {
 // written in capital hexadecimal digits, two per byte. Bit i % 8 (least significant first) of byte
 // i / 8 belongs to the place i = y * columns + x; it is 1 where the taxel is scanned (as in the
 // protocol).
-struct DeviceEvent {
-  std::int64_t tUs = 0;  // [us since 1970]
-  // End of the time span [us since 1970]; equals tUs for a moment.
-  std::int64_t t1Us = 0;
-  std::string kind;
-  std::optional<int> matrix;
-  // One line of text for the user.
-  std::string text;
-  // Details as one JSON object; may be empty.
-  std::string json;
-};
 
 // Receiver of what a device delivers. It is called from the device's threads, one per port, so
 // frames and angles may arrive at the same time. Its functions must return soon: while they run,
@@ -51,7 +40,7 @@ class DeviceSink {
   virtual void onFrame(TactileFrame&& frame) = 0;
   virtual void onAngles(JointAngles&& angles) = 0;
   virtual void onTemperatures(Temperatures&& temperatures) = 0;
-  virtual void onEvent(DeviceEvent&& event) = 0;
+  virtual void onEvent(Event&& event) = 0;
 };
 
 enum class PortState {
@@ -199,7 +188,7 @@ class Device {
   // The event "gap" of a time without frames that has not ended, as if it ended at `untilUs` [us
   // since 1970]; empty: frames come, or their absence is no gap. Its frames are not in the counts
   // of status() yet. Safe from any thread.
-  virtual std::optional<DeviceEvent> openGap(std::int64_t untilUs) const {
+  virtual std::optional<Event> openGap(std::int64_t untilUs) const {
     static_cast<void>(untilUs);
     return std::nullopt;
   }

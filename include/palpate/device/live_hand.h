@@ -48,7 +48,7 @@ class LiveHand : public Device {
   DeviceStatus status() const override;
   std::future<CommandAnswer> submit(DeviceCommand command) override;
   bool isFreeRunning() const override { return true; }
-  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const override;
+  std::optional<Event> openGap(std::int64_t untilUs) const override;
   std::vector<int> axisStates() const override;
 
  private:

@@ -88,7 +88,7 @@ class StreamDevice : public Device {
   // Lines for the user, each of which comes once since start(): what was guessed of the stream, and
   // what is odd about its senders.
   std::vector<std::string> remarks() const;
-  std::optional<DeviceEvent> openGap(std::int64_t untilUs) const override;
+  std::optional<Event> openGap(std::int64_t untilUs) const override;
   // One line that says where senders are awaited, and from which machines; empty where localPort()
   // is.
   std::string notice() const;

@@ -16,9 +16,9 @@
 #include <palpate/interop/foxglove_server.h>
 #include <palpate/kinematics/hand_geometry.h>
 #include <palpate/live/live_results.h>
+#include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/hand_joints.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -68,7 +68,7 @@ class FoxgloveMessages {
   // foxglove.JointStates; position in rad or m.
   std::string joints(const JointAngles& angles) const;
   // foxglove.Log: a warning for gaps, faults and alarms, information otherwise.
-  std::string event(const RecordingEvent& event) const;
+  std::string event(const Event& event) const;
 
   // Computes the pose for transforms() and taxels(). Returns false where it is not known: no
   // geometry, no angles yet, another number of angles, or angles that are not finite.

@@ -17,8 +17,8 @@
 #include <palpate/interop/foxglove_messages.h>
 #include <palpate/interop/foxglove_server.h>
 #include <palpate/live/live_results.h>
+#include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -51,7 +51,7 @@ class FoxgloveStream {
 
   // Sends the results of a frame, and an event. No effect while it is off.
   void send(const LiveResults& results);
-  void send(const RecordingEvent& event);
+  void send(const Event& event);
 
  private:
   struct Open;

@@ -27,8 +27,8 @@ class FilterStage final : public Stage {
   std::vector<double> costsUs() const;
 
   void reset() override;
-  void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;
-  void onEvent(const RecordingEvent& event) override;
+  void onFrame(LiveResults& results, std::vector<Event>& out) override;
+  void onEvent(const Event& event) override;
 
  private:
   class Collector;

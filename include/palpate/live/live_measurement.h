@@ -75,7 +75,7 @@ class LiveMeasurement {
   void addFrame(const TactileFrame& frame);
   void addAngles(const JointAngles& angles);
   void addTemperatures(const Temperatures& temperatures);
-  void addEvent(const RecordingEvent& event);
+  void addEvent(const Event& event);
 
   const LiveMeasurementOptions options_;
   const HandDescription hand_;

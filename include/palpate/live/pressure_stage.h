@@ -36,8 +36,8 @@ class PressureStage final : public Stage {
   std::string problem() const;
 
   void reset() override;
-  void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;
-  void onEvent(const RecordingEvent& event) override;
+  void onFrame(LiveResults& results, std::vector<Event>& out) override;
+  void onEvent(const Event& event) override;
 
  private:
   void useSettings();  // requires mutex_

@@ -36,7 +36,7 @@ struct ChainOptions {
   // Called with the results of every frame, in order, on the processing thread. May be empty.
   std::function<void(const LiveResults&)> onResults;
   // Called with every event found by a stage, on the processing thread. May be empty.
-  std::function<void(const RecordingEvent&)> onEvent;
+  std::function<void(const Event&)> onEvent;
 };
 
 struct ChainStats {
@@ -70,7 +70,7 @@ class ProcessingChain {
   // same results as its replay. Throws Cancelled, Error (a frame that can't be read),
   // std::logic_error (started).
   void runOver(const Profile& profile,
-               std::vector<RecordingEvent> events = {},
+               std::vector<Event> events = {},
                const Progress& progress = {});
 
   // The newest results; empty when there are none since the last call.
@@ -89,7 +89,7 @@ class ProcessingChain {
   const ChainOptions options_;
   std::shared_ptr<CaptureQueue> queue_;
   std::vector<CaptureItem> items_;  // held back
-  std::vector<RecordingEvent> found_;
+  std::vector<Event> found_;
   std::optional<JointAngles> angles_;
   std::optional<Temperatures> temperatures_;
   LatestValue<LiveResults> newest_;

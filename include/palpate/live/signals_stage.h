@@ -8,7 +8,7 @@ namespace palpate {
 // Fills LiveResults::matrixSignals, wholeSignals and peak.
 class SignalsStage final : public Stage {
  public:
-  void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;
+  void onFrame(LiveResults& results, std::vector<Event>& out) override;
 };
 
 }  // namespace palpate

@@ -44,8 +44,8 @@ class SlipStage final : public Stage {
   std::function<bool()> opensByItself;
 
   void reset() override;
-  void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;
-  void onEvent(const RecordingEvent& event) override;
+  void onFrame(LiveResults& results, std::vector<Event>& out) override;
+  void onEvent(const Event& event) override;
 
  private:
   struct Slipping {
@@ -63,7 +63,7 @@ class SlipStage final : public Stage {
   void emitSlipEvents(std::size_t matrix,
                       const SlipDetection& detection,
                       std::int64_t hostUs,
-                      std::vector<RecordingEvent>& out);
+                      std::vector<Event>& out);
 
   std::vector<SlipDetector> detectors_;
   std::vector<std::optional<Slipping>> slipping_;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <palpate/live/live_results.h>
+#include <palpate/model/event.h>
 #include <palpate/model/hand_state.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -20,12 +20,12 @@ class Stage {
   virtual void reset() {}
   // `results` contains the frame and the results of earlier stages; events found by this stage (a
   // slip, a grasp) are appended to `out`.
-  virtual void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) = 0;
+  virtual void onFrame(LiveResults& results, std::vector<Event>& out) = 0;
   virtual void onAngles(const JointAngles&) {}
   virtual void onTemperatures(const Temperatures&) {}
   // An event of the source, such as "gap" (frames are missing) or "settings" (the meaning of the
   // counts has changed).
-  virtual void onEvent(const RecordingEvent&) {}
+  virtual void onEvent(const Event&) {}
 };
 
 }  // namespace palpate

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
 
 namespace palpate {
@@ -23,11 +25,9 @@ class InTimeOrder {
     bool operator==(const Item&) const = default;
   };
 
-  // `events`: have `tUs`. They keep their order: one that is earlier than that before it comes
-  // right after it.
-  template <typename Events>
-  InTimeOrder(Profile profile, const Events& events) : profile_(std::move(profile)) {
-    for (const auto& event : events) eventTimesUs_.push_back(event.tUs);
+  // Events keep their order: one that is earlier than that before it comes right after it.
+  InTimeOrder(Profile profile, std::span<const Event> events) : profile_(std::move(profile)) {
+    for (const Event& event : events) eventTimesUs_.push_back(event.tUs);
   }
 
   // The next item; empty after the last one. take() goes on behind it.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -24,7 +24,6 @@ Profile cropped(const Profile& profile,
 
 // The events that touch the span from the first to the last frame of a profile; what is outside of
 // it is cut off.
-std::vector<RecordingEvent> eventsWithin(std::span<const RecordingEvent> events,
-                                         const Profile& profile);
+std::vector<Event> eventsWithin(std::span<const Event> events, const Profile& profile);
 
 }  // namespace palpate

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
 #include <palpate/recording/dsa_reader.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -31,7 +31,7 @@ struct DsaRecovery {
   bool layoutAssumed = false;
   // One event "gap" for each span of lost frames, known by the numbers of the frames and by joint
   // angles where there are no frames. In order of time.
-  std::vector<RecordingEvent> losses;
+  std::vector<Event> losses;
   // What the losses say, in one line; empty when there are none.
   std::string lossText;
 };

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include <palpate/recording/recording_event.h>
+#include <palpate/model/event.h>
 
 namespace palpate {
 
@@ -20,7 +20,7 @@ namespace palpate {
 // grasp or another part, as a person sees it), "sensor_settings" (what a person says that the
 // sensor was set to: calibration/force_series.h), and "tare" (zeros to be taken off:
 // calibration/tare.h).
-bool isUserEvent(const RecordingEvent& event);
+bool isUserEvent(const Event& event);
 
 struct SaveEventsOptions {
   std::string vfs;  // SQLite file system to write with; empty: the default one
@@ -37,7 +37,7 @@ struct SaveEventsOptions {
 // FormatError (damaged).
 void saveEvents(const std::filesystem::path& path,
                 const EventsReport& asRead,
-                std::span<const RecordingEvent> events,
+                std::span<const Event> events,
                 const SaveEventsOptions& options = {});
 
 }  // namespace palpate

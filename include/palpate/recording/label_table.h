@@ -14,22 +14,22 @@
 #include <string_view>
 #include <vector>
 
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
 // The kinds that a table of labels has.
-bool isTabledLabel(const RecordingEvent& event);
+bool isTabledLabel(const Event& event);
 
 // The names of the columns.
 std::vector<std::string> labelHeader();
 // The cells of each label among the events, in order of time. A profile without frames has none.
-std::vector<std::vector<std::string>> labelRows(std::span<const RecordingEvent> events,
+std::vector<std::vector<std::string>> labelRows(std::span<const Event> events,
                                                 const Profile& profile);
 
 struct LabelTable {
-  std::vector<RecordingEvent> events;  // of the good rows, in order of the lines
+  std::vector<Event> events;  // of the good rows, in order of the lines
   // One line for each bad row: "line 7: begin_s 'abc' is not a number". Lines count from 1.
   std::vector<std::string> problems;
   // Rows of other recordings, by the column file: they are not taken.
@@ -59,7 +59,6 @@ LabelTable readLabelTable(std::string_view csv,
 
 // The events of `table` that `present` doesn't have yet (the JSON doesn't count): a table that is
 // imported twice adds its labels once.
-std::vector<RecordingEvent> newLabels(const LabelTable& table,
-                                      std::span<const RecordingEvent> present);
+std::vector<Event> newLabels(const LabelTable& table, std::span<const Event> present);
 
 }  // namespace palpate

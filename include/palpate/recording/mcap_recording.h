@@ -78,7 +78,7 @@ class McapLiveWriter {
   void addFrame(const TactileFrame& frame);
   void addAngles(const JointAngles& angles);
   void addTemperatures(const Temperatures& temperatures);
-  void addEvent(const RecordingEvent& event);
+  void addEvent(const Event& event);
   // Writes what waits for its chunk. Throws FileError, also when the file is no longer found under
   // its name.
   void flush();

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -19,7 +19,7 @@ struct PalpateRecovery {
   std::optional<Profile> profile;  // made of the intact blocks; none when no block is intact
   // Those of the recording, and one of kind "gap" for each span of items that is missing (behind
   // the last saved item: a moment at its time). In order of time.
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
   std::map<std::string, std::string> meta;  // as readRecordingMeta(), as far as it can be read
   std::size_t frames = 0;                   // saved
   std::size_t angles = 0;

@@ -13,11 +13,11 @@
 
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
+#include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/hand_state.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/tactile_frame.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -57,7 +57,7 @@ class PalpateWriter {
   void addFrame(const TactileFrame& frame);
   void addAngles(const JointAngles& angles);
   void addTemperatures(const Temperatures& temperatures);
-  void addEvent(const RecordingEvent& event);
+  void addEvent(const Event& event);
   void setCounter(const std::string& name, std::int64_t value);
 
   // Throws FileError; what is not on disk then stays in memory for the next commit.
@@ -105,7 +105,7 @@ void writePalpate(const std::filesystem::path& path,
 // file say by themselves (hand, serial number, number of frames, ..) stands in place of it. Throws
 // FileError, Cancelled.
 void writePalpate(const Profile& profile,
-                  std::span<const RecordingEvent> events,
+                  std::span<const Event> events,
                   const std::filesystem::path& path,
                   Overwrite overwrite = Overwrite::kRefuse,
                   const Progress& progress = {},

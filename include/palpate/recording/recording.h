@@ -75,7 +75,7 @@ void requireOther(const std::filesystem::path& in, const std::filesystem::path& 
 // an .h5, an .mcap and a .mat, into the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl
 // has no place for them. Throws FileError, Cancelled.
 SaveReport saveRecording(const Profile& profile,
-                         std::span<const RecordingEvent> events,
+                         std::span<const Event> events,
                          const std::filesystem::path& path,
                          Overwrite overwrite = Overwrite::kRefuse,
                          const Progress& progress = {},

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
 #include <palpate/recording/exported_series.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -22,8 +22,8 @@ using RecordingMeta = std::map<std::string, std::string>;
 
 // What can't be had of a recording.
 struct Damage {
-  std::string text = {};                       // one line: what is missing; empty: nothing
-  std::vector<RecordingEvent> notInFile = {};  // of the events: what was found to be lost
+  std::string text = {};              // one line: what is missing; empty: nothing
+  std::vector<Event> notInFile = {};  // of the events: what was found to be lost
   std::size_t events = 0;  // that can't be read, or are more than are read (mcap_recording.h)
   std::exception_ptr eventsError = {};  // why no event can be read; null: they were read
   std::string eventsFault() const {     // what() of it; empty: none
@@ -40,8 +40,8 @@ struct Damage {
 };
 
 struct Recording {
-  Profile profile;                          // without what was lost to damage
-  std::vector<RecordingEvent> events = {};  // in order of time
+  Profile profile;                 // without what was lost to damage
+  std::vector<Event> events = {};  // in order of time
   RecordingMeta meta = {};
   Provenance provenance = {};  // of an .h5 and an .mcap
   Damage damage = {};
@@ -54,7 +54,7 @@ struct Recording {
 // What is written of a recording. All of it must outlive the call.
 struct RecordingContent {
   const Profile& profile;
-  std::span<const RecordingEvent> events;
+  std::span<const Event> events;
   // What the profile says by itself (hand, serial number, ..) is added.
   const RecordingMeta& meta;
   const ExportExtras& extras;  // into an .h5, a .mat and an .mcap; its series are read to their end

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <palpate/recording/recording_event.h>
+#include <palpate/model/event.h>
 
 namespace palpate {
 
@@ -28,6 +28,6 @@ struct RecordingLoss {
 
 // One item for each stream that lost something, in the order above. An event that names no stream
 // is about the frames. An event that tells of no lost item is a silence and no loss.
-std::vector<RecordingLoss> lossesOf(std::span<const RecordingEvent> events);
+std::vector<RecordingLoss> lossesOf(std::span<const Event> events);
 
 }  // namespace palpate

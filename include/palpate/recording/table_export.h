@@ -8,9 +8,9 @@
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/core/text_table.h>
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/tactile_frame.h>
-#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -33,7 +33,7 @@ void writeCsv(const Profile& profile,
 // `temperature_time_ms`, `temperature_time_us`, `static_mask` (places, uint8), `meta` (JSON text
 // in ASCII, with the events). Throws FileError, Cancelled.
 void writeNpz(const Profile& profile,
-              std::span<const RecordingEvent> events,
+              std::span<const Event> events,
               const std::filesystem::path& path,
               Overwrite overwrite = Overwrite::kRefuse,
               const Progress& progress = {});

@@ -241,10 +241,10 @@ void scanText(std::span<const std::byte> bytes, const Reporter& report, ElementS
 
 constexpr std::string_view kWasDamaged = "the file was damaged";
 
-RecordingEvent lossEvent(std::int64_t fromUs,
-                         std::int64_t toUs,
-                         std::optional<std::int64_t> count,
-                         const std::string& text) {
+Event lossEvent(std::int64_t fromUs,
+                std::int64_t toUs,
+                std::optional<std::int64_t> count,
+                const std::string& text) {
   Json details = Json::object().set("stream", "tactile");
   if (count) details.set("lost", *count);
   details.set("reason", kWasDamaged);
@@ -275,7 +275,7 @@ void findLosses(const Profile& profile,
                        result.badSamples > 0 || result.layoutAssumed;
   if (!damaged || numFrames == 0 || numbers.size() != numFrames) return;
   std::vector<std::string> texts;
-  const auto add = [&](RecordingEvent loss) {
+  const auto add = [&](Event loss) {
     texts.push_back(loss.text);
     result.losses.push_back(std::move(loss));
   };
@@ -294,7 +294,7 @@ void findLosses(const Profile& profile,
     add(lossEvent(fromUs, firstUs, before, text));
   }
 
-  std::vector<RecordingEvent> between;
+  std::vector<Event> between;
   for (std::size_t i = 1; i < numFrames; ++i) {
     if (!numbers[i - 1] || !numbers[i] || *numbers[i] <= *numbers[i - 1] + 1) continue;
     const std::int64_t count = *numbers[i] - *numbers[i - 1] - 1;

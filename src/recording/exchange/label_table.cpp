@@ -75,14 +75,14 @@ class LabelReader {
         beginUs_(profile.frameTimeUs(0)),
         endUs_(profile.frameTimeUs(profile.numFrames() - 1)) {}
 
-  RecordingEvent eventOf(const std::vector<std::string>& cells) const {
+  Event eventOf(const std::vector<std::string>& cells) const {
     if (cells.size() != columns_.count)
       throw Error("has " + counted(cells.size(), "cell") + ", the first line has " +
                   std::to_string(columns_.count));
     const auto cell = [&](const std::optional<std::size_t>& column) {
       return column ? std::string(trimmed(cells[*column])) : std::string();
     };
-    RecordingEvent event;
+    Event event;
     event.kind = cell(columns_.kind).empty() ? "label" : cell(columns_.kind);
     if (!isLabelKind(event.kind))
       throw Error("kind " + quotedCell(event.kind) + " is none of label, note, mark, segment");
@@ -142,14 +142,14 @@ class LabelReader {
 
 }  // namespace
 
-bool isTabledLabel(const RecordingEvent& event) {
+bool isTabledLabel(const Event& event) {
   const bool noGrasp = event.kind == "segment" && event.text == kNoGrasp && event.t1Us == event.tUs;
   return isLabelKind(event.kind) && !noGrasp;
 }
 
 std::vector<std::string> labelHeader() { return {"begin_s", "end_s", "kind", "text", "matrix"}; }
 
-std::vector<std::vector<std::string>> labelRows(std::span<const RecordingEvent> events,
+std::vector<std::vector<std::string>> labelRows(std::span<const Event> events,
                                                 const Profile& profile) {
   std::vector<std::vector<std::string>> rows;
   if (profile.numFrames() == 0) return rows;
@@ -157,12 +157,12 @@ std::vector<std::vector<std::string>> labelRows(std::span<const RecordingEvent> 
   const auto seconds = [beginUs](std::int64_t us) {
     return fixedText(static_cast<double>(us - beginUs) / kUsPerS, kTimeDecimals);
   };
-  std::vector<const RecordingEvent*> labels;
-  for (const RecordingEvent& event : events)
+  std::vector<const Event*> labels;
+  for (const Event& event : events)
     if (isTabledLabel(event)) labels.push_back(&event);
   std::stable_sort(
       labels.begin(), labels.end(), [](const auto* a, const auto* b) { return a->tUs < b->tUs; });
-  for (const RecordingEvent* event : labels)
+  for (const Event* event : labels)
     rows.push_back({seconds(event->tUs),
                     seconds(event->t1Us),
                     event->kind,
@@ -211,16 +211,15 @@ LabelTable readLabelTable(std::string_view csv,
   return table;
 }
 
-std::vector<RecordingEvent> newLabels(const LabelTable& table,
-                                      std::span<const RecordingEvent> present) {
+std::vector<Event> newLabels(const LabelTable& table, std::span<const Event> present) {
   // Everything but the JSON.
-  const auto keyOf = [](const RecordingEvent& event) {
+  const auto keyOf = [](const Event& event) {
     return std::make_tuple(event.tUs, event.t1Us, event.kind, event.text, event.matrix);
   };
-  std::set<decltype(keyOf(RecordingEvent{}))> known;
-  for (const RecordingEvent& event : present) known.insert(keyOf(event));
-  std::vector<RecordingEvent> added;
-  for (const RecordingEvent& event : table.events)
+  std::set<decltype(keyOf(Event{}))> known;
+  for (const Event& event : present) known.insert(keyOf(event));
+  std::vector<Event> added;
+  for (const Event& event : table.events)
     if (known.insert(keyOf(event)).second) added.push_back(event);
   return added;
 }

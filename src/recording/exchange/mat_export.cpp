@@ -177,7 +177,7 @@ class MatExport {
   std::vector<std::int64_t> deviceMs_;  // of the frames, collected with the first matrix
 };
 
-MatValue matEventsOf(std::span<const RecordingEvent> events) {
+MatValue matEventsOf(std::span<const Event> events) {
   const EventColumns<double> columns(events, -1.0);
   return MatValue::structure({{"time_us", MatValue::column(columns.timesUs)},
                               {"end_us", MatValue::column(columns.endsUs)},

@@ -290,7 +290,7 @@ void writeText(ZipWriter& zip, const std::string& name, const std::string& ascii
   array.end();
 }
 
-std::string metaText(const Profile& profile, std::span<const RecordingEvent> events) {
+std::string metaText(const Profile& profile, std::span<const Event> events) {
   Json pitches = Json::array();
   for (const MatrixLayout& matrix : profile.layout().matrices()) pitches.push(matrix.pitchMm);
   Json meta = Json::object();
@@ -307,7 +307,7 @@ std::string metaText(const Profile& profile, std::span<const RecordingEvent> eve
 }  // namespace
 
 void writeNpz(const Profile& profile,
-              std::span<const RecordingEvent> events,
+              std::span<const Event> events,
               const fs::path& path,
               Overwrite overwrite,
               const Progress& progress) {

@@ -242,7 +242,7 @@ class SampleSeries {
   mutable std::size_t firstInBlock_ = 0;
 };
 
-std::vector<RecordingEvent> hdf5EventsOf(Hdf5Process& file, std::size_t& textBytesLeft) {
+std::vector<Event> hdf5EventsOf(Hdf5Process& file, std::size_t& textBytesLeft) {
   if (!file.has("events")) throw FormatError(file.path(), "the group 'events' is missing");
   const ReadArray stamps(file, "events/time_us");
   stamps.requireIntegers(kMostEvents);
@@ -264,10 +264,10 @@ std::vector<RecordingEvent> hdf5EventsOf(Hdf5Process& file, std::size_t& textByt
   auto kinds = texts("events/kind");
   auto words = texts("events/text");
   auto jsons = texts("events/json");
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
   events.reserve(times.size());
   for (std::size_t i = 0; i < times.size(); ++i) {
-    RecordingEvent& event = events.emplace_back();
+    Event& event = events.emplace_back();
     event.tUs = times[i];
     event.t1Us = ends[i];
     if (matrices[i] < INT32_MIN || matrices[i] > INT32_MAX)
@@ -356,7 +356,7 @@ class Hdf5Storage final : public ProfileStorage {
   const SampleSeries& temperatureSeries() const { return temperatures_; }
   const Provenance& provenance() const { return from_; }
   const std::map<std::string, std::string>& meta() const { return meta_; }
-  const std::vector<RecordingEvent>& events() const { return events_; }
+  const std::vector<Event>& events() const { return events_; }
 
   std::size_t numFrames() const override { return timesUs_.size(); }
   std::int64_t frameTimeUs(std::size_t frame) const override { return timesUs_.at(frame); }
@@ -529,7 +529,7 @@ class Hdf5Storage final : public ProfileStorage {
   std::size_t textBytesLeft_ = kMostTextBytes;
   Provenance from_;
   std::map<std::string, std::string> meta_;
-  std::vector<RecordingEvent> events_;
+  std::vector<Event> events_;
   SampleSeries angles_;
   SampleSeries temperatures_;
   SensorLayout layout_;

@@ -47,7 +47,7 @@ enum class McapRole { kOther, kFrame, kImage, kAngles, kTemperatures, kEvent };
 // The first events of a file, or of a chunk.
 class McapEvents {
  public:
-  void add(RecordingEvent event) {
+  void add(Event event) {
     bytes_ += sizeof event + event.kind.size() + event.text.size() + event.json.size();
     if (bytes_ > kMaxMcapEventsBytes)
       ++leftOut_;
@@ -55,14 +55,14 @@ class McapEvents {
       kept_.push_back(std::move(event));
   }
   void add(McapEvents&& others) {
-    for (RecordingEvent& event : others.kept_) add(std::move(event));
+    for (Event& event : others.kept_) add(std::move(event));
     leftOut_ += others.leftOut_;
   }
-  std::vector<RecordingEvent> take() { return std::move(kept_); }
+  std::vector<Event> take() { return std::move(kept_); }
   std::size_t leftOut() const noexcept { return leftOut_; }
 
  private:
-  std::vector<RecordingEvent> kept_;
+  std::vector<Event> kept_;
   std::size_t bytes_ = 0;
   std::size_t leftOut_ = 0;
 };
@@ -385,7 +385,7 @@ class McapOwnFile {
 
   static bool addEvent(std::string_view data, McapEvents& events) {
     CdrReader reader(data);
-    RecordingEvent event;
+    Event event;
     event.tUs = reader.number<std::int64_t>();
     event.t1Us = reader.number<std::int64_t>();
     const auto matrix = reader.number<std::int32_t>();
@@ -669,7 +669,7 @@ Recording openOwnMcap(McapFile file,
     damage += (damage.empty() ? "has " : "; ") +
               mcapDamagedChunksText(damaged, storage->firstFault(), "samples");
   const std::size_t leftOut = storage->events().leftOut();
-  std::vector<RecordingEvent> events = storage->events().take();
+  std::vector<Event> events = storage->events().take();
   return {.profile = Profile(std::move(info), std::move(hand), std::move(storage)),
           .events = std::move(events),
           .meta = std::move(meta),

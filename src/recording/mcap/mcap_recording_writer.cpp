@@ -272,7 +272,7 @@ void McapRecordingWriter::addTemperatures(const Temperatures& temperatures) {
   file_.endGroup();
 }
 
-void McapRecordingWriter::addEvent(const RecordingEvent& event) {
+void McapRecordingWriter::addEvent(const Event& event) {
   std::string& out = file_.beginMessage(events_, mcapTimeNs(event.tUs));
   {
     CdrWriter cdr(out);

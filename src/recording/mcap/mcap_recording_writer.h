@@ -36,7 +36,7 @@ class McapRecordingWriter {
   void addFrame(const TactileFrame& frame);
   void addAngles(const JointAngles& angles);
   void addTemperatures(const Temperatures& temperatures);
-  void addEvent(const RecordingEvent& event);
+  void addEvent(const Event& event);
   void addRow(std::uint16_t series, std::int64_t timeUs, std::span<const double> values);
 
   McapFileWriter& file() noexcept { return file_; }

@@ -173,7 +173,7 @@ void McapLiveWriter::addTemperatures(const Temperatures& temperatures) {
   impl_->writer->addTemperatures(temperatures);
 }
 
-void McapLiveWriter::addEvent(const RecordingEvent& event) { impl_->writer->addEvent(event); }
+void McapLiveWriter::addEvent(const Event& event) { impl_->writer->addEvent(event); }
 
 void McapLiveWriter::flush() {
   impl_->requireFile();

@@ -402,14 +402,11 @@ std::int64_t expectedItems(const Findings& found, Stream stream) {
 
 // An event for items that are missing between two times: without it, a reader of the saved
 // recording could not tell a loss shorter than a gap.
-RecordingEvent lossEvent(Stream stream,
-                         std::int64_t count,
-                         std::int64_t fromUs,
-                         std::int64_t toUs) {
+Event lossEvent(Stream stream, std::int64_t count, std::int64_t fromUs, std::int64_t toUs) {
   constexpr std::array<std::string_view, 3> kNames{"tactile", "angles", "temperatures"};
   constexpr std::array<std::string_view, 3> kItems{"frame", "angle sample", "temperature sample"};
   const auto index = static_cast<std::size_t>(stream);
-  RecordingEvent event;
+  Event event;
   event.tUs = fromUs;
   event.t1Us = toUs;
   event.kind = "gap";
@@ -517,7 +514,7 @@ void buildProfile(const fs::path& path,
   }
   std::stable_sort(recovery.events.begin(),
                    recovery.events.end(),
-                   [](const RecordingEvent& a, const RecordingEvent& b) { return a.tUs < b.tUs; });
+                   [](const Event& a, const Event& b) { return a.tUs < b.tUs; });
   recovery.lostFrames = lost[0];
   recovery.lostAngles = lost[1];
   recovery.lostTemperatures = lost[2];

@@ -153,7 +153,7 @@ std::uint32_t secondCrc(const SecondSummary& row) {
       .value();
 }
 
-std::uint32_t eventCrc(std::int64_t id, const RecordingEvent& event) {
+std::uint32_t eventCrc(std::int64_t id, const Event& event) {
   RowCrc crc;
   crc.integer(id).integer(event.tUs).integer(event.t1Us).text(event.kind);
   if (event.matrix) crc.integer(*event.matrix);
@@ -259,13 +259,12 @@ MetaRows readMeta(SqliteDatabase& database) {
 }
 
 std::size_t forEachEventRow(SqliteDatabase& database,
-                            const std::function<void(std::int64_t, RecordingEvent&&)>& take) {
+                            const std::function<void(std::int64_t, Event&&)>& take) {
   std::size_t damaged = 0;
   SqliteStatement rows =
       database.prepare("SELECT id, t_us, t1_us, kind, matrix, text, json, crc32 FROM event");
   while (rows.next()) {
-    RecordingEvent event{
-        rows.integer(1), rows.integer(2), rows.text(3), {}, rows.text(5), rows.text(6)};
+    Event event{rows.integer(1), rows.integer(2), rows.text(3), {}, rows.text(5), rows.text(6)};
     const std::int64_t matrix = rows.integer(4);
     const bool fits = matrix >= INT32_MIN && matrix <= INT32_MAX;
     if (!rows.isNull(4)) event.matrix = static_cast<int>(fits ? matrix : -1);
@@ -279,9 +278,8 @@ std::size_t forEachEventRow(SqliteDatabase& database,
 
 EventsReport readEventRows(SqliteDatabase& database) {
   EventsReport report;
-  report.damaged = forEachEventRow(database, [&](std::int64_t, RecordingEvent&& event) {
-    report.events.push_back(std::move(event));
-  });
+  report.damaged = forEachEventRow(
+      database, [&](std::int64_t, Event&& event) { report.events.push_back(std::move(event)); });
   // Sorted here: SQLite would sort in memory without a bound.
   std::stable_sort(report.events.begin(), report.events.end(), [](const auto& a, const auto& b) {
     return a.tUs < b.tUs;
@@ -351,7 +349,7 @@ void RowWriter::second(std::int64_t id, const SecondSummary& row) {
       .run();
 }
 
-void RowWriter::event(std::int64_t id, const RecordingEvent& event) {
+void RowWriter::event(std::int64_t id, const Event& event) {
   event_.bind(1, id).bind(2, event.tUs).bind(3, event.t1Us).bind(4, std::string_view(event.kind));
   if (event.matrix)
     event_.bind(5, static_cast<std::int64_t>(*event.matrix));

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "palpate/model/event.h"
 #include "palpate/model/matrix_layout.h"
 #include "palpate/recording/palpate_schema.h"
-#include "palpate/recording/recording_event.h"
 #include "palpate/recording/second_summary.h"
 
 #include "recording/native/sqlite_database.h"
@@ -33,7 +33,7 @@ void createOverview(SqliteDatabase& database);
 std::uint32_t metaCrc(std::string_view key, std::string_view value);
 std::uint32_t matrixCrc(int index, const MatrixLayout& matrix, std::string_view uid);
 std::uint32_t secondCrc(const SecondSummary& row);
-std::uint32_t eventCrc(std::int64_t id, const RecordingEvent& event);
+std::uint32_t eventCrc(std::int64_t id, const Event& event);
 
 // A mask as text: a character 0 or 1 per place, row by row.
 std::string maskText(const Mask& mask);
@@ -59,9 +59,8 @@ struct MetaRows {
 MetaRows readMeta(SqliteDatabase& database);
 // Calls back with number and content of every row of `event` in order of its number; rows with a
 // wrong checksum are counted.
-std::size_t forEachEventRow(
-    SqliteDatabase& database,
-    const std::function<void(std::int64_t id, RecordingEvent&& event)>& take);
+std::size_t forEachEventRow(SqliteDatabase& database,
+                            const std::function<void(std::int64_t id, Event&& event)>& take);
 EventsReport readEventRows(SqliteDatabase& database);
 // In order of time, then matrix; `damaged` counts rows with a wrong checksum, which are left out.
 std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t& damaged);
@@ -86,7 +85,7 @@ class RowWriter {
   explicit RowWriter(SqliteDatabase& database);
   void block(std::int64_t id, const Block& block);
   void second(std::int64_t id, const SecondSummary& row);
-  void event(std::int64_t id, const RecordingEvent& event);
+  void event(std::int64_t id, const Event& event);
   void counter(const std::string& name, std::int64_t value);
 
  private:

@@ -130,7 +130,7 @@ class TemporaryNeighbour {
 };
 
 void writeAll(const Profile& profile,
-              std::span<const RecordingEvent> events,
+              std::span<const Event> events,
               PalpateWriter& writer,
               const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 256;
@@ -153,7 +153,7 @@ void writeAll(const Profile& profile,
     writer.addFrame(frame);
   }
   addBefore(INT64_MAX);
-  for (const RecordingEvent& event : events) writer.addEvent(event);
+  for (const Event& event : events) writer.addEvent(event);
 }
 
 // A journal that is still needed by the recording that is about to be replaced would be played back
@@ -350,7 +350,7 @@ struct PalpateWriter::Impl {
       id = numSeconds;
       for (const SecondSummary& row : pending.seconds) rows->second(++id, row);
       id = numEvents;
-      for (const RecordingEvent& event : pending.events) rows->event(++id, event);
+      for (const Event& event : pending.events) rows->event(++id, event);
       for (const auto& [name, value] : pending.counters) rows->counter(name, value);
       last();
       file->endCommit->run();
@@ -382,7 +382,7 @@ struct PalpateWriter::Impl {
   struct Pending {
     std::vector<Block> blocks;
     std::vector<SecondSummary> seconds;
-    std::vector<RecordingEvent> events;
+    std::vector<Event> events;
     std::map<std::string, std::int64_t> counters;
     std::size_t bytes = 0;
     bool empty() const {
@@ -478,7 +478,7 @@ void PalpateWriter::addTemperatures(const Temperatures& temperatures) {
   impl_->commitWhenDue(temperatures.hostUs);
 }
 
-void PalpateWriter::addEvent(const RecordingEvent& event) {
+void PalpateWriter::addEvent(const Event& event) {
   const std::size_t bytes = event.kind.size() + event.text.size() + event.json.size();
   if (bytes > kMaxEventBytes)
     throw std::invalid_argument("event: longer than " + std::to_string(kMaxEventBytes) + " bytes");
@@ -565,7 +565,7 @@ void writePalpate(const fs::path& path,
 }
 
 void writePalpate(const Profile& profile,
-                  std::span<const RecordingEvent> events,
+                  std::span<const Event> events,
                   const fs::path& path,
                   Overwrite overwrite,
                   const Progress& progress,

@@ -31,7 +31,7 @@ class CalibrateWindowTest : public WindowTest {
   }
   std::size_t eventsOf(const std::string& kind) {
     std::size_t count = 0;
-    for (const RecordingEvent& event : window().state().events.editor()->events())
+    for (const Event& event : window().state().events.editor()->events())
       count += event.kind == kind;
     return count;
   }
@@ -85,7 +85,7 @@ TEST_F(CalibrateWindowTest, TheSensorsSettingsAreKeptAsAnEvent) {
   showIt("Force");
   emit panel().force().keepRequested(0.5, 150.0);
   ASSERT_EQ(eventsOf("sensor_settings"), 1u);
-  for (const RecordingEvent& event : window().state().events.editor()->events())
+  for (const Event& event : window().state().events.editor()->events())
     if (event.kind == "sensor_settings") {
       EXPECT_EQ(event.text, "sensitivity 0.5, threshold 150");
       EXPECT_EQ(Json::parse(event.json).at("sensitivity").asDouble(), 0.5);

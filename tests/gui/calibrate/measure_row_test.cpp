@@ -129,7 +129,7 @@ TEST_F(MeasureRowTest, AMeasuredTareIsAddedToTheRecordingThatRuns) {
   const fs::path file = folder_ / "runs" / "ball_001.palpate";
   const Profile profile = openRecording(file);
   std::optional<Tare> tare;
-  for (const RecordingEvent& event : readEvents(file).events)
+  for (const Event& event : readEvents(file).events)
     if (event.kind == "tare") {
       tare = tareFrom(Json::parse(event.json), profile.layout());
       EXPECT_GE(event.tUs, profile.frameTimeUs(0));

@@ -228,7 +228,7 @@ TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) 
   const auto events = readEvents(made).events;
   EXPECT_EQ(std::count_if(events.begin(),
                           events.end(),
-                          [](const RecordingEvent& event) {
+                          [](const Event& event) {
                             return event.kind == "recipe" && event.text == "median:size=5,masked=0";
                           }),
             1);

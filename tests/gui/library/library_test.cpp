@@ -285,7 +285,7 @@ TEST_F(LibraryTest, SeesByItselfWhatComes) {
   const EventsReport asRead = {{{kStartUs, kStartUs, "label", {}, "foam ball touched", ""}}, 0};
   saveEvents(recordings() / "run_2.palpate",
              asRead,
-             std::vector{RecordingEvent{kStartUs, kStartUs, "label", {}, "squeezed", ""}});
+             std::vector{Event{kStartUs, kStartUs, "label", {}, "squeezed", ""}});
   EXPECT_TRUE(
       QTest::qWaitFor([&] { return column(LibraryModel::kLabels).contains("squeezed"); }, 20000));
 }

@@ -240,7 +240,7 @@ TEST_F(OtherProgramsTest, ARecordingFromOutsideIsTheWindowsOwn) {
   EXPECT_EQ(meta["operator"], "Ada");
   EXPECT_EQ(meta["object"], "foam ball");
   int labels = 0;
-  for (const RecordingEvent& event : readEvents(path).events)
+  for (const Event& event : readEvents(path).events)
     labels += event.kind == "label" && event.text == "contact" ? 1 : 0;
   EXPECT_EQ(labels, 1);
   EXPECT_EQ(error("stop"), "not_recording");

@@ -92,7 +92,7 @@ TEST_F(RecoveryFeatureTest, LabelsOfADamagedRecordingAreSavedAndRecovered) {
   };
   const auto labelsOf = [](const fs::path& file) {
     std::vector<std::string> texts;
-    for (const RecordingEvent& event : readEvents(file).events)
+    for (const Event& event : readEvents(file).events)
       if (event.kind == "label") texts.push_back(event.text);
     return texts;
   };

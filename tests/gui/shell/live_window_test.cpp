@@ -246,7 +246,7 @@ TEST_F(LiveWindowTest, RecordsWithMarksAndOpensWhatWasRecorded) {
   EXPECT_EQ(chart().numRecordingEnds(), 2u) << "begin and end are marked";
   const auto events = readEvents(folder_ / "runs" / "ball_001.palpate").events;
   const auto count = [&](const std::string& kind, const std::string& text) {
-    return std::count_if(events.begin(), events.end(), [&](const RecordingEvent& event) {
+    return std::count_if(events.begin(), events.end(), [&](const Event& event) {
       return event.kind == kind && event.text == text;
     });
   };
@@ -635,13 +635,11 @@ TEST_F(LiveWindowTest, ABlindMatrixIsMarkedInTheHeatMaps) {
 TEST_F(LiveWindowTest, OpeningAndRefusalsAreNamedInTheLog) {
   connectEmulatedHand();
   QStringList logged;
-  QObject::connect(&live(),
-                   &LiveController::eventsReceived,
-                   &window(),
-                   [&](const std::vector<RecordingEvent>& came) {
-                     for (const RecordingEvent& event : came)
-                       if (event.kind == "grasp") logged.append(QString::fromStdString(event.text));
-                   });
+  QObject::connect(
+      &live(), &LiveController::eventsReceived, &window(), [&](const std::vector<Event>& came) {
+        for (const Event& event : came)
+          if (event.kind == "grasp") logged.append(QString::fromStdString(event.text));
+      });
   click("openHand");
   ASSERT_TRUE(await([&] { return !logged.isEmpty(); }));
   EXPECT_TRUE(logged.front().startsWith("opening")) << logged.front().toStdString();

@@ -10,23 +10,23 @@
 namespace palpate::gui::event_editor_test {
 namespace {
 
-RecordingEvent label(std::int64_t tUs, const std::string& text) {
+Event label(std::int64_t tUs, const std::string& text) {
   return {.tUs = tUs, .t1Us = tUs, .kind = "label", .matrix = {}, .text = text, .json = {}};
 }
 
 class EventEditorTest : public ::testing::Test {
  protected:
   EventEditor editor_{EventsReport{{label(10, "a"), label(30, "c")}, 0},
-                      [this](const EventsReport& asRead, const std::vector<RecordingEvent>& now) {
+                      [this](const EventsReport& asRead, const std::vector<Event>& now) {
                         if (refuse_) throw FileError("x.palpate", "is read-only");
                         asRead_ = asRead.events;
                         saved_ = now;
                       }};
-  std::vector<RecordingEvent> asRead_, saved_;
+  std::vector<Event> asRead_, saved_;
   bool refuse_ = false;
   std::string texts() {
     std::string out;
-    for (const RecordingEvent& event : editor_.events()) out += event.text;
+    for (const Event& event : editor_.events()) out += event.text;
     return out;
   }
 };
@@ -34,7 +34,7 @@ class EventEditorTest : public ::testing::Test {
 TEST_F(EventEditorTest, KeepsEventsInOrderOfTime) {
   editor_.add(label(20, "b"), "a label");
   EXPECT_EQ(texts(), "abc");
-  RecordingEvent later = editor_.events()[0];
+  Event later = editor_.events()[0];
   later.tUs = later.t1Us = 40;
   editor_.change(0, later, "moving");
   EXPECT_EQ(texts(), "bca");
@@ -46,7 +46,7 @@ TEST_F(EventEditorTest, KeepsEventsInOrderOfTime) {
 // Bars of one span would change their places when one of them is named.
 TEST_F(EventEditorTest, AmongEventsOfOneTimeAChangedOneKeepsItsPlace) {
   editor_.add(label(10, "b"), "a label");
-  RecordingEvent named = editor_.events()[0];
+  Event named = editor_.events()[0];
   named.text = "x";
   editor_.change(0, named, "naming");
   EXPECT_EQ(texts(), "xbc");
@@ -87,7 +87,7 @@ TEST_F(EventEditorTest, ManyAddedAtOnceAreOneChange) {
   EXPECT_EQ(texts(), "ac");
   editor_.undoStack().redo();
   EXPECT_EQ(texts(), "aAbcd");
-  editor_.add(std::vector<RecordingEvent>(), "importing labels");
+  editor_.add(std::vector<Event>(), "importing labels");
   EXPECT_EQ(editor_.undoStack().count(), 1);
 }
 

@@ -15,7 +15,7 @@ class EventControllerTest : public WindowStateTest {
     shown_ = recording((folder_ / "a.dsa").string());
     windowState_->displayed.show(shown_);
   }
-  RecordingEvent label(const std::string& text) const {
+  Event label(const std::string& text) const {
     const std::int64_t us = shown_->profile.frameTimeUs(3);
     return {us, us, kLabelKind, std::nullopt, text, {}};
   }
@@ -53,7 +53,7 @@ TEST_F(EventControllerTest, OneOfAKindIsKeptAtATime) {
   desk_.keep("tare", label("second"), "the zero");
   // Of the kind "label": what was kept under another kind isn't touched.
   EXPECT_EQ(desk_.editor()->events().size(), 2u);
-  RecordingEvent tare = label("third");
+  Event tare = label("third");
   tare.kind = "tare";
   desk_.keep("tare", tare, "the zero");
   desk_.keep("tare", tare, "the zero");

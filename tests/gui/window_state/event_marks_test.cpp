@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
 
-RecordingEvent event(const char* kind, double fromS, double toS, const std::string& text) {
+Event event(const char* kind, double fromS, double toS, const std::string& text) {
   return {.tUs = kStartUs + static_cast<std::int64_t>(fromS * 1e6),
           .t1Us = kStartUs + static_cast<std::int64_t>(toS * 1e6),
           .kind = kind,
@@ -28,10 +28,10 @@ class EventMarksTest : public ::testing::Test {
 };
 
 TEST_F(EventMarksTest, ShowsWhatWasFoundAndWhatIsNoted) {
-  const std::vector<RecordingEvent> events = {event("label", 0.2, 0.2, "touch"),
-                                              event("note", 0.3, 0.5, "slow"),
-                                              event("settings", 0.1, 0.1, "threshold 100"),
-                                              event("gap", 0.1, 0.4, "")};
+  const std::vector<Event> events = {event("label", 0.2, 0.2, "touch"),
+                                     event("note", 0.3, 0.5, "slow"),
+                                     event("settings", 0.1, 0.1, "threshold 100"),
+                                     event("gap", 0.1, 0.4, "")};
   const auto marks = marksOf(*recording_, events, std::vector{kFound});
   ASSERT_EQ(marks.size(), 4u) << "a gap of the recorder is shown by the stamps alone";
   EXPECT_EQ(marks[0].lane, EventLane::kGrasps);
@@ -50,8 +50,8 @@ TEST_F(EventMarksTest, ShowsWhatWasFoundAndWhatIsNoted) {
 }
 
 TEST_F(EventMarksTest, CorrectedGraspsTakeThePlaceOfThoseFound) {
-  const std::vector<RecordingEvent> events = {event("segment", 0.5, 0.9, "grasp"),
-                                              event("segment", 0.1, 0.3, "pinch")};
+  const std::vector<Event> events = {event("segment", 0.5, 0.9, "grasp"),
+                                     event("segment", 0.1, 0.3, "pinch")};
   const auto marks = marksOf(*recording_, events, std::vector{kFound});
   ASSERT_EQ(marks.size(), 2u);
   EXPECT_EQ(marks[0].text, "pinch");
@@ -59,14 +59,14 @@ TEST_F(EventMarksTest, CorrectedGraspsTakeThePlaceOfThoseFound) {
 }
 
 TEST_F(EventMarksTest, ARecordingCanBeSaidToHaveNoGrasp) {
-  const RecordingEvent none = removedGraspEvent(*recording_);
+  const Event none = removedGraspEvent(*recording_);
   EXPECT_TRUE(isRemovedGrasp(none));
   EXPECT_FALSE(isRemovedGrasp(event("segment", 0.1, 0.3, "grasp")));
   EXPECT_TRUE(marksOf(*recording_, std::vector{none}, std::vector{kFound}).empty());
 }
 
 TEST_F(EventMarksTest, AFoundGraspAsAnEvent) {
-  const RecordingEvent segment = segmentOf(*recording_, kFound);
+  const Event segment = segmentOf(*recording_, kFound);
   EXPECT_EQ(segment.kind, "segment");
   EXPECT_EQ(segment.tUs, kStartUs + 200'000);
   EXPECT_EQ(segment.t1Us, kStartUs + 450'000);
@@ -110,7 +110,7 @@ TEST(EventMarks, AGapTellsWhatTheRecordingSaysOfIt) {
 TEST(EventMarks, DetailsOfAnEventAreToldInWords) {
   const OpenedRecording opened = *makeOpenedRecording("x.palpate", profileWithStamps({0, 50, 100}));
   const std::int64_t startUs = opened.profile.frameTimeUs(0);
-  const std::vector<RecordingEvent> events = {
+  const std::vector<Event> events = {
       {startUs + 10'000,
        startUs + 40'000,
        "gap",

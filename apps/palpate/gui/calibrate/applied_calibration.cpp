@@ -71,12 +71,11 @@ bool KeptWithRecording::operator==(const KeptWithRecording& other) const {
                     sameChange);
 }
 
-KeptWithRecording keptWith(const OpenedRecording& recording,
-                           const std::vector<RecordingEvent>& events) {
+KeptWithRecording keptWith(const OpenedRecording& recording, const std::vector<Event>& events) {
   KeptWithRecording kept;
   const auto reportedSettings = recording.meta.find("settings");
   if (reportedSettings != recording.meta.end()) kept.reportedSettings = reportedSettings->second;
-  for (const RecordingEvent& event : events) try {
+  for (const Event& event : events) try {
       if (event.kind == "tare")
         kept.tare = tareFrom(Json::parse(event.json), recording.profile.layout());
       if (event.kind == "sensor_settings")

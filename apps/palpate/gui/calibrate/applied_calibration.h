@@ -12,7 +12,7 @@
 #include <palpate/calibration/force_series.h>
 #include <palpate/calibration/noise_floor.h>
 #include <palpate/calibration/tare.h>
-#include <palpate/recording/recording_event.h>
+#include <palpate/model/event.h>
 
 #include "gui/source/opened_recording.h"
 
@@ -42,8 +42,7 @@ struct KeptWithRecording {
   bool operator==(const KeptWithRecording& other) const;
 };
 // Collects the above from the recording and its `events`.
-KeptWithRecording keptWith(const OpenedRecording& recording,
-                           const std::vector<RecordingEvent>& events);
+KeptWithRecording keptWith(const OpenedRecording& recording, const std::vector<Event>& events);
 // Sensor settings for the pressures of a recording: those that the user typed, else those kept as
 // an event, else those that the controller reported. Throws Error when the report cannot be used.
 PressureMapOptions pressureOptions(const KeptWithRecording& kept,

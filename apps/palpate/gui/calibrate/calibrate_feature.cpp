@@ -85,7 +85,7 @@ void CalibrateFeature::connectPages() {
           [&windowState](double sensitivity, double counts) {
             const OpenedRecordingPtr recording = windowState.displayed.recorded();
             if (!recording) return;
-            RecordingEvent event;
+            Event event;
             event.tUs = event.t1Us = recording->profile.frameTimeUs(0);
             event.kind = kSettingsKind;
             event.text =

@@ -112,10 +112,10 @@ TextTable zeroTable(const std::shared_ptr<const Tare>& tare, const OpenedRecordi
 
 }  // namespace
 
-RecordingEvent tareEvent(const Tare& tare, const Profile& profile) {
+Event tareEvent(const Tare& tare, const Profile& profile) {
   std::size_t raised = 0;
   for (const MatrixTare& matrix : tare.matrices) raised += matrix.raisedTaxels;
-  RecordingEvent event;
+  Event event;
   event.tUs = profile.frameTimeUs(0);
   event.t1Us = profile.frameTimeUs(profile.numFrames() - 1);
   event.kind = "tare";
@@ -124,9 +124,9 @@ RecordingEvent tareEvent(const Tare& tare, const Profile& profile) {
   return event;
 }
 
-RecordingEvent liveTareEvent(Tare tare, const Profile& measured, std::int64_t atUs) {
+Event liveTareEvent(Tare tare, const Profile& measured, std::int64_t atUs) {
   for (MatrixTare& matrix : tare.matrices) matrix.windows.clear();
-  RecordingEvent event = tareEvent(tare, measured);
+  Event event = tareEvent(tare, measured);
   event.tUs = event.t1Us = atUs;
   event.text +=
       ", measured for " + fixedText(static_cast<double>(measured.durationUs()) / kUsPerS, 1) + " s";

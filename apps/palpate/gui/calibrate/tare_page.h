@@ -6,7 +6,7 @@
 #include <memory>
 
 #include <palpate/calibration/tare.h>
-#include <palpate/recording/recording_event.h>
+#include <palpate/model/event.h>
 
 #include "gui/widgets/computed_page.h"
 
@@ -20,10 +20,10 @@ class FiguresTable;
 class MeasureRow;
 
 // The event that stores a tare; `profile` must have frames.
-RecordingEvent tareEvent(const Tare& tare, const Profile& profile);
+Event tareEvent(const Tare& tare, const Profile& profile);
 // The same for a tare that was measured live, to be added at `atUs` [us since 1970] to the
 // recording that is running. It has no windows, because these are frames of the measurement.
-RecordingEvent liveTareEvent(Tare tare, const Profile& measured, std::int64_t atUs);
+Event liveTareEvent(Tare tare, const Profile& measured, std::int64_t atUs);
 
 class TarePage : public ComputedPage {
   Q_OBJECT

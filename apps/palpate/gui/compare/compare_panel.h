@@ -63,7 +63,7 @@ class ComparePanel : public QWidget {
   void setBand(CompareBand band);
   CompareBand band() const noexcept { return band_; }
   // Tells the events of a recording as they are now; by default those of its file.
-  using Events = std::function<std::vector<RecordingEvent>(const OpenedRecordingPtr&)>;
+  using Events = std::function<std::vector<Event>(const OpenedRecordingPtr&)>;
   void setEvents(Events events) { events_ = std::move(events); }
   // Sets the shown moment: time since A's first frame [s].
   void setTime(double seconds);

@@ -31,9 +31,9 @@ std::size_t framesInCommon(const TimedProfile& a, const TimedProfile& b, double 
 }
 
 // The events that tell grasps.
-std::vector<RecordingEvent> segmentsAmong(const std::vector<RecordingEvent>& events) {
-  std::vector<RecordingEvent> segments;
-  for (const RecordingEvent& event : events)
+std::vector<Event> segmentsAmong(const std::vector<Event>& events) {
+  std::vector<Event> segments;
+  for (const Event& event : events)
     if (event.kind == "segment") segments.push_back(event);
   return segments;
 }
@@ -96,7 +96,7 @@ class CompareKept {
   };
   struct Grasps {
     std::weak_ptr<const OpenedRecording> of;
-    std::vector<RecordingEvent> segments;
+    std::vector<Event> segments;
     std::vector<GraspFrames> grasps;
   };
 

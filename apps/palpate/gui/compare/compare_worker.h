@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <palpate/batch/grasp_files.h>
-#include <palpate/recording/recording_event.h>
+#include <palpate/model/event.h>
 #include <palpate/signals/alignment.h>
 #include <palpate/signals/curve_comparison.h>
 #include <palpate/signals/profile_series.h>
@@ -21,7 +21,7 @@ namespace palpate::gui {
 // A recording with its events as they are now, which tell its grasps.
 struct ComparedRecording {
   OpenedRecordingPtr recording;
-  std::vector<RecordingEvent> events;
+  std::vector<Event> events;
 };
 
 // What is compared and how.

@@ -88,7 +88,7 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
 
 // One fact per event, up to 200: its time [s] as the name; its kind and text as the value.
 std::vector<Fact> inspectPanelEventFacts(const OpenedRecording& recording,
-                                         const std::vector<RecordingEvent>& events) {
+                                         const std::vector<Event>& events) {
   constexpr std::size_t kMostListed = 200;
   std::vector<Fact> facts;
   const Profile& profile = recording.profile;
@@ -97,7 +97,7 @@ std::vector<Fact> inspectPanelEventFacts(const OpenedRecording& recording,
     return figure(static_cast<double>(us - beginUs) / kUsPerS, 2);
   };
   for (std::size_t i = 0; i < std::min(events.size(), kMostListed); ++i) {
-    const RecordingEvent& event = events[i];
+    const Event& event = events[i];
     QString when = seconds(event.tUs);
     if (event.t1Us != event.tUs) when += " – " + seconds(event.t1Us);
     const QString text = QString::fromStdString(event.text).simplified();
@@ -168,7 +168,7 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording,
               recording->profile.numTemperatures() > 0);
 }
 
-void InspectPanel::showEvents(const std::vector<RecordingEvent>& events) {
+void InspectPanel::showEvents(const std::vector<Event>& events) {
   std::vector<Fact> facts;
   if (recording_) facts = inspectPanelEventFacts(*recording_, events);
   eventsHeading_->setVisible(!facts.empty());

@@ -28,7 +28,7 @@ class InspectPanel : public QScrollArea {
                  const std::optional<JointAngles>& angles,
                  const std::optional<Temperatures>& temperatures);
   // Shows the events of the recording as edited.
-  void showEvents(const std::vector<RecordingEvent>& events);
+  void showEvents(const std::vector<Event>& events);
   // The calibration as text: "none: values are counts", or its name.
   void setCalibration(const QString& text);
   // To be called when a long recording has been read completely.

@@ -50,8 +50,8 @@ LinkFeature::LinkFeature(WindowState& windowState, QWidget* window)
   connect(&windowState.live,
           &LiveController::eventsReceived,
           this,
-          [this](const std::vector<RecordingEvent>& events) {
-            for (const RecordingEvent& event : events) panel_->addEvent(event);
+          [this](const std::vector<Event>& events) {
+            for (const Event& event : events) panel_->addEvent(event);
           });
 }
 

@@ -252,7 +252,7 @@ void LinkPanel::showOtherPrograms(std::vector<Fact> facts) {
         return others_->setFacts(std::move(facts));
 }
 
-void LinkPanel::addEvent(const RecordingEvent& event) {
+void LinkPanel::addEvent(const Event& event) {
   log(QString::fromStdString(event.kind) +
       (event.text.empty() ? QString() : ": " + QString::fromStdString(event.text)));
 }

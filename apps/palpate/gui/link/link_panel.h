@@ -8,7 +8,7 @@
 
 #include <palpate/capture/link_health.h>
 #include <palpate/device/stream_device.h>
-#include <palpate/recording/recording_event.h>
+#include <palpate/model/event.h>
 
 #include "gui/appearance/theme.h"
 #include "gui/widgets/facts_view.h"
@@ -40,7 +40,7 @@ class LinkPanel : public QWidget {
   void showAlarms(const QStringList& alarms);
   // Shows which interfaces are open to other programs; an empty list hides this part.
   void showOtherPrograms(std::vector<Fact> facts);
-  void addEvent(const RecordingEvent& event);
+  void addEvent(const Event& event);
   // Adds a message of the window itself: "connected to ..".
   void log(const QString& line);
   void setMuted(bool muted);

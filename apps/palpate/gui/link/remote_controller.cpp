@@ -232,7 +232,7 @@ void RemoteController::note(const std::string& text, const Done& done) {
   LiveSource* source = live_.source();
   if (!source || starting_ || !source->session->recording())
     return done(RemoteAnswer::refused("not_recording", "nothing is being recorded: start first"));
-  RecordingEvent event;
+  Event event;
   event.tUs = event.t1Us = source->session->nowUs();
   event.kind = text.empty() ? "mark" : "label";
   event.text = text;

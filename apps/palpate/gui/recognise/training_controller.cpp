@@ -270,7 +270,7 @@ void TrainingController::save(std::size_t index) {
           const std::int64_t timeUs = profile.frameTimeUs(0);
           written->path = nextRecordingPath(
               place, "{date}_{object}_{run}", {timeUs, std::string(), object.toStdString()});
-          RecordingEvent label;
+          Event label;
           label.tUs = label.t1Us = timeUs;
           label.kind = "label";
           label.text = object.toStdString();

@@ -10,8 +10,8 @@ namespace palpate::gui {
 class EventEditor::Change : public QUndoCommand {
  public:
   Change(EventEditor& editor,
-         std::optional<RecordingEvent> before,
-         std::optional<RecordingEvent> after,
+         std::optional<Event> before,
+         std::optional<Event> after,
          const QString& name)
       : QUndoCommand(name), editor_(editor), before_(std::move(before)), after_(std::move(after)) {}
   void undo() override { editor_.apply(after_, before_); }
@@ -19,29 +19,27 @@ class EventEditor::Change : public QUndoCommand {
 
  private:
   EventEditor& editor_;
-  std::optional<RecordingEvent> before_;
-  std::optional<RecordingEvent> after_;
+  std::optional<Event> before_;
+  std::optional<Event> after_;
 };
 
 // Undo command that adds any number of events: one after the other, each would move all others.
 class EventEditor::Addition : public QUndoCommand {
  public:
-  Addition(EventEditor& editor, std::vector<RecordingEvent> added, const QString& name)
+  Addition(EventEditor& editor, std::vector<Event> added, const QString& name)
       : QUndoCommand(name), editor_(editor), before_(editor.events_), after_(editor.events_) {
     after_.insert(
         after_.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
     std::stable_sort(
-        after_.begin(), after_.end(), [](const RecordingEvent& a, const RecordingEvent& b) {
-          return a.tUs < b.tUs;
-        });
+        after_.begin(), after_.end(), [](const Event& a, const Event& b) { return a.tUs < b.tUs; });
   }
   void undo() override { editor_.events_ = before_; }
   void redo() override { editor_.events_ = after_; }
 
  private:
   EventEditor& editor_;
-  std::vector<RecordingEvent> before_;
-  std::vector<RecordingEvent> after_;
+  std::vector<Event> before_;
+  std::vector<Event> after_;
 };
 
 EventEditor::EventEditor(EventsReport asRead, Save save, QObject* parent)
@@ -54,8 +52,7 @@ EventEditor::EventEditor(EventsReport asRead, Save save, QObject* parent)
 // The undo stack changes its index while it is destroyed; that must not emit changed().
 EventEditor::~EventEditor() { undo_.disconnect(this); }
 
-void EventEditor::apply(const std::optional<RecordingEvent>& out,
-                        const std::optional<RecordingEvent>& in) {
+void EventEditor::apply(const std::optional<Event>& out, const std::optional<Event>& in) {
   if (out) {
     const auto at = std::find(events_.begin(), events_.end(), *out);
     if (at != events_.end()) {
@@ -68,30 +65,28 @@ void EventEditor::apply(const std::optional<RecordingEvent>& out,
     }
   }
   if (in) {
-    const auto at = std::upper_bound(
-        events_.begin(), events_.end(), *in, [](const RecordingEvent& a, const RecordingEvent& b) {
+    const auto at =
+        std::upper_bound(events_.begin(), events_.end(), *in, [](const Event& a, const Event& b) {
           return a.tUs < b.tUs;
         });
     events_.insert(at, *in);
   }
 }
 
-void EventEditor::push(std::optional<RecordingEvent> before,
-                       std::optional<RecordingEvent> after,
+void EventEditor::push(std::optional<Event> before,
+                       std::optional<Event> after,
                        const QString& name) {
   if (before == after) return;
   undo_.push(new Change(*this, std::move(before), std::move(after), name));
 }
 
-void EventEditor::add(const RecordingEvent& event, const QString& name) {
-  push(std::nullopt, event, name);
-}
+void EventEditor::add(const Event& event, const QString& name) { push(std::nullopt, event, name); }
 
-void EventEditor::add(std::vector<RecordingEvent> events, const QString& name) {
+void EventEditor::add(std::vector<Event> events, const QString& name) {
   if (!events.empty()) undo_.push(new Addition(*this, std::move(events), name));
 }
 
-void EventEditor::change(std::size_t index, const RecordingEvent& to, const QString& name) {
+void EventEditor::change(std::size_t index, const Event& to, const QString& name) {
   push(events_.at(index), to, name);
 }
 

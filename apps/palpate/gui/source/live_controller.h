@@ -97,7 +97,7 @@ class LiveController : public QObject {
   void resultsReceived(const palpate::LiveResults& results);
   void staleChanged(bool stale);
   void refreshed();
-  void eventsReceived(const std::vector<palpate::RecordingEvent>& events);
+  void eventsReceived(const std::vector<palpate::Event>& events);
   // Frames are written to disk, from now on or from the first one that arrives.
   void recordingStarted();
   void recordingFailed(const QString& message);

@@ -150,7 +150,7 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
     foxglove->send(results);
   };
   options.onEvent = [session = source->session.get(),
-                     foxglove = source->foxglove.get()](const RecordingEvent& event) {
+                     foxglove = source->foxglove.get()](const Event& event) {
     session->note(event);
     foxglove->send(event);
   };

@@ -122,7 +122,7 @@ void readThrough(OpenedRecording& opened, const Progress& progress) {
 void addGapsOfEvents(OpenedRecording& opened) {
   const Profile& profile = opened.profile;
   std::vector<Gap>& gaps = opened.timing.gaps;
-  for (const RecordingEvent& event : opened.events.events) {
+  for (const Event& event : opened.events.events) {
     if (event.kind != "gap" || event.t1Us <= event.tUs) continue;
     const QJsonValue stream =
         QJsonDocument::fromJson(QByteArray::fromStdString(event.json)).object()["stream"];
@@ -213,7 +213,7 @@ std::optional<std::pair<std::size_t, std::size_t>> OpenedRecording::framesWithin
 
 QString OpenedRecording::reasonOf(const Gap& gap) const {
   QStringList reasons;
-  for (const RecordingEvent& event : events.events) {
+  for (const Event& event : events.events) {
     if (event.kind != "gap" || event.text.empty() || !touchesGap(event, gap, profile)) continue;
     const QString reason = QString::fromStdString(event.text);
     if (!reasons.contains(reason)) reasons.append(reason);

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/model/event.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/timing.h>
 #include <palpate/recording/recording.h>
-#include <palpate/recording/recording_event.h>
 #include <palpate/signals/characteristic_signals.h>
 #include <palpate/signals/signal_overview.h>
 
@@ -54,7 +54,7 @@ struct OpenedRecording {
   // The events as stored in the file.
   EventsReport events;
   // Of events, those that aren't in the file: what was found to be lost of a damaged recording.
-  std::vector<RecordingEvent> notInFile = {};
+  std::vector<Event> notInFile = {};
   // The meta data, see recording.h; empty for a .dsa.
   std::map<std::string, std::string> meta = {};
   // Why the events couldn't be read; empty: they were read.

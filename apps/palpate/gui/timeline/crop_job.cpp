@@ -117,7 +117,7 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
     return windowState_.messages.fail(QString::fromUtf8(error.what()));
   }
   EventEditor* editor = windowState_.events.editor();
-  std::vector<RecordingEvent> noted = editor ? editor->events() : std::vector<RecordingEvent>();
+  std::vector<Event> noted = editor ? editor->events() : std::vector<Event>();
   job_.start(
       path,
       [recording = windowState_.displayed.unfilteredRecording(),
@@ -126,17 +126,16 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
        noted = std::move(noted)](const Progress& progress) {
         const std::filesystem::path out = path.toStdString();
         requireOther(recording->path, out);
-        const auto save = [&](const Profile& profile,
-                              const std::vector<RecordingEvent>& events,
-                              const Progress& saving) {
-          // The dialogue has already asked whether an existing file may be replaced.
-          saveRecording(profile,
-                        events,
-                        out,
-                        Overwrite::kReplace,
-                        saving,
-                        extrasOf(*recording, profile, out, part.has_value()));
-        };
+        const auto save =
+            [&](const Profile& profile, const std::vector<Event>& events, const Progress& saving) {
+              // The dialogue has already asked whether an existing file may be replaced.
+              saveRecording(profile,
+                            events,
+                            out,
+                            Overwrite::kReplace,
+                            saving,
+                            extrasOf(*recording, profile, out, part.has_value()));
+            };
         if (!part) return save(recording->profile, noted, progress);
         const auto half = [&](double from) {
           return [&progress, from](double fraction) { return progress(from + 0.5 * fraction); };
@@ -147,7 +146,7 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
       [this,
        path,
        part,
-       written = editor ? editor->events() : std::vector<RecordingEvent>(),
+       written = editor ? editor->events() : std::vector<Event>(),
        saved = windowState_.displayed.unfilteredRecording(),
        count = part ? part->last - part->first + 1
                     : windowState_.displayed.unfilteredRecording()->profile.numFrames()] {

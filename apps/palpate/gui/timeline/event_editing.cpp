@@ -62,10 +62,10 @@ void EventEditing::connectRows() {
   });
   connect(&rows_, &EventRows::removeRequested, &windowState_.events, &EventController::remove);
   connect(&rows_, &EventRows::textChanged, this, [this](std::size_t mark, const QString& text) {
-    std::optional<RecordingEvent> named;
+    std::optional<Event> named;
     windowState_.events.change(
         mark,
-        [&](RecordingEvent& event) {
+        [&](Event& event) {
           event.text = text.toStdString();
           named = event;
         },
@@ -78,10 +78,10 @@ void EventEditing::connectRows() {
     const double end = windowState_.selection.durationS();
     const std::int64_t fromUs = timeUsOf(*recording, std::clamp(from, 0.0, end));
     const std::int64_t toUs = timeUsOf(*recording, std::clamp(to, 0.0, end));
-    std::optional<RecordingEvent> moved;
+    std::optional<Event> moved;
     windowState_.events.change(
         mark,
-        [&](RecordingEvent& event) {
+        [&](Event& event) {
           event.tUs = fromUs;
           event.t1Us = toUs;
           moved = event;
@@ -174,12 +174,12 @@ void EventEditing::rename() {
 }
 
 // Chooses the event that was made just now, so that the keys for events act on it.
-void EventEditing::choose(const RecordingEvent& made) {
+void EventEditing::choose(const Event& made) {
   chooseEvent(made);
   shownAtS_ = windowState_.playback.positionS();
 }
 
-void EventEditing::chooseEvent(const RecordingEvent& event) {
+void EventEditing::chooseEvent(const Event& event) {
   const EventEditor* editor = windowState_.events.editor();
   if (!editor) return;
   const auto& marks = rows_.marks();
@@ -221,7 +221,7 @@ void EventEditing::add(const char* kind, const QString& title, const QString& na
   const OpenedRecordingPtr recording = windowState_.displayed.recorded();
   if (!recording || !windowState_.playback.hasFrames()) return;
   const auto& span = windowState_.selection.span();
-  RecordingEvent event;
+  Event event;
   event.kind = kind;
   event.tUs = timeUsOf(*recording, span ? span->fromS : windowState_.playback.positionS());
   event.t1Us = span ? timeUsOf(*recording, span->toS) : event.tUs;
@@ -244,7 +244,7 @@ void EventEditing::addGrasp() {
   if (!span)
     return windowState_.messages.flash(
         "nothing is selected: drag in the timeline, or press [ and ]");
-  RecordingEvent event;
+  Event event;
   event.kind = kSegmentKind;
   event.tUs = timeUsOf(*recording, span->fromS);
   event.t1Us = timeUsOf(*recording, span->toS);

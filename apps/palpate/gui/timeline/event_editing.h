@@ -26,8 +26,8 @@ class EventEditing : public QObject {
   void add(const char* kind, const QString& title, const QString& name);
   void addGrasp();
   void rename();
-  void choose(const RecordingEvent& made);
-  void chooseEvent(const RecordingEvent& event);
+  void choose(const Event& made);
+  void chooseEvent(const Event& event);
   void show(std::size_t mark);
   void showUndo();
   // Goes on from the chosen event as long as the cursor stands on it, else from the cursor; in the

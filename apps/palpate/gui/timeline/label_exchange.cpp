@@ -22,15 +22,13 @@ constexpr const char* kImportTopic = "import of labels";
 QString labelCount(std::size_t count) { return QString::fromStdString(counted(count, "label")); }
 
 // "2 labels, 1 note, 1 marked grasp"; "0 labels"
-QString countsOf(const std::vector<RecordingEvent>& events) {
+QString countsOf(const std::vector<Event>& events) {
   QStringList counts;
   for (const auto& [kind, noun] : {std::pair<const char*, const char*>{"label", "label"},
                                    {"note", "note"},
                                    {"segment", "marked grasp"}}) {
-    const auto number =
-        std::count_if(events.begin(), events.end(), [&](const RecordingEvent& event) {
-          return event.kind == kind;
-        });
+    const auto number = std::count_if(
+        events.begin(), events.end(), [&](const Event& event) { return event.kind == kind; });
     if (number > 0)
       counts.append(
           QString::fromStdString(counted(static_cast<std::uint64_t>(number), std::string(noun))));
@@ -137,7 +135,7 @@ void LabelExchange::importLabels() {
 }
 
 void LabelExchange::take(const LabelTable& table, const QString& path, EventEditor& editor) {
-  const std::vector<RecordingEvent> added = newLabels(table, editor.events());
+  const std::vector<Event> added = newLabels(table, editor.events());
   editor.add(added, "importing labels");
   const std::size_t known = table.events.size() - added.size();
   QString said = QFileInfo(path).fileName() + ": " + countsOf(added) + " added";

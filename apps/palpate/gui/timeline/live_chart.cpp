@@ -41,7 +41,7 @@ constexpr int kRightMargin = 20;     // without names at the ends of curves [px]
 // Distance of the mouse from the line of an event whose text is shown [px].
 constexpr double kEventReach = 4.0;
 
-QString nameOfEvent(const RecordingEvent& event) {
+QString nameOfEvent(const Event& event) {
   const QString text = QString::fromStdString(event.text);
   if (event.kind == "mark") return "mark";
   if (event.kind == "label") return text;
@@ -493,7 +493,7 @@ void LiveChart::forget(double beforeS) {
   }
 }
 
-void LiveChart::addEvent(const RecordingEvent& event) {
+void LiveChart::addEvent(const Event& event) {
   if (!hasHistory_) return;
   const ThemeColors& colors = colorsOf();
   const double beginS = series_.secondsOf(event.tUs);

@@ -16,8 +16,8 @@
 
 #include <palpate/core/text_table.h>
 #include <palpate/live/live_series.h>
+#include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
-#include <palpate/recording/recording_event.h>
 #include <palpate/signals/axis_range.h>
 
 #include "gui/chart/chart.h"
@@ -58,7 +58,7 @@ class LiveChart : public Chart {
   // chart scrolls by itself.
   void refresh(double silentS);
   // Draws a line with a name at the time of the event.
-  void addEvent(const RecordingEvent& event);
+  void addEvent(const Event& event);
   // Marks the span of a recording by the stamps of its first and last frame [us since 1970]; while
   // it runs, the last frame is the newest one.
   void showRecording(std::int64_t firstUs, std::int64_t lastUs, bool runs);

@@ -224,12 +224,9 @@ void TimelineFeature::connectLive() {
     hasForces_ = has;
     offerLiveCurves();
   });
-  connect(&live,
-          &LiveController::eventsReceived,
-          this,
-          [this](const std::vector<RecordingEvent>& events) {
-            for (const RecordingEvent& event : events) liveChart_->addEvent(event);
-          });
+  connect(&live, &LiveController::eventsReceived, this, [this](const std::vector<Event>& events) {
+    for (const Event& event : events) liveChart_->addEvent(event);
+  });
   connect(
       &currentFrame, &CurrentFrame::resultsReceived, this, [this] { liveChart_->refresh(0.0); });
   connect(&currentFrame, &CurrentFrame::heldChanged, this, [this, &currentFrame] {

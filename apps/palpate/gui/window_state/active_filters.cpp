@@ -191,9 +191,8 @@ void ActiveFilters::takeKeptRecipe() {
   const EventEditor* editor = events_.editor();
   if (editor == nullptr || keptTaken_ == displayed_.recorded()) return;
   const auto& all = editor->events();
-  const auto kept = std::find_if(all.rbegin(), all.rend(), [](const RecordingEvent& event) {
-    return event.kind == kRecipeKind;
-  });
+  const auto kept = std::find_if(
+      all.rbegin(), all.rend(), [](const Event& event) { return event.kind == kRecipeKind; });
   if (kept == all.rend()) return;
   keptTaken_ = displayed_.recorded();
   const auto now = recipeFrom(kept->json);
@@ -209,7 +208,7 @@ void ActiveFilters::keepWithRecording() {
   const bool none = recipe().steps.empty();
   const std::int64_t us =
       recording->profile.numFrames() > 0 ? recording->profile.frameTimeUs(0) : 0;
-  const RecordingEvent event{
+  const Event event{
       us, us, kRecipeKind, std::nullopt, fullRecipeText(recipe()), recipeJson(recipe()).text(-1)};
   events_.keep(kRecipeKind, none ? std::nullopt : std::optional(event), "the recipe");
   keptTaken_ = recording;

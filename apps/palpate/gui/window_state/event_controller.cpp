@@ -56,8 +56,8 @@ EventEditor* EventController::editor() {
   if (!editor) {
     editor = std::make_unique<EventEditor>(
         recording->events,
-        [path = recording->path, notInFile = recording->notInFile](
-            const EventsReport& asRead, const std::vector<RecordingEvent>& now) {
+        [path = recording->path, notInFile = recording->notInFile](const EventsReport& asRead,
+                                                                   const std::vector<Event>& now) {
           palpate::saveEvents(path,
                               {withoutEvents(asRead.events, notInFile), asRead.damaged},
                               withoutEvents(now, notInFile));
@@ -97,7 +97,7 @@ const std::vector<GraspSegment>& EventController::graspsOf(const OpenedRecording
   return found;
 }
 
-std::vector<RecordingEvent> EventController::eventsOf(const OpenedRecordingPtr& recording) const {
+std::vector<Event> EventController::eventsOf(const OpenedRecordingPtr& recording) const {
   const auto editor = editors_.find(recording.get());
   return editor == editors_.end() ? recording->events.events : editor->second->events();
 }
@@ -112,11 +112,11 @@ void EventController::renewMarks() {
   emit changed();
 }
 
-void EventController::add(const RecordingEvent& event, const QString& name) {
+void EventController::add(const Event& event, const QString& name) {
   if (EventEditor* now = editor()) now->add(event, name);
 }
 
-void EventController::addGrasp(const RecordingEvent& segment) {
+void EventController::addGrasp(const Event& segment) {
   EventEditor* now = editor();
   if (!now) return;
   now->changeTogether("a grasp", [&] {
@@ -128,7 +128,7 @@ void EventController::addGrasp(const RecordingEvent& segment) {
 // Turns all grasps found automatically into events of the user, except `without`, which the caller
 // changes or removes.
 void EventController::keepFoundGrasps(EventEditor& editor, std::optional<std::size_t> without) {
-  const auto isSegment = [](const RecordingEvent& event) { return event.kind == kSegmentKind; };
+  const auto isSegment = [](const Event& event) { return event.kind == kSegmentKind; };
   const auto& now = editor.events();
   for (std::size_t i = 0; i < now.size(); ++i)
     if (isRemovedGrasp(now[i])) return editor.remove(i, "grasps");
@@ -140,18 +140,18 @@ void EventController::keepFoundGrasps(EventEditor& editor, std::optional<std::si
 }
 
 void EventController::change(std::size_t index,
-                             const std::function<void(RecordingEvent&)>& change,
+                             const std::function<void(Event&)>& change,
                              const QString& name) {
   EventEditor* now = editor();
   const EventMark mark = marks_.at(index);
   if (!now || !mark.editable) return;
   if (mark.event) {
-    RecordingEvent changed = now->events().at(*mark.event);
+    Event changed = now->events().at(*mark.event);
     change(changed);
     return now->change(*mark.event, changed, name);
   }
   const OpenedRecordingPtr recording = displayed_.recorded();
-  RecordingEvent changed = segmentOf(*recording, graspsOf(recording).at(*mark.grasp));
+  Event changed = segmentOf(*recording, graspsOf(recording).at(*mark.grasp));
   change(changed);
   now->changeTogether(name, [&] {
     keepFoundGrasps(*now, mark.grasp);
@@ -170,9 +170,8 @@ void EventController::remove(std::size_t index) {
     else
       keepFoundGrasps(*now, mark.grasp);
     const auto& left = now->events();
-    const bool none = std::none_of(left.begin(), left.end(), [](const RecordingEvent& event) {
-      return event.kind == kSegmentKind;
-    });
+    const bool none = std::none_of(
+        left.begin(), left.end(), [](const Event& event) { return event.kind == kSegmentKind; });
     // Without this event the grasps found automatically would be shown again.
     if (mark.lane == EventLane::kGrasps && none)
       now->add(removedGraspEvent(*displayed_.recorded()), name);
@@ -180,7 +179,7 @@ void EventController::remove(std::size_t index) {
 }
 
 void EventController::keep(const std::string& kind,
-                           const std::optional<RecordingEvent>& event,
+                           const std::optional<Event>& event,
                            const QString& name) {
   EventEditor* now = editor();
   if (!now) return;

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <palpate/model/event.h>
 #include <palpate/recognition/grasp_segments.h>
-#include <palpate/recording/recording_event.h>
 
 #include "gui/desktop/ask.h"
 #include "gui/source/background_job.h"
@@ -50,20 +50,16 @@ class EventController : public QObject {
   void renewMarks();
 
   // The events of an open recording as they are now, saved or not.
-  std::vector<RecordingEvent> eventsOf(const OpenedRecordingPtr& recording) const;
+  std::vector<Event> eventsOf(const OpenedRecordingPtr& recording) const;
 
-  void add(const RecordingEvent& event, const QString& name);
+  void add(const Event& event, const QString& name);
   // Adds a grasp marked by the user. All grasps found automatically become events of the user, too.
-  void addGrasp(const RecordingEvent& segment);
+  void addGrasp(const Event& segment);
   // Changes the event behind a mark; a mark that can't be edited is left as it is.
-  void change(std::size_t mark,
-              const std::function<void(RecordingEvent&)>& change,
-              const QString& name);
+  void change(std::size_t mark, const std::function<void(Event&)>& change, const QString& name);
   void remove(std::size_t mark);
   // Replaces all events of this kind by `event`; with nothing, only removes them.
-  void keep(const std::string& kind,
-            const std::optional<RecordingEvent>& event,
-            const QString& name);
+  void keep(const std::string& kind, const std::optional<Event>& event, const QString& name);
 
   bool hasUnsaved(const OpenedRecordingPtr& recording) const;
   // Returns false when saving failed; the failure is shown to the user, until nothing is unsaved

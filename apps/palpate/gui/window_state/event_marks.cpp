@@ -78,7 +78,7 @@ EventLane laneOf(const std::string& kind) {
   return kind == "gap" ? EventLane::kGaps : EventLane::kOthers;
 }
 
-EventMark markOf(const OpenedRecording& recording, const RecordingEvent& event, std::size_t index) {
+EventMark markOf(const OpenedRecording& recording, const Event& event, std::size_t index) {
   EventMark mark;
   mark.lane = laneOf(event.kind);
   mark.fromS = eventMarksSecondsOf(recording, event.tUs);
@@ -96,7 +96,7 @@ EventMark markOf(const OpenedRecording& recording, const RecordingEvent& event, 
   return mark;
 }
 
-bool touchesAnyGap(const OpenedRecording& recording, const RecordingEvent& event) {
+bool touchesAnyGap(const OpenedRecording& recording, const Event& event) {
   const std::vector<Gap>& gaps = recording.timingNow().gaps;
   return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {
     return touchesGap(event, gap, recording.profile);
@@ -171,8 +171,8 @@ std::int64_t timeUsOf(const OpenedRecording& recording, double seconds) {
   return origin + std::llround(seconds * kUsPerS);
 }
 
-RecordingEvent segmentOf(const OpenedRecording& recording, const GraspSegment& grasp) {
-  RecordingEvent event;
+Event segmentOf(const OpenedRecording& recording, const GraspSegment& grasp) {
+  Event event;
   event.kind = kSegmentKind;
   event.tUs = recording.profile.frameTimeUs(grasp.begin);
   event.t1Us = recording.profile.frameTimeUs(grasp.end);
@@ -183,15 +183,15 @@ RecordingEvent segmentOf(const OpenedRecording& recording, const GraspSegment& g
   return event;
 }
 
-RecordingEvent removedGraspEvent(const OpenedRecording& recording) {
-  RecordingEvent event;
+Event removedGraspEvent(const OpenedRecording& recording) {
+  Event event;
   event.kind = kSegmentKind;
   event.tUs = event.t1Us = timeUsOf(recording, 0.0);
   event.text = kNoGraspText;
   return event;
 }
 
-bool isRemovedGrasp(const RecordingEvent& event) {
+bool isRemovedGrasp(const Event& event) {
   return event.kind == kSegmentKind && event.text == kNoGraspText && event.t1Us == event.tUs;
 }
 
@@ -249,7 +249,7 @@ void addSlips(const SlipSeries& series,
 }
 
 std::vector<EventMark> marksOf(const OpenedRecording& recording,
-                               std::span<const RecordingEvent> events,
+                               std::span<const Event> events,
                                std::span<const GraspSegment> grasps) {
   std::vector<EventMark> marks;
   for (std::size_t i = 0; i < events.size(); ++i)

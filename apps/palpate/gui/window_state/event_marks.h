@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <palpate/calibration/step_report.h>
+#include <palpate/model/event.h>
 #include <palpate/recognition/grasp_segments.h>
-#include <palpate/recording/recording_event.h>
 
 #include "gui/source/opened_recording.h"
 
@@ -60,7 +60,7 @@ struct EventMark {
 // The marks sorted by lane, then by time. Where the user has corrected grasps (segments), the
 // grasps found automatically aren't shown.
 std::vector<EventMark> marksOf(const OpenedRecording& recording,
-                               std::span<const RecordingEvent> events,
+                               std::span<const Event> events,
                                std::span<const GraspSegment> grasps);
 
 // Inserts the loading steps found by the dock Calibrate into `marks`, in order.
@@ -75,11 +75,11 @@ void addSlips(const SlipSeries& series,
               std::vector<EventMark>& marks);
 
 // Converts a grasp found automatically into an event.
-RecordingEvent segmentOf(const OpenedRecording& recording, const GraspSegment& grasp);
+Event segmentOf(const OpenedRecording& recording, const GraspSegment& grasp);
 
 // An event that states that the recording has no grasp, so that none is searched for.
-RecordingEvent removedGraspEvent(const OpenedRecording& recording);
-bool isRemovedGrasp(const RecordingEvent& event);
+Event removedGraspEvent(const OpenedRecording& recording);
+bool isRemovedGrasp(const Event& event);
 
 // Converts seconds from the first frame into a time of the recording [us].
 std::int64_t timeUsOf(const OpenedRecording& recording, double seconds);
