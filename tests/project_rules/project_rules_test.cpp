@@ -88,6 +88,7 @@ TEST(ProjectRules, EveryPublicHeaderHasATestOfItsName) {
       {"recording/palpate_recovery", "recording/palpate_damage"},
       {"recording/palpate_writer", "recording/palpate_recording"},
       {"model/event", "recording/palpate_recording"},
+      {"recording/recording_data", "recording/recording_format"},
       {"recording/second_summary", "recording/palpate_recording"},
       {"recording/table_export", "recording/table_export"}};
   const std::regex pattern("include/palpate/(.*)\\.h");
