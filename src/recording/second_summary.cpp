@@ -11,9 +11,9 @@
 namespace palpate {
 
 void SecondSummarizer::add(const TactileFrame& frame) {
-  constexpr std::int64_t kUsPerS = 1'000'000;
-  std::int64_t second = frame.hostUs / kUsPerS;
-  if (frame.hostUs < second * kUsPerS) --second;  // before 1970
+  constexpr std::int64_t kSecondUs = 1'000'000;
+  std::int64_t second = frame.hostUs / kSecondUs;
+  if (frame.hostUs < second * kSecondUs) --second;  // before 1970
   if (!rows_.empty() && rows_.front().tS != second) flush();
   const std::size_t numMatrices = frame.layout->numMatrices();
   if (rows_.empty()) {
