@@ -1,11 +1,12 @@
 #include "palpate/interop/remote_file.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
+#include <vector>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/recording/recording_format.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -16,10 +17,11 @@ constexpr std::string_view kEnding = ".palpate";
 
 bool isTemplate(std::string_view name) { return name.find('{') != std::string_view::npos; }
 
-// True for the ending of another form of recording, which would not be created.
+// True for the ending of another format of recordings, which would not be created.
 bool hasOtherEnding(const fs::path& name) {
-  constexpr std::array<std::string_view, 4> kOthers = {".dsa", ".csv", ".npz", ".jsonl"};
-  return std::find(kOthers.begin(), kOthers.end(), name.extension().string()) != kOthers.end();
+  const std::vector<std::string> endings = recordingEndings();
+  const std::string ending = name.extension().string();
+  return ending != kEnding && std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto recording = palpate::readMcap(path, {}, 1);
     requireSane(recording.profile);
     frames = recording.profile.numFrames();
-    require(recording.damage.empty());
+    require(recording.damage.text.empty());
   });
   attempt([&] { palpate::readMcapEvents(path); });
   attempt([&] { palpate::readMcapMeta(path); });

@@ -58,7 +58,7 @@ void write(const Profile& profile, const fs::path& path) {
   extras.provenance = {"palpate 9", "a.dsa", "00ff", "", "", "pad"};
   extras.series.push_back(std::make_unique<Rows>());
   const std::vector<Event> events{{5, 9, "note", 0, "\xC3\xBC \xF0\x9F\x98\x80", ""}};
-  writeMat(profile, events, {{"operator", "A. B."}}, extras, path);
+  writeMat({profile, events, {{"operator", "A. B."}}, extras}, path);
 }
 
 TEST(MatExport, scipyReadsStructuresOfArraysAndTexts) {

@@ -32,7 +32,8 @@ TEST(MatOctave, structuresArraysTextsAndTimesAreRead) {
   extras.provenance.sourceFile = "a.dsa";
   const std::vector<Event> events{{5, 9, "note", 1, "first", "{}"},
                                   {7, 7, "mark", std::nullopt, "", ""}};
-  writeMat(builder.finish({}), events, {{"operator", "A. B."}}, extras, folder / "a.mat");
+  const Profile profile = builder.finish({});
+  writeMat({profile, events, {{"operator", "A. B."}}, extras}, folder / "a.mat");
   testing::writeFile(folder / "check.m", R"(
 a = load(argv(){1});
 m = a.tactile.m0;

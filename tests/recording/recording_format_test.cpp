@@ -2,6 +2,7 @@
 #include "palpate/recording/recording_format.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include "palpate/core/error.h"
@@ -13,6 +14,15 @@
 
 namespace palpate::recording_format_test {
 namespace {
+
+std::string errorOf(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
 
 Profile shortGrasp() { return synthesize({.durationS = 1.0, .grasps = 1}); }
 
@@ -29,9 +39,9 @@ TEST(RecordingFormat, EndingsAreUniqueAndFoundInCapitalLetters) {
       EXPECT_EQ(&formatOf(capitals), format) << capitals;
     }
   EXPECT_EQ(recordingEndings().size(), seen.size());
-  EXPECT_EQ(testing::errorOf([] { formatOf("a.docx"); }),
-            "a.docx: its name must end in .dsa, .palpate, .csv, .npz, .jsonl, .h5, .hdf5, .mat or "
-            ".mcap");
+  const std::string message = errorOf([] { formatOf("a.docx"); });
+  EXPECT_TRUE(message.starts_with("a.docx: its name must end in .dsa, .palpate, .csv")) << message;
+  EXPECT_TRUE(message.ends_with(" or " + recordingEndings().back())) << message;
 }
 
 TEST(RecordingFormat, WhatIsReadHasAllOfWhatWasSavedWhateverItsName) {
@@ -73,7 +83,7 @@ TEST(RecordingFormat, WhereNotesCanNotBeAddedThatIsSaid) {
   const testing::TemporaryFolder folder;
   for (const auto& [name, kind] : {std::pair("a.h5", "an HDF5 file"), {"a.mcap", "an MCAP file"}}) {
     saveRecording(shortGrasp(), {}, folder / name);
-    EXPECT_EQ(testing::errorOf([&] {
+    EXPECT_EQ(errorOf([&] {
                 saveEvents(folder / name, {}, std::vector{Event{1, 1, "note", {}, "a", ""}});
               }),
               (folder / name).string() + ": notes can't be added to " + kind +

@@ -20,8 +20,12 @@ namespace {
 constexpr const char* kCropFolder = "recent/crop_folder";
 constexpr std::string_view kCropEnding = ".palpate";
 
-// The filter of a file dialogue: each format that a recording can be saved in, its own first.
-QString formatFilter() {
+// Whether a file of this format can be opened as a recording.
+bool canBeOpened(const QString& path) { return formatOf(path.toStdString()).reader != nullptr; }
+
+}  // namespace
+
+QString recordingFormatFilter() {
   QStringList formats;
   for (const RecordingFormat* format : recordingFormats())
     for (const char* ending : format->endings)
@@ -29,11 +33,6 @@ QString formatFilter() {
                      QString("%1 (*%2)").arg(format->purpose, ending));
   return formats.join(";;");
 }
-
-// Whether a file of this format can be opened as a recording.
-bool canBeOpened(const QString& path) { return formatOf(path.toStdString()).reader != nullptr; }
-
-}  // namespace
 
 CropJob::CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidget* window)
     : windowState_(windowState),
@@ -87,7 +86,7 @@ void CropJob::cropSelection() {
   QString path = windowState_.ask.newFile(
       "Crop to a new recording",
       folder + "/" + stem + "_" + number(frames->first) + "-" + number(frames->last) + ".palpate",
-      formatFilter());
+      recordingFormatFilter());
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += ".palpate";
   windowState_.settings.setValue(kCropFolder, QFileInfo(path).absolutePath());
@@ -103,7 +102,8 @@ void CropJob::saveAs() {
   QString suggestion = folder + "/" + file.completeBaseName() + ".palpate";
   if (QFileInfo::exists(suggestion))
     suggestion = folder + "/" + file.completeBaseName() + "_copy.palpate";
-  QString path = windowState_.ask.newFile("Save the recording as", suggestion, formatFilter());
+  QString path =
+      windowState_.ask.newFile("Save the recording as", suggestion, recordingFormatFilter());
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += ".palpate";
   windowState_.settings.setValue(kCropFolder, QFileInfo(path).absolutePath());

@@ -16,6 +16,9 @@ namespace palpate::gui {
 class OfferStrip;
 class OpeningStrip;
 
+// The filter of a file dialogue: each format that a recording can be saved in, Palpate's first.
+QString recordingFormatFilter();
+
 class CropJob : public QObject {
   Q_OBJECT
  public:

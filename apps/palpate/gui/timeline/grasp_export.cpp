@@ -64,8 +64,7 @@ void GraspExport::exportEach() {
   QString path = windowState_.ask.newFile(
       "Export each grasp ({n} is its number)",
       folder + "/" + source.completeBaseName() + "_" + kNumber + ".palpate",
-      "Palpate recording (*.palpate);;DSA recording (*.dsa);;CSV table (*.csv);;NumPy "
-      "(*.npz);;HDF5 (*.h5);;MATLAB (*.mat);;MCAP (*.mcap)");
+      recordingFormatFilter());
   if (path.isEmpty()) return;
   path = graspTemplate(path);
   windowState_.settings.setValue(kGraspFolder, QFileInfo(path).absolutePath());
