@@ -99,7 +99,7 @@ DeviceInfo DemoHand::record(const std::filesystem::path& file) {
   options.meta = {{"object", object_}, {"operator", "palpate demo"}};
   session_.startRecording(options);
   await("a frame on disk", 5.0, [&] { return session_.recorderStatus().framesOnDisk > 0; });
-  return session_.device().facts();
+  return session_.device().info();
 }
 
 void DemoHand::moveTo(double closeRatio, double velocityDegPerS) {
