@@ -302,9 +302,9 @@ TEST(WriteOpenedTexts, TheTextsStandInTheOrderOfTheRecordings) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 40);
   const auto name =
-      [](const fs::path& file, const Recording& profile, const TextSink& write, const Progress&) {
+      [](const fs::path& file, const Recording& recording, const TextSink& write, const Progress&) {
         write(file.stem().string());
-        write(" has " + std::to_string(profile.numFrames()));
+        write(" has " + std::to_string(recording.profile.numFrames()));
       };
   const std::string frames = std::to_string(smallProfile().numFrames());
   std::string expected = "begin: ";

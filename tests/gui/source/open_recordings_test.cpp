@@ -42,7 +42,7 @@ class OpenRecordingsTest : public ::testing::Test {
 
   RecordingOpener opener_{[](const std::filesystem::path& path, const Progress&) {
     if (path.string().starts_with("bad")) throw FormatError(path, "is none", 0);
-    return twentyFrames();
+    return Recording{twentyFrames()};
   }};
   OpenRecordings open_{opener_};
   std::vector<Heard> heard_;
