@@ -12,7 +12,6 @@
 #include <palpate/control/grasp_control.h>
 #include <palpate/core/progress.h>
 #include <palpate/emulator/emulated_hand.h>
-#include <palpate/recording/recording_data.h>
 #include <palpate/emulator/scene.h>
 #include <palpate/interop/foxglove_stream.h>
 #include <palpate/interop/live_stream.h>
@@ -21,6 +20,7 @@
 #include <palpate/live/processing_chain.h>
 #include <palpate/live/signal_history.h>
 #include <palpate/live/slip_stage.h>
+#include <palpate/recording/recording_data.h>
 
 #include "gui/source/connection.h"
 
