@@ -46,7 +46,7 @@ std::vector<ContactRow> contactRowsOf(const Profile& profile,
     const auto sample = profile.angleSampleAt(frame.hostUs);
     if (!assumed && sample != posedBy) {
       posedBy = sample;
-      const std::vector<double> anglesDeg = profile.angles(*sample).deg;
+      const std::vector<double> anglesDeg = profile.angles(*sample).values;
       usable = checkAngles(anglesDeg, profile.hand().axes).state != AngleValidity::kUnusable;
       if (usable) geometry.pose(anglesDeg, pose);
     }

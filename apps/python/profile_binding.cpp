@@ -111,25 +111,25 @@ DoubleArray samples(std::size_t count, std::size_t width, const ValuesOf& values
 }
 
 std::size_t angleWidth(const Profile& profile) {
-  return profile.numAngles() > 0 ? profile.angles(0).deg.size() : profile.hand().axes.size();
+  return profile.numAngles() > 0 ? profile.angles(0).values.size() : profile.hand().axes.size();
 }
 
 std::size_t temperatureWidth(const Profile& profile) {
-  return profile.numTemperatures() > 0 ? profile.temperatures(0).degC.size()
+  return profile.numTemperatures() > 0 ? profile.temperatures(0).values.size()
                                        : profile.hand().temperatureSensors.size();
 }
 
 DoubleArray anglesAtFrames(const Profile& profile) {
   if (profile.numAngles() == 0) throw py::value_error("this recording has no joint angles");
   return samples(profile.numFrames(), angleWidth(profile), [&](std::size_t i) {
-    return profile.anglesAtFrame(i)->deg;
+    return profile.anglesAtFrame(i)->values;
   });
 }
 
 DoubleArray temperaturesAtFrames(const Profile& profile) {
   if (profile.numTemperatures() == 0) throw py::value_error("this recording has no temperatures");
   return samples(profile.numFrames(), temperatureWidth(profile), [&](std::size_t i) {
-    return profile.temperaturesAtFrame(i)->degC;
+    return profile.temperaturesAtFrame(i)->values;
   });
 }
 
@@ -273,14 +273,14 @@ void bindValues(ProfileClass& profile) {
           "angles",
           [](const Profile& p) {
             return samples(
-                p.numAngles(), angleWidth(p), [&](std::size_t i) { return p.angles(i).deg; });
+                p.numAngles(), angleWidth(p), [&](std::size_t i) { return p.angles(i).values; });
           },
           "Joint angles [deg]: float64 (n, axes).")
       .def_property_readonly(
           "temperatures",
           [](const Profile& p) {
             return samples(p.numTemperatures(), temperatureWidth(p), [&](std::size_t i) {
-              return p.temperatures(i).degC;
+              return p.temperatures(i).values;
             });
           },
           "Temperatures [deg C]: float64 (n, sensors); 0: no reading yet.")

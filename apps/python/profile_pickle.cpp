@@ -52,9 +52,9 @@ Profile inMemory(const Profile& profile, ProfileInfo info) {
     builder.addFrame(frame);
   }
   for (std::size_t i = 0; i < profile.numAngles(); ++i)
-    builder.addAngles(profile.angleTimeUs(i), profile.angles(i).deg);
+    builder.addAngles(profile.angleTimeUs(i), profile.angles(i).values);
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
-    builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).degC);
+    builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).values);
   return builder.finish(std::move(info));
 }
 

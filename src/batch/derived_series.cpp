@@ -96,7 +96,7 @@ class SlipRowSeries final : public FrameSeries {
   void fill(const TactileFrame& frame, std::span<double> values) override {
     if (const auto sample = profile_.angleSampleAt(frame.hostUs); sample != sample_) {
       sample_ = sample;
-      jointsDeg_ = sample ? profile_.angles(*sample).deg : std::vector<double>{};
+      jointsDeg_ = sample ? profile_.angles(*sample).values : std::vector<double>{};
     }
     std::size_t at = 0;
     const auto put = [&](bool known, double value) { values[at++] = known ? value : kNotKnown; };

@@ -79,7 +79,7 @@ ForceSeries forceSeries(const Profile& profile,
     reportProgress(progress, i, numFrames, kForceSeriesProgressEvery);
     profile.readFrame(i, frame);
     const auto belongs = profile.temperatureSampleAt(frame.hostUs);
-    if (belongs && belongs != sample) degC = profile.temperatures(*belongs).degC;
+    if (belongs && belongs != sample) degC = profile.temperatures(*belongs).values;
     sample = belongs;
     if (tare) applyTare(*tare, frame.values);
     map.apply(frame, degC, pressures);

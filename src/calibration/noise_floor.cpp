@@ -225,8 +225,8 @@ NoiseFloor fitNoiseFloor(const Profile& profile,
     for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
       const std::size_t sensor =
           m < matrices.size() ? matrices[m].temperatureSensor.value_or(SIZE_MAX) : SIZE_MAX;
-      if (!temperatures || sensor >= temperatures->degC.size()) continue;
-      degC[m].push_back(temperatures->degC[sensor]);
+      if (!temperatures || sensor >= temperatures->values.size()) continue;
+      degC[m].push_back(temperatures->values[sensor]);
       maxima[m].push_back(static_cast<double>(std::as_const(frame).matrix(m).maxCoeff()));
     }
   }

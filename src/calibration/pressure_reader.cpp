@@ -33,7 +33,7 @@ PressureReader::PressureReader(Profile profile,
 void PressureReader::go(std::size_t frame) {
   profile_.readFrame(frame, frame_);
   const auto sample = profile_.temperatureSampleAt(frame_.hostUs);
-  if (sample && sample != sample_) degC_ = profile_.temperatures(*sample).degC;
+  if (sample && sample != sample_) degC_ = profile_.temperatures(*sample).values;
   sample_ = sample;
   if (tare_) applyTare(*tare_, frame_.values);
   map_.apply(frame_, degC_, pressures_);

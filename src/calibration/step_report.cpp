@@ -39,13 +39,13 @@ void addTemperatures(const Profile& profile, std::size_t matrix, FittedStep& fit
   const std::size_t sensor =
       matrix < matrices.size() ? matrices[matrix].temperatureSensor.value_or(SIZE_MAX) : SIZE_MAX;
   const std::size_t studySample = std::min(matrix, profile.numTemperatures() - 1);
-  fitted.studyDegC = meanOf(profile.temperatures(studySample).degC);
+  fitted.studyDegC = meanOf(profile.temperatures(studySample).values);
   double nearest = 0.0, all = 0.0;
   std::size_t numNearest = 0, numAll = 0;
   for (std::size_t i = fitted.step.begin; i <= fitted.step.end; ++i) {
     const auto sample = profile.temperatureSampleAt(profile.frameTimeUs(i));
     if (!sample) return;
-    const std::vector<double> degC = profile.temperatures(*sample).degC;
+    const std::vector<double> degC = profile.temperatures(*sample).values;
     if (sensor < degC.size() && measured(degC[sensor])) {
       nearest += degC[sensor];
       ++numNearest;

@@ -7,10 +7,17 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<const char*, kCaptureStreams> kStreamNames{
-    "tactile", "angles", "temperatures", "events"};
-constexpr std::array<const char*, kCaptureStreams> kItemNames{
-    "frame", "angle sample", "temperature sample", "event"};
+// The name of a stream in JSON, and of one of its items in a text.
+std::pair<std::string, std::string> namesOf(CaptureStream stream,
+                                            const std::vector<std::string>& series) {
+  if (stream == CaptureStream::kTactile) return {"tactile", "frame"};
+  if (stream == CaptureStream::kAngles) return {"angles", "angle sample"};
+  if (stream == CaptureStream::kTemperatures) return {"temperatures", "temperature sample"};
+  if (stream == CaptureStream::kEvents) return {"events", "event"};
+  const std::size_t index = static_cast<std::size_t>(stream) - 1;
+  std::string name = index < series.size() ? series[index] : "series " + std::to_string(index);
+  return {name, "sample of " + name};
+}
 
 CaptureQueueStats::Port statsOf(const BoundedQueue<CaptureItem>& queue, std::size_t capacity) {
   return {queue.size(), queue.stats().highWater, capacity};
@@ -27,7 +34,14 @@ void moveAll(BoundedQueue<CaptureItem>& queue, std::vector<CaptureItem>& out) {
 }  // namespace
 
 CaptureStream streamOf(const CaptureItem& item) noexcept {
-  return static_cast<CaptureStream>(item.index());
+  if (std::holds_alternative<SharedFrame>(item)) return CaptureStream::kTactile;
+  const auto* sample = std::get_if<Sample>(&item);
+  return sample ? static_cast<CaptureStream>(1 + sample->series) : CaptureStream::kEvents;
+}
+
+const Sample* sampleOf(const CaptureItem& item, std::size_t series) noexcept {
+  const auto* sample = std::get_if<Sample>(&item);
+  return sample && sample->series == series ? sample : nullptr;
 }
 
 // The angles that belong to a frame are the last ones at or before it, so they precede it.
@@ -38,21 +52,26 @@ bool isEarlier(const CaptureItem& a, const CaptureItem& b) noexcept {
 
 std::int64_t stampOf(const CaptureItem& item) noexcept {
   if (const auto* frame = std::get_if<SharedFrame>(&item)) return (*frame)->hostUs;
-  if (const auto* angles = std::get_if<JointAngles>(&item)) return angles->hostUs;
-  if (const auto* sample = std::get_if<Temperatures>(&item)) return sample->hostUs;
+  if (const auto* sample = std::get_if<Sample>(&item)) return sample->hostUs;
   return std::get_if<Event>(&item)->tUs;
 }
 
-Event gapEvent(CaptureStream stream, const CaptureLoss& loss, std::string_view reason) {
-  const auto index = static_cast<std::size_t>(stream);
+Event gapEvent(CaptureStream stream,
+               const CaptureLoss& loss,
+               std::string_view reason,
+               const std::vector<std::string>& series) {
+  const auto [name, itemName] = namesOf(stream, series);
   Event event;
   event.tUs = loss.firstUs;
   event.t1Us = loss.lastUs;
   event.kind = "gap";
-  event.text = std::to_string(loss.count) + " " + kItemNames.at(index) +
-               (loss.count == 1 ? "" : "s") + " lost: " + std::string(reason);
+  const std::size_t noun = itemName.starts_with("sample of") ? std::string_view("sample").size()
+                                                             : itemName.size();
+  event.text = std::to_string(loss.count) + " " + itemName.substr(0, noun) +
+               (loss.count == 1 ? "" : "s") + itemName.substr(noun) +
+               " lost: " + std::string(reason);
   event.json = Json::object()
-                   .set("stream", kStreamNames.at(index))
+                   .set("stream", name)
                    .set("lost", static_cast<std::int64_t>(loss.count))
                    .set("reason", reason)
                    .text(-1);
@@ -67,16 +86,8 @@ CaptureQueue::CaptureQueue(std::string consumer, const CaptureQueueOptions& opti
       events_(options.eventItems) {}
 
 BoundedQueue<CaptureItem>& CaptureQueue::queueOf(CaptureStream stream) {
-  switch (stream) {
-    case CaptureStream::kTactile:
-      return tactile_;
-    case CaptureStream::kAngles:
-    case CaptureStream::kTemperatures:
-      return motion_;
-    case CaptureStream::kEvents:
-      break;
-  }
-  return events_;
+  if (stream == CaptureStream::kTactile) return tactile_;
+  return stream == CaptureStream::kEvents ? events_ : motion_;
 }
 
 bool CaptureQueue::put(CaptureItem item) {
@@ -100,7 +111,7 @@ bool CaptureQueue::put(CaptureItem item) {
       ++open->count;
       ++lost_.at(index);
     } else if (open) {
-      ended_.emplace_back(gapEvent(stream, *open, consumer_ + " could not keep up"));
+      ended_.emplace_back(gapEvent(stream, *open, consumer_ + " could not keep up", options_.series));
       open.reset();
     }
   }
@@ -129,7 +140,7 @@ void CaptureQueue::takeOpenGaps(std::vector<CaptureItem>& out, std::vector<Event
   for (std::size_t i = 0; i < kCaptureStreams; ++i) {
     if (!open_.at(i)) continue;
     Event gap =
-        gapEvent(static_cast<CaptureStream>(i), *open_.at(i), consumer_ + " could not keep up");
+        gapEvent(static_cast<CaptureStream>(i), *open_.at(i), consumer_ + " could not keep up", options_.series);
     if (ownGaps) ownGaps->push_back(gap);
     out.emplace_back(std::move(gap));
     open_.at(i).reset();

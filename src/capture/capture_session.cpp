@@ -189,18 +189,14 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   pass(CaptureItem(std::move(shared)));
 }
 
-void CaptureSession::onAngles(JointAngles&& angles) {
-  screenAngles_.put(angles);
-  pass(CaptureItem(std::move(angles)));
-}
-
-void CaptureSession::onTemperatures(Temperatures&& temperatures) {
-  screenTemperatures_.put(temperatures);
-  {
+void CaptureSession::onSample(Sample&& sample) {
+  if (sample.series == kJointAngles) screenAngles_.put(sample);
+  if (sample.series == kTemperatures) {
+    screenTemperatures_.put(sample);
     const std::lock_guard lock(shownMutex_);
-    lastTemperatures_ = temperatures;
+    lastTemperatures_ = sample;
   }
-  pass(CaptureItem(std::move(temperatures)));
+  pass(CaptureItem(std::move(sample)));
 }
 
 void CaptureSession::onEvent(Event&& event) {
@@ -241,9 +237,9 @@ std::shared_ptr<CaptureQueue> CaptureSession::subscribe(std::string consumer,
 
 SharedFrame CaptureSession::takeFrame() { return screenFrame_.take().value_or(nullptr); }
 
-std::optional<JointAngles> CaptureSession::takeAngles() { return screenAngles_.take(); }
+std::optional<Sample> CaptureSession::takeAngles() { return screenAngles_.take(); }
 
-std::optional<Temperatures> CaptureSession::takeTemperatures() {
+std::optional<Sample> CaptureSession::takeTemperatures() {
   return screenTemperatures_.take();
 }
 

@@ -108,8 +108,8 @@ std::string lowRateText(const LinkMonitor::Reading& frames, const HealthOptions&
 }
 
 std::optional<double> hottestOf(const LinkInputs& inputs) {
-  if (!inputs.temperatures || inputs.temperatures->degC.empty()) return std::nullopt;
-  return *std::max_element(inputs.temperatures->degC.begin(), inputs.temperatures->degC.end());
+  if (!inputs.temperatures || inputs.temperatures->values.empty()) return std::nullopt;
+  return *std::max_element(inputs.temperatures->values.begin(), inputs.temperatures->values.end());
 }
 
 }  // namespace

@@ -107,10 +107,8 @@ void McapMirror::work(Task& task) {
   const auto& item = std::get<CaptureItem>(task);
   if (const auto* frame = std::get_if<SharedFrame>(&item))
     writer_->addFrame(**frame);
-  else if (const auto* angles = std::get_if<JointAngles>(&item))
-    writer_->addAngles(*angles);
-  else if (const auto* temperatures = std::get_if<Temperatures>(&item))
-    writer_->addTemperatures(*temperatures);
+  else if (const auto* sample = std::get_if<Sample>(&item))
+    writer_->addSample(*sample);
   else
     writer_->addEvent(std::get<Event>(item));
 }

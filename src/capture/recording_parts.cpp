@@ -408,7 +408,7 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
     return;
   }
   if (mcap_) mcap_->add(item);
-  endLossInterval(item.index());
+  endLossInterval(static_cast<std::size_t>(streamOf(item)));
   ++dirtyItems_;
   if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.sinceMonoUs;
 }
@@ -418,10 +418,8 @@ namespace {
 void append(PalpateWriter& writer, const CaptureItem& item) {
   if (const auto* frame = std::get_if<SharedFrame>(&item))
     writer.addFrame(**frame);
-  else if (const auto* angles = std::get_if<JointAngles>(&item))
-    writer.addAngles(*angles);
-  else if (const auto* temperatures = std::get_if<Temperatures>(&item))
-    writer.addTemperatures(*temperatures);
+  else if (const auto* sample = std::get_if<Sample>(&item))
+    writer.addSample(*sample);
   else if (const auto* event = std::get_if<Event>(&item))
     writer.addEvent(*event);
 }
@@ -449,6 +447,8 @@ void RecordingParts::writeTo(const CaptureItem& item) {
     case CaptureStream::kEvents:
       ++counts_.events;
       break;
+    default:
+      ++counts_.samples;
   }
 }
 
@@ -562,7 +562,7 @@ void RecordingParts::continueIn(const fs::path& folder, RoundTime time) {
 
 void RecordingParts::recordLoss(const CaptureItem& item) {
   ++counts_.lost;
-  std::optional<CaptureLoss>& loss = losses_.at(item.index());
+  std::optional<CaptureLoss>& loss = losses_.at(static_cast<std::size_t>(streamOf(item)));
   const std::int64_t stampUs = stampOf(item);
   if (!loss) loss = CaptureLoss{stampUs, stampUs, 0};
   loss->lastUs = stampUs;
@@ -757,6 +757,7 @@ void RecordingParts::describe(RecorderStatus& status) const {
   status.frames = counts_.frames;
   status.angles = counts_.angles;
   status.temperatures = counts_.temperatures;
+  status.samples = counts_.samples;
   status.firstFrameUs = intervals_.firstUs();
   status.lastFrameUs = intervals_.lastUs();
   status.recordedS = intervals_.durationS();

@@ -77,10 +77,8 @@ struct Replay::Impl {
     try {
       if (tactile)
         sink->onFrame(profile.frame(item.index));
-      else if (item.kind == InTimeOrder::Kind::kAngles)
-        sink->onAngles(profile.angles(item.index));
       else
-        sink->onTemperatures(profile.temperatures(item.index));
+        sink->onSample(profile.sample(item.series, item.index));
     } catch (const Error& error) {
       return countUnreadable(item.timeUs, tactile, error.what());
     }

@@ -181,10 +181,10 @@ void GraspControl::processFrames() {
   for (const CaptureItem& item : items_)
     if (const auto* frame = std::get_if<SharedFrame>(&item))
       machine_.onFrame(**frame, nowUs);
-    else if (const auto* angles = std::get_if<JointAngles>(&item))
-      machine_.onAngles(angles->deg, nowUs);
-    else if (const auto* temperatures = std::get_if<Temperatures>(&item))
-      onTemperatures(temperatures->degC);
+    else if (const Sample* angles = sampleOf(item, kJointAngles))
+      machine_.onAngles(angles->values, nowUs);
+    else if (const Sample* temperatures = sampleOf(item, kTemperatures))
+      onTemperatures(temperatures->values);
   items_.clear();
 }
 

@@ -283,8 +283,8 @@ void MotionLink::work() {
 }
 
 void MotionLink::pollAngles() {
-  JointAngles angles;
-  angles.deg = controller_->angles();
+  Sample angles;
+  angles.values = controller_->angles();
   angles.hostUs = stampAfter(session_.lastAngleStampUs);
   ++session_.samples;
   updateStatus([&](PortStatus& status) {
@@ -293,14 +293,14 @@ void MotionLink::pollAngles() {
     status.state = PortState::kStreaming;
     status.message.clear();
   });
-  sink_->onAngles(std::move(angles));
+  sink_->onSample(std::move(angles));
 }
 
 void MotionLink::pollTemperatures() {
-  Temperatures temperatures;
-  temperatures.degC = controller_->temperatures();
+  Sample temperatures{.series = kTemperatures};
+  temperatures.values = controller_->temperatures();
   temperatures.hostUs = stampAfter(session_.lastTemperatureStampUs);
-  sink_->onTemperatures(std::move(temperatures));
+  sink_->onSample(std::move(temperatures));
 }
 
 // At rest a single failure is no reason to give up the port: the limits of each call hold again.

@@ -232,11 +232,13 @@ void StreamLink::take(const StreamItem& item) {
     case StreamItemKind::kFrame:
       return takeFrame(item);
     case StreamItemKind::kAngles:
-      return sink_->onAngles(
+      return sink_->onSample(
           {stampAfter(session_.lastAnglesUs), {item.numbers.begin(), item.numbers.end()}});
     case StreamItemKind::kTemperatures:
-      return sink_->onTemperatures(
-          {stampAfter(session_.lastTemperaturesUs), {item.numbers.begin(), item.numbers.end()}});
+      return sink_->onSample(
+          {stampAfter(session_.lastTemperaturesUs),
+           {item.numbers.begin(), item.numbers.end()},
+           kTemperatures});
     case StreamItemKind::kDescription:
       return takeDescription(item.text);
   }

@@ -25,7 +25,7 @@ std::vector<double> withinRange(const std::vector<AxisDescription>& axes,
 
 std::vector<double> firstAngles(const Profile& profile) {
   return withinRange(profile.hand().axes,
-                     profile.numAngles() > 0 ? profile.angles(0).deg : std::vector<double>());
+                     profile.numAngles() > 0 ? profile.angles(0).values : std::vector<double>());
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void ReplayedHand::placeJoints() {
   angleSample_ = sample;
   // A JointMotion can't be moved directly: creates a new one at the recorded angles with the
   // settings of the client.
-  JointMotion moved(hand(), withinRange(hand().axes, profile_.angles(*sample).deg));
+  JointMotion moved(hand(), withinRange(hand().axes, profile_.angles(*sample).values));
   moved.setController(joints_.controller());
   moved.setProfile(joints_.profile());
   moved.setPower(joints_.power());
@@ -108,7 +108,7 @@ void ReplayedHand::scan(std::span<std::uint16_t> counts) {
 std::vector<double> ReplayedHand::temperatures() {
   std::vector<double> degC;
   if (const auto sample = profile_.temperatureSampleAt(recordingTimeUs()))
-    degC = profile_.temperatures(*sample).degC;
+    degC = profile_.temperatures(*sample).values;
   degC.resize(hand().temperatureSensors.size());
   return degC;
 }

@@ -90,26 +90,18 @@ class BesideFrames : public ProfileStorage {
   explicit BesideFrames(Profile source) : source_(std::move(source)) {}
   std::size_t numFrames() const override { return source_.numFrames(); }
   std::int64_t frameTimeUs(std::size_t frame) const override { return source_.frameTimeUs(frame); }
-  std::size_t numAngles() const override { return source_.numAngles(); }
-  std::int64_t angleTimeUs(std::size_t sample) const override {
-    return source_.angleTimeUs(sample);
+  std::size_t numSamples(std::size_t series) const override { return source_.numSamples(series); }
+  std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const override {
+    return source_.sampleTimeUs(series, sample);
   }
-  JointAngles angles(std::size_t sample) const override { return source_.angles(sample); }
-  std::size_t numTemperatures() const override { return source_.numTemperatures(); }
-  std::int64_t temperatureTimeUs(std::size_t sample) const override {
-    return source_.temperatureTimeUs(sample);
-  }
-  Temperatures temperatures(std::size_t sample) const override {
-    return source_.temperatures(sample);
+  Sample sample(std::size_t series, std::size_t sample) const override {
+    return source_.sample(series, sample);
   }
   std::optional<std::size_t> frameAt(std::int64_t timeUs) const override {
     return source_.frameAt(timeUs);
   }
-  std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const override {
-    return source_.angleSampleAt(timeUs);
-  }
-  std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const override {
-    return source_.temperatureSampleAt(timeUs);
+  std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const override {
+    return source_.sampleAt(series, timeUs);
   }
 
  protected:

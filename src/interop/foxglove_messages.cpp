@@ -296,15 +296,15 @@ std::string FoxgloveMessages::signalObject(const LiveResults& results,
   return out;
 }
 
-std::string FoxgloveMessages::joints(const JointAngles& angles) const {
+std::string FoxgloveMessages::joints(const Sample& angles) const {
   std::string out = "{\"timestamp\":";
   appendTime(out, angles.hostUs);
   out += ",\"joints\":[";
   bool first = true;
   for (std::size_t i = 0; i < handJoints_.size(); ++i) {
     const HandJoint& joint = handJoints_[i];
-    if (joint.axis && *joint.axis >= angles.deg.size()) continue;
-    const double position = joint.valueSi(angles.deg);
+    if (joint.axis && *joint.axis >= angles.values.size()) continue;
+    const double position = joint.valueSi(angles.values);
     if (!std::isfinite(position)) continue;
     if (!std::exchange(first, false)) out += ',';
     out += "{\"name\":" + jointNames_[i] + ",\"position\":";
@@ -336,7 +336,7 @@ bool FoxgloveMessages::setPose(const LiveResults& results) {
   const std::size_t numAxes = geometry_->description().numAxes;
   static const std::vector<double> kNoAngles;
   if (numAxes > 0 && !results.angles) return false;
-  const std::vector<double>& angles = numAxes > 0 ? results.angles->deg : kNoAngles;
+  const std::vector<double>& angles = numAxes > 0 ? results.angles->values : kNoAngles;
   if (angles.size() != numAxes ||
       !std::all_of(angles.begin(), angles.end(), [](double deg) { return std::isfinite(deg); }))
     return false;

@@ -97,8 +97,8 @@ void appendSignalJson(std::string& out,
     json.number("counts", static_cast<double>(results.peak.counts));  // its older name
     json.end();
   }
-  if (results.angles) json.numbers("angles_deg", results.angles->deg);
-  if (results.temperatures) json.numbers("temperatures_degc", results.temperatures->degC);
+  if (results.angles) json.numbers("angles_deg", results.angles->values);
+  if (results.temperatures) json.numbers("temperatures_degc", results.temperatures->values);
   if (link) addLink(json, *link);
   json.end();
 }

@@ -54,17 +54,17 @@ std::vector<GraspFrame> readFrames(const Profile& profile,
     reportProgress(progress, i - begin, end - begin + 1);
     const auto angles = profile.anglesAtFrame(i);
     if (!angles ||
-        checkAngles(angles->deg, profile.hand().axes).state == AngleValidity::kUnusable) {
+        checkAngles(angles->values, profile.hand().axes).state == AngleValidity::kUnusable) {
       ++report.unusableFrames;
       continue;
     }
     profile.readFrame(i, frame);
-    geometry.pose(angles->deg, pose);
+    geometry.pose(angles->values, pose);
     contactOf(frame, pose, {}, contact);
     GraspFrame& added = frames.emplace_back();
     added.frame = i;
     added.timeUs = frame.hostUs;
-    added.anglesDeg = angles->deg;
+    added.anglesDeg = angles->values;
     if (contact.taxelSphere) added.sphereMm = 2.0 * contact.taxelSphere->radiusMm;
     for (std::size_t m = 0; m < contact.matrices.size(); ++m) {
       const MatrixContact& pad = contact.matrices[m];

@@ -179,7 +179,7 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
     reportProgress(progress, i, profile.numFrames());
     profile.readFrame(i, frame);
     if (const auto sample = profile.angleSampleAt(frame.hostUs))
-      jointsDeg = profile.angles(*sample).deg;
+      jointsDeg = profile.angles(*sample).values;
     for (std::size_t m = 0; m < matrices; ++m) {
       const SlipEvidence& evidence =
           windows[m].add(std::as_const(frame).matrix(m), frame.hostUs, jointsDeg);

@@ -60,12 +60,12 @@ void LiveMeasurement::add(const CaptureItem& item) {
   if (state_ != State::kRunning) return;
   if (const auto* frame = std::get_if<SharedFrame>(&item))
     addFrame(**frame);
-  else if (const auto* angles = std::get_if<JointAngles>(&item))
+  else if (const Sample* angles = sampleOf(item, kJointAngles))
     addAngles(*angles);
-  else if (const auto* temperatures = std::get_if<Temperatures>(&item))
+  else if (const Sample* temperatures = sampleOf(item, kTemperatures))
     addTemperatures(*temperatures);
-  else
-    addEvent(std::get<Event>(item));
+  else if (const auto* event = std::get_if<Event>(&item))
+    addEvent(*event);
 }
 
 void LiveMeasurement::addFrame(const TactileFrame& frame) {
@@ -88,15 +88,15 @@ void LiveMeasurement::addFrame(const TactileFrame& frame) {
   if (secondsBetween(firstUs_, lastUs_) >= options_.seconds) state_ = State::kComplete;
 }
 
-void LiveMeasurement::addAngles(const JointAngles& angles) {
+void LiveMeasurement::addAngles(const Sample& angles) {
   try {
-    builder_.addAngles(angles.hostUs, angles.deg);
+    builder_.addAngles(angles.hostUs, angles.values);
   } catch (const std::invalid_argument&) {
     return;  // angles only tell whether the hand moves; the next ones do, too
   }
-  if (firstDeg_.empty()) firstDeg_ = angles.deg;
-  for (std::size_t axis = 0; axis < std::min(firstDeg_.size(), angles.deg.size()); ++axis) {
-    const double travelDeg = std::abs(angles.deg[axis] - firstDeg_[axis]);
+  if (firstDeg_.empty()) firstDeg_ = angles.values;
+  for (std::size_t axis = 0; axis < std::min(firstDeg_.size(), angles.values.size()); ++axis) {
+    const double travelDeg = std::abs(angles.values[axis] - firstDeg_[axis]);
     if (travelDeg <= options_.maxTravelDeg) continue;
     const std::string name =
         axis < hand_.axes.size() ? hand_.axes[axis].name : "joint " + std::to_string(axis);
@@ -104,9 +104,9 @@ void LiveMeasurement::addAngles(const JointAngles& angles) {
   }
 }
 
-void LiveMeasurement::addTemperatures(const Temperatures& temperatures) {
+void LiveMeasurement::addTemperatures(const Sample& temperatures) {
   try {
-    builder_.addTemperatures(temperatures.hostUs, temperatures.degC);
+    builder_.addTemperatures(temperatures.hostUs, temperatures.values);
   } catch (const std::invalid_argument&) {
     return;  // the previous temperature holds until the next one
   }

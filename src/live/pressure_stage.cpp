@@ -70,7 +70,7 @@ void PressureStage::onFrame(LiveResults& results, std::vector<Event>&) {
   if (!problem_.empty()) return;
   static const std::vector<double> kUnknown;
   auto pressure = std::make_shared<PressureFrame>();
-  map_->apply(frame, results.temperatures ? results.temperatures->degC : kUnknown, *pressure);
+  map_->apply(frame, results.temperatures ? results.temperatures->values : kUnknown, *pressure);
   results.pressure = std::move(pressure);
 }
 

@@ -126,12 +126,10 @@ void ProcessingChain::reset() {
 void ProcessingChain::process(const CaptureItem& item) {
   if (const auto* frame = std::get_if<SharedFrame>(&item)) {
     processFrame(*frame);
-  } else if (const auto* angles = std::get_if<JointAngles>(&item)) {
-    angles_ = *angles;
-    for (const auto& stage : stages_) stage->onAngles(*angles);
-  } else if (const auto* temperatures = std::get_if<Temperatures>(&item)) {
-    temperatures_ = *temperatures;
-    for (const auto& stage : stages_) stage->onTemperatures(*temperatures);
+  } else if (const auto* sample = std::get_if<Sample>(&item)) {
+    if (sample->series == kJointAngles) angles_ = *sample;
+    if (sample->series == kTemperatures) temperatures_ = *sample;
+    for (const auto& stage : stages_) stage->onSample(*sample);
   } else {
     for (const auto& stage : stages_) stage->onEvent(std::get<Event>(item));
   }
@@ -171,11 +169,8 @@ void ProcessingChain::runOver(const Profile& profile,
       case InTimeOrder::Kind::kEvent:
         process(events[i]);
         break;
-      case InTimeOrder::Kind::kTemperatures:
-        process(profile.temperatures(i));
-        break;
-      case InTimeOrder::Kind::kAngles:
-        process(profile.angles(i));
+      case InTimeOrder::Kind::kSample:
+        process(profile.sample(item->series, i));
         break;
       case InTimeOrder::Kind::kFrame:
         reportProgress(progress, i, profile.numFrames(), kProgressEvery);

@@ -70,8 +70,8 @@ void SignalHistory::add(const LiveResults& results) {
   sample->rows.push_back(results.wholeSignals);
   sample->layout = results.frame->layout;
   sample->taxels = KeptTaxels(results.frame->allValues());
-  if (results.angles) sample->anglesDeg = results.angles->deg;
-  if (results.temperatures) sample->temperatures = results.temperatures->degC;
+  if (results.angles) sample->anglesDeg = results.angles->values;
+  if (results.temperatures) sample->temperatures = results.temperatures->values;
   if (results.pressure) {
     sample->forcesN.reserve(results.pressure->matrices.size() + 1);
     for (const MatrixPressure& matrix : results.pressure->matrices)

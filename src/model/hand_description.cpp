@@ -56,6 +56,15 @@ std::size_t numSaturated(const HandDescription& hand, const TactileFrame& frame)
   return count;
 }
 
+std::vector<SeriesDescription> seriesOf(const HandDescription& hand) {
+  SeriesDescription angles{"angles", "joint_angles", {}, {}};
+  for (const AxisDescription& axis : hand.axes) angles.columns.push_back({axis.name, axis.unit()});
+  SeriesDescription temperatures{"temperatures", "temperatures", {}, {}};
+  for (const auto& sensor : hand.temperatureSensors)
+    temperatures.columns.push_back({sensor.name, "degC"});
+  return {std::move(angles), std::move(temperatures)};
+}
+
 HandDescription withSeriesOf(HandDescription hand,
                              std::size_t numAxes,
                              std::size_t numTemperatureSensors) {

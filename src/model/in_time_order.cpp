@@ -4,25 +4,25 @@ namespace palpate {
 
 std::optional<InTimeOrder::Item> InTimeOrder::next() const {
   std::optional<Item> first;
-  const auto consider = [&](Kind kind, std::size_t count, auto timeOf) {
-    const std::size_t index = taken_[static_cast<std::size_t>(kind)];
-    if (index == count) return;
-    const std::int64_t timeUs = timeOf(index);
-    if (!first || timeUs < first->timeUs) first = Item{kind, index, timeUs};
+  const auto consider = [&](const Item& item) {
+    if (!first || item.timeUs < first->timeUs) first = item;
   };
-  const Profile& profile = profile_;
-  consider(Kind::kEvent, eventTimesUs_.size(), [&](auto i) { return eventTimesUs_[i]; });
-  consider(Kind::kTemperatures, profile.numTemperatures(), [&](auto i) {
-    return profile.temperatureTimeUs(i);
-  });
-  consider(Kind::kAngles, profile.numAngles(), [&](auto i) { return profile.angleTimeUs(i); });
-  consider(Kind::kFrame, profile.numFrames(), [&](auto i) { return profile.frameTimeUs(i); });
+  if (eventsTaken_ < eventTimesUs_.size())
+    consider({Kind::kEvent, 0, eventsTaken_, eventTimesUs_[eventsTaken_]});
+  for (std::size_t series = samplesTaken_.size(); series-- > 0;)
+    if (const std::size_t next = samplesTaken_[series]; next < profile_.numSamples(series))
+      consider({Kind::kSample, series, next, profile_.sampleTimeUs(series, next)});
+  if (framesTaken_ < profile_.numFrames())
+    consider({Kind::kFrame, 0, framesTaken_, profile_.frameTimeUs(framesTaken_)});
   return first;
 }
 
 std::optional<InTimeOrder::Item> InTimeOrder::take() {
   const std::optional<Item> item = next();
-  if (item) ++taken_[static_cast<std::size_t>(item->kind)];
+  if (!item) return item;
+  if (item->kind == Kind::kEvent) ++eventsTaken_;
+  if (item->kind == Kind::kSample) ++samplesTaken_[item->series];
+  if (item->kind == Kind::kFrame) ++framesTaken_;
   return item;
 }
 

@@ -1,5 +1,6 @@
 #include "palpate/model/profile.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -41,21 +42,26 @@ std::optional<std::size_t> ProfileStorage::frameAt(std::int64_t timeUs) const {
   return lastAtOrBefore(numFrames(), timeUs, [&](std::size_t i) { return frameTimeUs(i); });
 }
 
-std::optional<std::size_t> ProfileStorage::angleSampleAt(std::int64_t timeUs) const {
-  return lastAtOrBefore(numAngles(), timeUs, [&](std::size_t i) { return angleTimeUs(i); });
-}
-
-std::optional<std::size_t> ProfileStorage::temperatureSampleAt(std::int64_t timeUs) const {
+std::optional<std::size_t> ProfileStorage::sampleAt(std::size_t series, std::int64_t timeUs) const {
   return lastAtOrBefore(
-      numTemperatures(), timeUs, [&](std::size_t i) { return temperatureTimeUs(i); });
+      numSamples(series), timeUs, [&](std::size_t i) { return sampleTimeUs(series, i); });
 }
 
 Profile::Profile(ProfileInfo info,
                  HandDescription hand,
-                 std::shared_ptr<const ProfileStorage> storage) {
+                 std::shared_ptr<const ProfileStorage> storage,
+                 std::vector<SeriesDescription> further) {
   if (!hand.layout) throw std::invalid_argument("Profile: a hand without a sensor layout");
   if (!storage) throw std::invalid_argument("Profile: no storage");
-  data_ = std::make_shared<Data>(Data{std::move(info), std::move(hand), std::move(storage)});
+  std::vector<SeriesDescription> series = seriesOf(hand);
+  for (SeriesDescription& each : further) {
+    validate(each);
+    if (std::any_of(series.begin(), series.end(), [&](const auto& s) { return s.name == each.name; }))
+      throw std::invalid_argument("two series have the name " + each.name);
+    series.push_back(std::move(each));
+  }
+  data_ = std::make_shared<Data>(
+      Data{std::move(info), std::move(hand), std::move(storage), std::move(series)});
 }
 
 std::int64_t Profile::frameTimeUs(std::size_t frame) const {
@@ -89,46 +95,39 @@ bool Profile::readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples*
   }
 }
 
-std::int64_t Profile::angleTimeUs(std::size_t sample) const {
-  check("angle sample", sample, numAngles());
-  return data_->storage->angleTimeUs(sample);
+std::optional<std::size_t> Profile::seriesNamed(std::string_view name) const {
+  for (std::size_t i = 0; i < series().size(); ++i)
+    if (series()[i].name == name && numSamples(i) > 0) return i;
+  return std::nullopt;
 }
 
-JointAngles Profile::angles(std::size_t sample) const {
-  check("angle sample", sample, numAngles());
-  return data_->storage->angles(sample);
+std::size_t Profile::numSamples(std::size_t series) const {
+  check("series", series, data_->series.size());
+  return data_->storage->numSamples(series);
 }
 
-std::int64_t Profile::temperatureTimeUs(std::size_t sample) const {
-  check("temperature sample", sample, numTemperatures());
-  return data_->storage->temperatureTimeUs(sample);
+std::int64_t Profile::sampleTimeUs(std::size_t series, std::size_t sample) const {
+  check("sample", sample, numSamples(series));
+  return data_->storage->sampleTimeUs(series, sample);
 }
 
-Temperatures Profile::temperatures(std::size_t sample) const {
-  check("temperature sample", sample, numTemperatures());
-  return data_->storage->temperatures(sample);
+Sample Profile::sample(std::size_t series, std::size_t sample) const {
+  check("sample", sample, numSamples(series));
+  return data_->storage->sample(series, sample);
 }
 
 std::optional<std::size_t> Profile::frameAt(std::int64_t timeUs) const {
   return data_->storage->frameAt(timeUs);
 }
 
-std::optional<std::size_t> Profile::angleSampleAt(std::int64_t timeUs) const {
-  return data_->storage->angleSampleAt(timeUs);
+std::optional<std::size_t> Profile::sampleAt(std::size_t series, std::int64_t timeUs) const {
+  check("series", series, data_->series.size());
+  return data_->storage->sampleAt(series, timeUs);
 }
 
-std::optional<std::size_t> Profile::temperatureSampleAt(std::int64_t timeUs) const {
-  return data_->storage->temperatureSampleAt(timeUs);
-}
-
-std::optional<JointAngles> Profile::anglesAtFrame(std::size_t frame) const {
-  const auto sample = angleSampleAt(frameTimeUs(frame));
-  return sample ? std::optional(angles(*sample)) : std::nullopt;
-}
-
-std::optional<Temperatures> Profile::temperaturesAtFrame(std::size_t frame) const {
-  const auto sample = temperatureSampleAt(frameTimeUs(frame));
-  return sample ? std::optional(temperatures(*sample)) : std::nullopt;
+std::optional<Sample> Profile::sampleAtFrame(std::size_t series, std::size_t frame) const {
+  const auto found = sampleAt(series, frameTimeUs(frame));
+  return found ? std::optional(sample(series, *found)) : std::nullopt;
 }
 
 std::int64_t Profile::durationUs() const {

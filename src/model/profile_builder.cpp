@@ -36,25 +36,40 @@ bool areFinite(std::span<const float> values) noexcept {
   return wrong == 0;
 }
 
-// One time series of samples with a fixed number of values each.
+const char* const kHandSeriesNames[kHandSeries] = {"angles", "temperatures"};
+
+// The samples of one series, with a fixed number of values each.
 class Series {
  public:
-  void add(const char* what, std::int64_t hostUs, std::span<const double> values) {
+  explicit Series(SeriesDescription of)
+      : description(std::move(of)), width_(description.columns.size()) {}
+
+  void add(std::int64_t hostUs,
+           std::span<const double> values,
+           std::optional<std::int64_t> deviceUs,
+           bool maySkip) {
+    const std::string& what = description.name;
     if (!hostUs_.empty() && hostUs <= hostUs_.back())
-      throw std::invalid_argument(std::string(what) +
-                                  ": time must be later than the last sample's");
+      throw std::invalid_argument(what + ": time must be later than the last sample's");
     if (values.empty() || (width_ != 0 && values.size() != width_))
-      throw std::invalid_argument(std::string(what) + ": expected " + std::to_string(width_) +
-                                  " values, got " + std::to_string(values.size()));
-    if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
-      throw std::invalid_argument(std::string(what) + ": a value is not a number");
+      throw std::invalid_argument(what + ": expected " + std::to_string(width_) + " values, got " +
+                                  std::to_string(values.size()));
+    if (!std::all_of(values.begin(), values.end(), [&](double v) {
+          return maySkip ? !std::isinf(v) : std::isfinite(v);
+        }))
+      throw std::invalid_argument(what + ": a value is not a number");
     width_ = values.size();
+    if (deviceUs && deviceUs_.empty()) deviceUs_.resize(hostUs_.size());
+    if (deviceUs || !deviceUs_.empty()) deviceUs_.push_back(deviceUs);
     hostUs_.push_back(hostUs);
     values_.insert(values_.end(), values.begin(), values.end());
   }
   std::size_t size() const noexcept { return hostUs_.size(); }
   std::size_t width() const noexcept { return width_; }
   std::int64_t timeUs(std::size_t sample) const { return hostUs_[sample]; }
+  std::optional<std::int64_t> deviceUs(std::size_t sample) const {
+    return sample < deviceUs_.size() ? deviceUs_[sample] : std::nullopt;
+  }
   std::vector<double> values(std::size_t sample) const {
     const auto first = values_.begin() + static_cast<std::ptrdiff_t>(sample * width_);
     return {first, first + static_cast<std::ptrdiff_t>(width_)};
@@ -63,9 +78,12 @@ class Series {
     return hostUs_.empty() ? std::nullopt : std::optional(hostUs_.back());
   }
 
+  const SeriesDescription description;
+
  private:
   std::size_t width_ = 0;
   std::deque<std::int64_t> hostUs_;
+  std::deque<std::optional<std::int64_t>> deviceUs_;  // empty when no sample has one
   std::deque<double> values_;
 };
 
@@ -83,17 +101,13 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     out.deviceUs = i < chunk.deviceUs.size() ? chunk.deviceUs[i] : std::nullopt;
     decodeFrame(std::span(chunk.bytes).subspan(chunk.begin[i]), chunk.coding[i], out);
   }
-  std::size_t numAngles() const override { return angleSeries.size(); }
-  std::int64_t angleTimeUs(std::size_t sample) const override { return angleSeries.timeUs(sample); }
-  JointAngles angles(std::size_t sample) const override {
-    return {angleSeries.timeUs(sample), angleSeries.values(sample)};
+  std::size_t numSamples(std::size_t index) const override { return series[index].size(); }
+  std::int64_t sampleTimeUs(std::size_t index, std::size_t sample) const override {
+    return series[index].timeUs(sample);
   }
-  std::size_t numTemperatures() const override { return temperatureSeries.size(); }
-  std::int64_t temperatureTimeUs(std::size_t sample) const override {
-    return temperatureSeries.timeUs(sample);
-  }
-  Temperatures temperatures(std::size_t sample) const override {
-    return {temperatureSeries.timeUs(sample), temperatureSeries.values(sample)};
+  Sample sample(std::size_t index, std::size_t sample) const override {
+    const Series& of = series[index];
+    return {of.timeUs(sample), of.values(sample), index, of.deviceUs(sample)};
   }
 
   // `Values` is a span of values, or a frame that may also have filtered values.
@@ -117,8 +131,8 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     return numFrames_ == 0 ? std::nullopt : std::optional(frameTimeUs(numFrames_ - 1));
   }
 
-  Series angleSeries;
-  Series temperatureSeries;
+  std::deque<Series> series{Series({kHandSeriesNames[kJointAngles], {}, {}, {}}),
+                            Series({kHandSeriesNames[kTemperatures], {}, {}, {}})};
   bool allCounts = true;
 
  private:
@@ -159,35 +173,44 @@ void ProfileBuilder::addFrame(const TactileFrame& frame) {
   storage_->addFrame(frame.hostUs, frame, frame.deviceUs);
 }
 
-void ProfileBuilder::addAngles(std::int64_t hostUs, std::span<const double> deg) {
-  storage_->angleSeries.add("angles", hostUs, deg);
+std::size_t ProfileBuilder::addSeries(SeriesDescription description) {
+  validate(description);
+  for (const Series& other : storage_->series)
+    if (other.description.name == description.name)
+      throw std::invalid_argument("two series have the name " + description.name);
+  storage_->series.emplace_back(std::move(description));
+  return storage_->series.size() - 1;
 }
 
-void ProfileBuilder::addTemperatures(std::int64_t hostUs, std::span<const double> degC) {
-  storage_->temperatureSeries.add("temperatures", hostUs, degC);
+void ProfileBuilder::addSample(std::size_t series,
+                               std::int64_t hostUs,
+                               std::span<const double> values,
+                               std::optional<std::int64_t> deviceUs) {
+  storage_->series.at(series).add(hostUs, values, deviceUs, series >= kHandSeries);
 }
 
 std::size_t ProfileBuilder::numFrames() const noexcept { return storage_->numFrames(); }
-std::size_t ProfileBuilder::numAngles() const noexcept { return storage_->numAngles(); }
-std::size_t ProfileBuilder::numTemperatures() const noexcept { return storage_->numTemperatures(); }
+std::size_t ProfileBuilder::numSamples(std::size_t series) const {
+  return storage_->series.at(series).size();
+}
 std::optional<std::int64_t> ProfileBuilder::lastFrameUs() const noexcept {
   return storage_->lastFrameUs();
 }
-std::optional<std::int64_t> ProfileBuilder::lastAngleUs() const noexcept {
-  return storage_->angleSeries.lastUs();
-}
-std::optional<std::int64_t> ProfileBuilder::lastTemperatureUs() const noexcept {
-  return storage_->temperatureSeries.lastUs();
+std::optional<std::int64_t> ProfileBuilder::lastSampleUs(std::size_t series) const {
+  return storage_->series.at(series).lastUs();
 }
 
 Profile ProfileBuilder::finish(ProfileInfo info) {
   const std::shared_ptr<Storage> storage = std::exchange(storage_, std::make_shared<Storage>());
   info.valueType = storage->allCounts ? ValueType::kCounts : ValueType::kFloat;
-  const std::size_t axes = storage->angleSeries.width();
-  const std::size_t sensors = storage->temperatureSeries.width();
+  const std::size_t axes = storage->series[kJointAngles].width();
+  const std::size_t sensors = storage->series[kTemperatures].width();
+  std::vector<SeriesDescription> further;
+  for (std::size_t i = kHandSeries; i < storage->series.size(); ++i)
+    further.push_back(storage->series[i].description);
   HandDescription hand =
       hand_ ? withSeriesOf(*hand_, axes, sensors) : describeHand(*layout_, axes, sensors);
-  return {std::move(info), std::move(hand), storage};
+  return {std::move(info), std::move(hand), storage, std::move(further)};
 }
 
 }  // namespace palpate

@@ -90,9 +90,9 @@ void GraspCollector::addFrame(std::shared_ptr<const TactileFrame> frame) {
   if (without_ >= options_.framesAfter) finish();
 }
 
-void GraspCollector::addAngles(JointAngles angles) {
+void GraspCollector::addAngles(Sample angles) {
   if (!angles_.empty() &&
-      (angles.hostUs <= angles_.back().hostUs || angles.deg.size() != angles_.back().deg.size()))
+      (angles.hostUs <= angles_.back().hostUs || angles.values.size() != angles_.back().values.size()))
     return;
   // After the last kept frame only the newest sample is needed, for the frames that are kept next.
   const bool beyond = contactFrames_ > options_.maxFrames && angles_.size() > 1 &&
@@ -111,8 +111,8 @@ void GraspCollector::trimAngles() {
 Profile GraspCollector::clip() const {
   ProfileBuilder builder(hand_);
   for (const auto& frame : frames_) builder.addFrame(frame->hostUs, frame->values, frame->deviceUs);
-  for (const JointAngles& sample : angles_)
-    if (sample.hostUs <= frames_.back()->hostUs) builder.addAngles(sample.hostUs, sample.deg);
+  for (const Sample& sample : angles_)
+    if (sample.hostUs <= frames_.back()->hostUs) builder.addAngles(sample.hostUs, sample.values);
   ProfileInfo info;
   info.format = "palpate";
   return builder.finish(info);

@@ -74,7 +74,7 @@ PinchFrames readPinch(const Profile& profile,
         out.problem = "matrix " + std::to_string(m) + " doesn't touch" + inFrame(i);
     }
     const auto angles = profile.anglesAtFrame(i);
-    out.anglesDeg.push_back(angles ? angles->deg : std::vector<double>{});
+    out.anglesDeg.push_back(angles ? angles->values : std::vector<double>{});
     if (!out.problem.empty()) break;
     if (out.anglesDeg.back().size() != hand.effectiveGeometry->description().numAxes ||
         !std::all_of(out.anglesDeg.back().begin(), out.anglesDeg.back().end(), [](double deg) {

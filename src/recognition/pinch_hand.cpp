@@ -81,8 +81,8 @@ std::string PinchHand::mismatch(const Profile& profile) const {
   const GeometryDescription& mine = effectiveGeometry->description();
   if (!sameSensor(profile.layout(), mine.layout))
     return "a recording of another sensor: its matrices are not those of the hand";
-  if (profile.numAngles() > 0 && profile.angles(0).deg.size() != mine.numAxes)
-    return "a recording of another hand: " + std::to_string(profile.angles(0).deg.size()) +
+  if (profile.numAngles() > 0 && profile.angles(0).values.size() != mine.numAxes)
+    return "a recording of another hand: " + std::to_string(profile.angles(0).values.size()) +
            " joint angles instead of " + std::to_string(mine.numAxes);
   return {};
 }

@@ -48,13 +48,13 @@ Profile cropped(const Profile& profile,
   const auto [firstAngle, endAngle] = samplesAround(
       profile.numAngles(), beginUs, endUs, [&](std::size_t i) { return profile.angleTimeUs(i); });
   for (std::size_t i = firstAngle; i < endAngle; ++i)
-    builder.addAngles(profile.angleTimeUs(i), profile.angles(i).deg);
+    builder.addAngles(profile.angleTimeUs(i), profile.angles(i).values);
   const auto [firstTemperature, endTemperature] =
       samplesAround(profile.numTemperatures(), beginUs, endUs, [&](std::size_t i) {
         return profile.temperatureTimeUs(i);
       });
   for (std::size_t i = firstTemperature; i < endTemperature; ++i)
-    builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).degC);
+    builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).values);
   return builder.finish(profile.info());
 }
 

@@ -19,57 +19,51 @@ namespace palpate {
 
 // The columns of samples of `width` values; what the hand doesn't describe has no name, and an axis
 // no unit.
-inline std::vector<ExportedSeries::Column> angleColumns(const HandDescription& hand,
+inline std::vector<Column> angleColumns(const HandDescription& hand,
                                                         std::size_t width) {
-  std::vector<ExportedSeries::Column> columns(width);
+  std::vector<Column> columns(width);
   for (std::size_t i = 0; i < std::min(width, hand.axes.size()); ++i)
     columns[i] = {hand.axes[i].name, hand.axes[i].unit()};
   return columns;
 }
-inline std::vector<ExportedSeries::Column> temperatureColumns(const HandDescription& hand,
+inline std::vector<Column> temperatureColumns(const HandDescription& hand,
                                                               std::size_t width) {
-  std::vector<ExportedSeries::Column> columns(width, {"", "degC"});
+  std::vector<Column> columns(width, {"", "degC"});
   for (std::size_t i = 0; i < std::min(width, hand.temperatureSensors.size()); ++i)
     columns[i].name = hand.temperatureSensors[i].name;
   return columns;
 }
 
-inline std::vector<std::string> columnNames(const std::vector<ExportedSeries::Column>& columns) {
+inline std::vector<std::string> columnNames(const std::vector<Column>& columns) {
   std::vector<std::string> names;
-  for (const ExportedSeries::Column& column : columns) names.push_back(column.name);
+  for (const Column& column : columns) names.push_back(column.name);
   return names;
 }
-inline std::vector<std::string> columnUnits(const std::vector<ExportedSeries::Column>& columns) {
+inline std::vector<std::string> columnUnits(const std::vector<Column>& columns) {
   std::vector<std::string> units;
-  for (const ExportedSeries::Column& column : columns) units.push_back(column.unit);
+  for (const Column& column : columns) units.push_back(column.unit);
   return units;
 }
 
-// Joint angles or temperatures of a profile. Without samples the columns are those of the hand.
+// The samples of a series of a profile. Without samples the columns are those of its description.
 struct WrittenSamples {
   std::size_t count = 0;
   std::function<std::int64_t(std::size_t sample)> timeUs;  // [us since 1970]
   std::function<std::vector<double>(std::size_t sample)> values;
-  std::vector<ExportedSeries::Column> columns;
+  std::vector<Column> columns;
 };
-// Throw Error where the first sample can't be read.
-inline WrittenSamples writtenAngles(const Profile& profile) {
-  const std::size_t count = profile.numAngles();
-  const HandDescription& hand = profile.hand();
+// Throws Error where the first sample can't be read.
+inline WrittenSamples writtenSamples(const Profile& profile, std::size_t series) {
+  const std::size_t count = profile.numSamples(series);
+  std::vector<Column> columns = profile.series()[series].columns;
+  if (count > 0 && series == kJointAngles)
+    columns = angleColumns(profile.hand(), profile.angles(0).values.size());
+  if (count > 0 && series == kTemperatures)
+    columns = temperatureColumns(profile.hand(), profile.temperatures(0).values.size());
   return {count,
-          [profile](std::size_t i) { return profile.angleTimeUs(i); },
-          [profile](std::size_t i) { return profile.angles(i).deg; },
-          angleColumns(hand, count > 0 ? profile.angles(0).deg.size() : hand.axes.size())};
-}
-inline WrittenSamples writtenTemperatures(const Profile& profile) {
-  const std::size_t count = profile.numTemperatures();
-  const HandDescription& hand = profile.hand();
-  return {
-      count,
-      [profile](std::size_t i) { return profile.temperatureTimeUs(i); },
-      [profile](std::size_t i) { return profile.temperatures(i).degC; },
-      temperatureColumns(
-          hand, count > 0 ? profile.temperatures(0).degC.size() : hand.temperatureSensors.size())};
+          [profile, series](std::size_t i) { return profile.sampleTimeUs(series, i); },
+          [profile, series](std::size_t i) { return profile.sample(series, i).values; },
+          std::move(columns)};
 }
 
 // Event; `matrices` has the value `noMatrix` where an event belongs to no single one.

@@ -77,12 +77,12 @@ class Reader {
   std::pair<double, double> read(std::size_t sample) {
     switch (choice_.kind) {
       case ProfileSeriesKind::kAngle: {
-        const JointAngles angles = profile_.angles(sample);
-        return {seconds(angles.hostUs), valueAt(angles.deg, choice_.index)};
+        const Sample angles = profile_.angles(sample);
+        return {seconds(angles.hostUs), valueAt(angles.values, choice_.index)};
       }
       case ProfileSeriesKind::kTemperature: {
-        const Temperatures temperatures = profile_.temperatures(sample);
-        const double degC = valueAt(temperatures.degC, choice_.index);
+        const Sample temperatures = profile_.temperatures(sample);
+        const double degC = valueAt(temperatures.values, choice_.index);
         return {seconds(temperatures.hostUs),
                 degC == 0.0 ? std::numeric_limits<double>::quiet_NaN() : degC};
       }

@@ -41,7 +41,7 @@ void runSlipDetector(const Profile& profile,
     if (const auto angles = profile.angleSampleAt(frame.hostUs); angles != sample) {
       sample = angles;
       try {
-        jointsDeg = profile.angles(*angles).deg;
+        jointsDeg = profile.angles(*angles).values;
       } catch (const Error&) {
         if (!unreadable) throw;
         jointsDeg.clear();  // as in a recording without angles

@@ -71,12 +71,12 @@ double recordedCpuS(double rateHz, const std::vector<TactileFrame>& frames) {
         sink.onFrame(std::move(frame));
       },
       [&](std::int64_t atUs) {
-        sink.onAngles({kWallStartUs + atUs, std::vector<double>(7, 0.1 * static_cast<double>(n))});
+        sink.onSample({kWallStartUs + atUs, std::vector<double>(7, 0.1 * static_cast<double>(n))});
       },
       [&](std::int64_t nowUs) {
         scripted.clock.pass(kRoundUs);
         if (nowUs % 960'000 == 0)
-          sink.onTemperatures({kWallStartUs + nowUs, std::vector<double>(9, 33.5)});
+          sink.onSample({kWallStartUs + nowUs, std::vector<double>(9, 33.5), kTemperatures});
         scripted.session->step();
       });
   const RecordingReport report = scripted.session->stopRecording();

@@ -45,9 +45,9 @@ double loadAll(const fs::path& path) {
     profile.readFrame(i, frame);
     sum += static_cast<double>(frame.values[i % frame.values.size()]);
   }
-  for (std::size_t i = 0; i < profile.numAngles(); ++i) sum += profile.angles(i).deg[0];
+  for (std::size_t i = 0; i < profile.numAngles(); ++i) sum += profile.angles(i).values[0];
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
-    sum += profile.temperatures(i).degC[0];
+    sum += profile.temperatures(i).values[0];
   return sum;
 }
 
@@ -90,8 +90,9 @@ void makeDay(const fs::path& path) {
   const auto& hand = palpate::sdh2();
   palpate::PalpateWriter writer(path, hand.layout, {}, options);
   palpate::TactileFrame frame(hand.layout);
-  palpate::JointAngles angles{0, std::vector<double>(7)};
-  palpate::Temperatures temperatures{0, std::vector<double>(9, 30.0)};
+  palpate::Sample angles{0, std::vector<double>(7)};
+  palpate::Sample temperatures{
+      0, std::vector<double>(9, 30.0), palpate::kTemperatures};
   std::mt19937 random(1);
   constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
   int nextAngles = 0;
@@ -104,12 +105,12 @@ void makeDay(const fs::path& path) {
         frame.values[static_cast<std::size_t>(k * 8 + k % 3)] = static_cast<float>(random() % 2000);
     for (; nextAngles * 86'400'000'000LL / kDayAngles + kStartUs <= frame.hostUs; ++nextAngles) {
       angles.hostUs = nextAngles * 86'400'000'000LL / kDayAngles + kStartUs;
-      for (double& deg : angles.deg) deg = static_cast<double>(random() % 900) / 10.0;
-      writer.addAngles(angles);
+      for (double& deg : angles.values) deg = static_cast<double>(random() % 900) / 10.0;
+      writer.addSample(angles);
     }
     for (; nextSecond * 1'000'000LL + kStartUs <= frame.hostUs; ++nextSecond) {
       temperatures.hostUs = nextSecond * 1'000'000LL + kStartUs;
-      writer.addTemperatures(temperatures);
+      writer.addSample(temperatures);
     }
     writer.addFrame(frame);
   }

@@ -28,7 +28,7 @@ TEST(EmulatedPressure, KnownWeightsAreReadBackWithinTheStatedBand) {
       TactileFrame frame;
       for (std::size_t i = 0; i < profile.numFrames(); ++i) {
         profile.readFrame(i, frame);
-        map.apply(frame, profile.temperatures(0).degC, out);
+        map.apply(frame, profile.temperatures(0).values, out);
       }
       const MatrixPressure& contact = out.matrices[kMatrix];
       EXPECT_TRUE(contact.inRange) << kpa << " kPa at " << degC;

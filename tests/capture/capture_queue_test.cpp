@@ -31,9 +31,9 @@ TEST(CaptureQueue, handsOutInOrderOfTimeWhateverThePort) {
   CaptureQueue queue("nobody");
   queue.put(frameAt(20));
   queue.put(frameAt(40));
-  queue.put(JointAngles{10, {1.0}});
-  queue.put(JointAngles{40, {2.0}});
-  queue.put(Temperatures{40, {30.0}});
+  queue.put(Sample{10, {1.0}});
+  queue.put(Sample{40, {2.0}});
+  queue.put(Sample{40, {30.0}, kTemperatures});
   queue.put(Event{30, 30, "label", {}, "x", ""});
   std::vector<std::int64_t> stamps;
   std::vector<CaptureStream> streams;
@@ -72,7 +72,7 @@ TEST(CaptureQueue, whatDoesNotFitIsOneGapOverExactlyTheLostSpan) {
 
 TEST(CaptureQueue, onePortThatOverflowsCostsTheOtherNothing) {
   CaptureQueue queue("the test", small(2));
-  for (std::int64_t t = 1; t <= 5; ++t) queue.put(JointAngles{t, {0.0}});
+  for (std::int64_t t = 1; t <= 5; ++t) queue.put(Sample{t, {0.0}});
   EXPECT_TRUE(queue.put(frameAt(6)));
   EXPECT_TRUE(queue.put(Event{7, 7, "mark", {}, "", ""}));
   EXPECT_EQ(queue.stats().lost, (std::array<std::uint64_t, 4>{0, 3, 0, 0}));

@@ -70,7 +70,7 @@ TEST(CaptureSession, RecordsWhatTheDeviceDelivers) {
     ASSERT_EQ(frame.deviceUs, expected.deviceUs);
   }
   ASSERT_EQ(profile.numAngles(), 600u);
-  EXPECT_EQ(profile.angles(599).deg, numberedAngles(599, 0).deg);
+  EXPECT_EQ(profile.angles(599).values, numberedAngles(599, 0).values);
   EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
 }
 
@@ -204,9 +204,9 @@ TEST(CaptureSession, theScreenGetsTheNewestOnce) {
   EXPECT_EQ(numberOf(*frame), 99u);
   EXPECT_FALSE(scripted.session->takeFrame());
   EXPECT_EQ(scripted.session->screenStats().skipped, 99u);
-  EXPECT_EQ(scripted.session->takeAngles()->deg, numberedAngles(199, 0).deg);
+  EXPECT_EQ(scripted.session->takeAngles()->values, numberedAngles(199, 0).values);
   EXPECT_FALSE(scripted.session->takeAngles());
-  EXPECT_EQ(scripted.session->takeTemperatures()->degC[0], 30.0);
+  EXPECT_EQ(scripted.session->takeTemperatures()->values[0], 30.0);
 }
 
 TEST(CaptureSession, aSubscriberGetsEverythingInOrderWhateverTheRecorderDoes) {

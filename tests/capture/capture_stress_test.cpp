@@ -64,8 +64,8 @@ class EagerDevice : public ScriptedDevice {
     while (sentFrames == 0 && !stop.stop_requested()) std::this_thread::yield();
     for (std::size_t n = 0; n < 3 * frames_ && !stop.stop_requested(); ++n) {
       const std::int64_t atUs = kWallStartUs + static_cast<std::int64_t>(n) * 9'000;
-      sink_->onAngles(numberedAngles(n, atUs));
-      if (n % 111 == 0) sink_->onTemperatures({atUs, std::vector<double>(9, 30.0)});
+      sink_->onSample(numberedAngles(n, atUs));
+      if (n % 111 == 0) sink_->onSample({atUs, std::vector<double>(9, 30.0), kTemperatures});
       if (n % 1000 == 0) sink_->onEvent({atUs, atUs, "motion", {}, "moved", ""});
       sentAngles = n + 1;
     }

@@ -232,9 +232,9 @@ TEST(LinkHealth, aSenderOfAnotherHandIsNotSilent) {
 
 TEST(LinkHealth, aHandThatIsTooHotIsAnAlarm) {
   LinkInputs inputs = streaming();
-  inputs.temperatures = Temperatures{0, {30.0, 65.0}};
+  inputs.temperatures = Sample{0, {30.0, 65.0}, kTemperatures};
   EXPECT_TRUE(assessHealth(inputs).alarms.empty());
-  inputs.temperatures = Temperatures{0, {30.0, 70.2, 0.0}};
+  inputs.temperatures = Sample{0, {30.0, 70.2, 0.0}, kTemperatures};
   const LinkHealth hot = assessHealth(inputs);
   ASSERT_EQ(kindsOf(hot), std::vector{AlarmKind::kTooHot});
   EXPECT_EQ(hot.alarms[0].text, "the hand is 70 deg C hot: relax it and let it cool down below 65");
@@ -246,8 +246,8 @@ TEST(CheckBeforeRun, saysReadyInOneLine) {
   LinkInputs inputs = streaming();
   inputs.device.motion = PortStatus{};
   inputs.device.motion->state = PortState::kStreaming;
-  Temperatures temperatures{0, std::vector<double>(9, 31.0)};
-  temperatures.degC[4] = 38.4;
+  Sample temperatures{0, std::vector<double>(9, 31.0)};
+  temperatures.values[4] = 38.4;
   inputs.temperatures = temperatures;
   const PreflightCheck check = checkPreflight(inputs, kGoodFolder);
   EXPECT_TRUE(check.ready);
@@ -266,7 +266,7 @@ TEST(CheckBeforeRun, isDoubtfulWhenValuesAreOutsideOfTheRange) {
 }
 
 TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
-  const Temperatures warm{0, {30.0}};
+  const Sample warm{0, {30.0}};
   const auto textOf = [&](LinkInputs inputs, const FolderState& folder = kGoodFolder) {
     inputs.temperatures = warm;
     const PreflightCheck check = checkPreflight(inputs, folder);
@@ -295,7 +295,7 @@ TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
   EXPECT_EQ(textOf(inputs, {"/full", true, 18'000}),
             "not ready: /full has space for less than a minute: choose another folder, or free "
             "some space");
-  inputs.temperatures = Temperatures{0, {30.0, 70.2}};
+  inputs.temperatures = Sample{0, {30.0, 70.2}, kTemperatures};
   const PreflightCheck hot = checkPreflight(inputs, kGoodFolder);
   EXPECT_FALSE(hot.ready);
   EXPECT_NE(hot.text.find("70 deg C"), std::string::npos);

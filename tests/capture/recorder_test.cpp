@@ -103,7 +103,7 @@ TEST(Recorder, splitsByTimeWithoutLosingOrDoublingAnItem) {
     for (const std::size_t number : numbersIn(path)) all.push_back(number);
     const Profile profile = openRecording(path);
     for (std::size_t i = 0; i < profile.numAngles(); ++i)
-      ASSERT_EQ(profile.angles(i).deg, numberedAngles(angles++, 0).deg);
+      ASSERT_EQ(profile.angles(i).values, numberedAngles(angles++, 0).values);
     EXPECT_EQ(verifyRecording(path).state, VerifyReport::State::kSound);
   }
   EXPECT_EQ(all, upTo(0, 350));
@@ -308,9 +308,9 @@ TEST(Recorder, whatCanNotBeRecordedIsRefusedAndCounted) {
   scripted.session->startRecording(to(folder / "a.palpate"));
   scripted.run(0.5);
   scripted.device->frame(1, kWallStartUs);  // earlier than the last one
-  JointAngles bad = numberedAngles(1, scripted.clock.hostUs() + 1);
-  bad.deg[3] = std::numeric_limits<double>::quiet_NaN();
-  scripted.device->sink->onAngles(std::move(bad));
+  Sample bad = numberedAngles(1, scripted.clock.hostUs() + 1);
+  bad.values[3] = std::numeric_limits<double>::quiet_NaN();
+  scripted.device->sink->onSample(std::move(bad));
   scripted.run(0.5);
   const RecordingReport report = scripted.session->stopRecording();
   EXPECT_EQ(report.frames, 100);

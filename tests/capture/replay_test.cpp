@@ -26,21 +26,18 @@ class Listener : public DeviceSink {
   };
   std::vector<Item> items;
   std::vector<TactileFrame> frames;
-  std::vector<JointAngles> angles;
-  std::vector<Temperatures> temperatures;
+  std::vector<Sample> angles;
+  std::vector<Sample> temperatures;
   std::vector<Event> events;
 
   void onFrame(TactileFrame&& frame) override {
     items.push_back({'f', frame.hostUs});
     frames.push_back(std::move(frame));
   }
-  void onAngles(JointAngles&& sample) override {
-    items.push_back({'a', sample.hostUs});
-    angles.push_back(std::move(sample));
-  }
-  void onTemperatures(Temperatures&& sample) override {
-    items.push_back({'t', sample.hostUs});
-    temperatures.push_back(std::move(sample));
+  void onSample(Sample&& sample) override {
+    const bool isAngles = sample.series == kJointAngles;
+    items.push_back({isAngles ? 'a' : 't', sample.hostUs});
+    (isAngles ? angles : temperatures).push_back(std::move(sample));
   }
   void onEvent(Event&& event) override {
     items.push_back({'e', event.tUs});
@@ -61,7 +58,7 @@ Profile shortProfile() {
                      numberedFrame(static_cast<std::size_t>(ms), 0).values,
                      ms % 20 == 0 ? std::optional(ms * 1000) : std::nullopt);
   for (const std::int64_t ms : {5, 10, 35})
-    builder.addAngles(kWallStartUs + ms * 1000, numberedAngles(1, 0).deg);
+    builder.addAngles(kWallStartUs + ms * 1000, numberedAngles(1, 0).values);
   builder.addTemperatures(kWallStartUs + 10'000, std::vector<double>(9, 33.25));
   return builder.finish({});
 }
@@ -213,11 +210,11 @@ void expectSame(const Profile& a, const Profile& b) {
     ASSERT_EQ(x.deviceUs, y.deviceUs) << i;
   }
   for (std::size_t i = 0; i < a.numAngles(); ++i) {
-    ASSERT_EQ(a.angles(i).deg, b.angles(i).deg) << i;
+    ASSERT_EQ(a.angles(i).values, b.angles(i).values) << i;
     ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i)) << i;
   }
   for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
-    ASSERT_EQ(a.temperatures(i).degC, b.temperatures(i).degC) << i;
+    ASSERT_EQ(a.temperatures(i).values, b.temperatures(i).values) << i;
     ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i)) << i;
   }
 }

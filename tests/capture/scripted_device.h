@@ -44,7 +44,7 @@ inline TactileFrame numberedFrame(std::size_t n, std::int64_t hostUs) {
     frame.values[k * 8] = static_cast<float>((n * 7919 + k * 104729) % 3400);
   return frame;
 }
-inline JointAngles numberedAngles(std::size_t n, std::int64_t hostUs) {
+inline Sample numberedAngles(std::size_t n, std::int64_t hostUs) {
   std::vector<double> deg(7, 0.125 * static_cast<double>(n % 700));
   deg[6] = 0.1;  // not representable as float
   return {hostUs, deg};
@@ -86,9 +86,9 @@ class ScriptedDevice : public Device {
   }
 
   void frame(std::size_t n, std::int64_t hostUs) { sink->onFrame(numberedFrame(n, hostUs)); }
-  void angles(std::size_t n, std::int64_t hostUs) { sink->onAngles(numberedAngles(n, hostUs)); }
+  void angles(std::size_t n, std::int64_t hostUs) { sink->onSample(numberedAngles(n, hostUs)); }
   void temperatures(double degC, std::int64_t hostUs) {
-    sink->onTemperatures({hostUs, std::vector<double>(9, degC)});
+    sink->onSample({hostUs, std::vector<double>(9, degC), kTemperatures});
   }
 };
 

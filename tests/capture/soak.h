@@ -31,8 +31,9 @@ class ReplayCheck : public DeviceSink {
     }
     ++frames;
   }
-  void onAngles(JointAngles&&) override { ++angles; }
-  void onTemperatures(Temperatures&&) override {}
+  void onSample(Sample&& sample) override {
+    if (sample.series == kJointAngles) ++angles;
+  }
   void onEvent(Event&&) override {}
   std::size_t frames = 0, angles = 0, different = 0;
 

@@ -100,7 +100,7 @@ TEST(TruthToExport, WhatTheHandFeltIsWhatIsExported) {
     --row;
     EXPECT_LT(frame.hostUs / 1000 - row->first, 80) << "frame " << i;
     ASSERT_EQ(row->second.size(), 6u);
-    const HandPose pose = geometry.pose(profile.anglesAtFrame(i)->deg);
+    const HandPose pose = geometry.pose(profile.anglesAtFrame(i)->values);
     for (std::size_t m = 0; m < 6; ++m) {
       const ConstMatrixMap values = frame.matrix(m);
       const TruthRow& is = row->second[m];

@@ -313,7 +313,7 @@ TEST(GraspControl, WatchesWhatIsHeldUnlessTheHandMayHaveLetGo) {
   };
   for (const auto& [why, between] : table) {
     GraspBench bench;
-    bench.hand->sink->onAngles({bench.clock.hostUs(), std::vector<double>(7, 20.0)});
+    bench.hand->sink->onSample({bench.clock.hostUs(), std::vector<double>(7, 20.0)});
     GraspRequest request = reactive(200);
     bench.control->grasp(request);
     bench.feel(1, 250.0F);

@@ -182,11 +182,11 @@ TEST_F(SequenceRunTest, ATaskThatThrowsStopsTheHandAndRaisesAnAlarm) {
 // Nobody but the control cycle has to notice it.
 TEST_F(SequenceRunTest, AHandThatIsTooHotEndsItAndBeginsNone) {
   const auto measure = [&](double degC) {
-    Temperatures temperatures;
+    Sample temperatures{.series = kTemperatures};
     temperatures.hostUs = now();
-    temperatures.degC.assign(sdh2().temperatureSensors.size(), 40.0);
-    temperatures.degC[1] = degC;
-    bench_.hand->sink->onTemperatures(std::move(temperatures));
+    temperatures.values.assign(sdh2().temperatureSensors.size(), 40.0);
+    temperatures.values[1] = degC;
+    bench_.hand->sink->onSample(std::move(temperatures));
   };
   const std::string hot = sdh2().temperatureSensors[1].name + " 65.1 °C";
   run_.begin(everyKind(), sdh2(), now());

@@ -180,7 +180,7 @@ TEST(PortGone, TheControlKnowsTheAngles) {
   bench.hand->answers = false;
   GraspRequest request;
   request.closeRatio = 0.0;
-  bench.hand->sink->onAngles({bench.clock.hostUs(), {60.0, -70.0, 75.0, -75.0, 65.0, -75.0, 75.0}});
+  bench.hand->sink->onSample({bench.clock.hostUs(), {60.0, -70.0, 75.0, -75.0, 65.0, -75.0, 75.0}});
   bench.wait(5000);
   bench.control->grasp(request);
   bench.hand->state.motion->state = PortState::kLost;

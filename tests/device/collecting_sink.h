@@ -18,14 +18,9 @@ class CollectingSink : public DeviceSink {
     frames.push_back(std::move(frame));
     changed_.notify_all();
   }
-  void onAngles(JointAngles&& sample) override {
+  void onSample(Sample&& sample) override {
     std::lock_guard lock(mutex_);
-    angles.push_back(std::move(sample));
-    changed_.notify_all();
-  }
-  void onTemperatures(Temperatures&& sample) override {
-    std::lock_guard lock(mutex_);
-    temperatures.push_back(std::move(sample));
+    (sample.series == kJointAngles ? angles : temperatures).push_back(std::move(sample));
     changed_.notify_all();
   }
   void onEvent(Event&& event) override {
@@ -66,8 +61,8 @@ class CollectingSink : public DeviceSink {
   }
 
   std::vector<TactileFrame> frames;
-  std::vector<JointAngles> angles;
-  std::vector<Temperatures> temperatures;
+  std::vector<Sample> angles;
+  std::vector<Sample> temperatures;
   std::vector<Event> events;
 
  private:

@@ -126,10 +126,10 @@ TEST(StreamDevice, AnglesAndTemperaturesAreSeriesOfTheirOwn) {
   Bench bench({.hand = smallHand()});
   bench.send("angles,1.5,-2\ntemperatures,36.5\nframe,1,2,3\nangles,2,3\n");
   ASSERT_EQ(bench.sink.angles.size(), 2u);
-  EXPECT_EQ(bench.sink.angles[0].deg, (std::vector<double>{1.5, -2}));
+  EXPECT_EQ(bench.sink.angles[0].values, (std::vector<double>{1.5, -2}));
   EXPECT_GT(bench.sink.angles[1].hostUs, bench.sink.angles[0].hostUs);
   ASSERT_EQ(bench.sink.temperatures.size(), 1u);
-  EXPECT_EQ(bench.sink.temperatures[0].degC, (std::vector<double>{36.5}));
+  EXPECT_EQ(bench.sink.temperatures[0].values, (std::vector<double>{36.5}));
   EXPECT_EQ(bench.status().items, 1u);
 }
 

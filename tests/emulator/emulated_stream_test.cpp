@@ -113,7 +113,7 @@ void recordAndCompareHand(const std::string& key, EmulatedStreamFormat format) {
   ASSERT_GE(profile.numAngles(), kFrames);
   for (std::size_t n = 0; n < kFrames; ++n)
     for (std::size_t axis = 0; axis < hand.axes.size(); ++axis)
-      ASSERT_EQ(static_cast<float>(profile.angles(n).deg.at(axis)),
+      ASSERT_EQ(static_cast<float>(profile.angles(n).values.at(axis)),
                 static_cast<float>(log.angles[n].at(axis)))
           << "sample " << n << ", axis " << axis;
 }
@@ -150,14 +150,14 @@ TEST(EmulatedStream, AnglesAndTemperaturesArriveAsTheyAre) {
     device.stop();
     std::lock_guard lock(log.mutex);
     for (std::size_t n = 0; n < 120; ++n)
-      EXPECT_EQ(static_cast<float>(sink.angles.at(n).deg.at(0)),
+      EXPECT_EQ(static_cast<float>(sink.angles.at(n).values.at(0)),
                 static_cast<float>(log.angles[n].at(0)))
           << n;
     EXPECT_NE(log.angles[119].at(0), log.angles[0].at(0)) << "it closes";
     ASSERT_GE(sink.temperatures.size(), 3u);  // at 0, 1 and 2 s
     // A motor at rest is 2 degrees above the ambient 34.
-    EXPECT_NEAR(sink.temperatures[0].degC.at(0), 36.0, 1e-4);
-    EXPECT_NEAR(sink.temperatures[0].degC.at(1), 44.5, 1e-4);
+    EXPECT_NEAR(sink.temperatures[0].values.at(0), 36.0, 1e-4);
+    EXPECT_NEAR(sink.temperatures[0].values.at(1), 44.5, 1e-4);
   }
 }
 
@@ -281,8 +281,7 @@ TEST(EmulatedStream, FramesThatTheClientDoesNotReadAreLostAndCounted) {
       ++frames;
       std::lock_guard lock(gate_);
     }
-    void onAngles(JointAngles&&) override {}
-    void onTemperatures(Temperatures&&) override {}
+    void onSample(Sample&&) override {}
     void onEvent(Event&&) override {}
     std::atomic<int> frames{0};
 

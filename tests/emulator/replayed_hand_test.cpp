@@ -50,8 +50,8 @@ TEST(ReplayedHand, JointsAndTemperaturesAreThoseOfTheMoment) {
     const auto temperatures = profile.temperaturesAtFrame(i);
     ASSERT_TRUE(angles && temperatures);
     for (std::size_t axis = 0; axis < 7; ++axis)
-      ASSERT_NEAR(hand.joints().angles()[axis], angles->deg[axis], 1e-9) << "frame " << i;
-    ASSERT_EQ(hand.temperatures(), temperatures->degC);
+      ASSERT_NEAR(hand.joints().angles()[axis], angles->values[axis], 1e-9) << "frame " << i;
+    ASSERT_EQ(hand.temperatures(), temperatures->values);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(ReplayedHand, TimeStandsStillBetweenStreamsAndSettingsStay) {
   hand.joints().setController(ControllerType::kVelocity);
   hand.advanceTo(1000.0);
   const auto third = profile.angleSampleAt(profile.frameTimeUs(2));
-  EXPECT_NEAR(hand.joints().angles()[1], profile.angles(*third).deg[1], 1e-9);
+  EXPECT_NEAR(hand.joints().angles()[1], profile.angles(*third).values[1], 1e-9);
   EXPECT_EQ(hand.joints().power(), std::vector<bool>(7, true));
   EXPECT_EQ(hand.joints().controller(), ControllerType::kVelocity);
   hand.advanceTo(5.0);  // an earlier time has no effect

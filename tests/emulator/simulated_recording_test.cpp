@@ -66,7 +66,7 @@ TEST(SimulatedRecording, PadsOfAnEmptyHandTouchEachOther) {
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     const TactileFrame frame = profile.frame(i);
     const double first = sumOf(frame, 1), second = sumOf(frame, 5);
-    if (profile.anglesAtFrame(i)->deg[1] < meetDeg - 0.05) {
+    if (profile.anglesAtFrame(i)->values[1] < meetDeg - 0.05) {
       EXPECT_EQ(first + second, 0.0) << i;
     }
     touched = touched || (first > 0.0 && second > 0.0);
@@ -75,8 +75,8 @@ TEST(SimulatedRecording, PadsOfAnEmptyHandTouchEachOther) {
   EXPECT_TRUE(touched);
   const TactileFrame last = profile.frame(profile.numFrames() - 1);
   EXPECT_NEAR(sumOf(last, 5), sumOf(last, 1), 0.1 * sumOf(last, 1));
-  EXPECT_GT(profile.anglesAtFrame(profile.numFrames() - 1)->deg[1], meetDeg);
-  EXPECT_LT(profile.anglesAtFrame(profile.numFrames() - 1)->deg[1], 14.5);
+  EXPECT_GT(profile.anglesAtFrame(profile.numFrames() - 1)->values[1], meetDeg);
+  EXPECT_LT(profile.anglesAtFrame(profile.numFrames() - 1)->values[1], 14.5);
 }
 
 TEST(SimulatedRecording, ThePadsTruthIsContactWithoutSlip) {
@@ -99,7 +99,7 @@ TEST(SimulatedRecording, AZeroErrorOfTheJointsShowsInWhatTheyReport) {
   options.durationS = 30.0;
   const auto stopDeg = [&] {
     const Profile profile = simulateRecording(emptyPinch(), options);
-    return profile.angles(profile.numAngles() - 1).deg[1];
+    return profile.angles(profile.numAngles() - 1).values[1];
   };
   const double without = stopDeg();
   options.hand.zeroErrorDeg = {0, 1, -1, 0, 0, 1, -1};

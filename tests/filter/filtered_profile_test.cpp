@@ -48,12 +48,9 @@ class Damaged final : public ProfileStorage {
     if (i == bad_) throw FileError("x.palpate", "frame is damaged");
     source_.readFrame(i, out);
   }
-  std::size_t numAngles() const override { return 0; }
-  std::int64_t angleTimeUs(std::size_t) const override { return 0; }
-  JointAngles angles(std::size_t) const override { return {}; }
-  std::size_t numTemperatures() const override { return 0; }
-  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
-  Temperatures temperatures(std::size_t) const override { return {}; }
+  std::size_t numSamples(std::size_t) const override { return 0; }
+  std::int64_t sampleTimeUs(std::size_t, std::size_t) const override { return 0; }
+  Sample sample(std::size_t, std::size_t) const override { return {}; }
 
  private:
   Profile source_;
@@ -118,9 +115,9 @@ TEST(FilteredProfile, TheRestIsTheSources) {
   for (const char* text : {"median", "rts"}) {
     const Profile filtered = filteredProfile(source, recipeOf(text));
     ASSERT_EQ(filtered.numAngles(), source.numAngles());
-    EXPECT_EQ(filtered.angles(3).deg, source.angles(3).deg);
+    EXPECT_EQ(filtered.angles(3).values, source.angles(3).values);
     ASSERT_EQ(filtered.numTemperatures(), source.numTemperatures());
-    EXPECT_EQ(filtered.temperatures(2).degC, source.temperatures(2).degC);
+    EXPECT_EQ(filtered.temperatures(2).values, source.temperatures(2).values);
     EXPECT_EQ(filtered.info().valueType, ValueType::kFloat);
     EXPECT_EQ(filtered.layout(), source.layout());
   }

@@ -40,9 +40,9 @@ void requireSane(const Profile& profile) {
     require(i == 0 || profile.frameTimeUs(i) > profile.frameTimeUs(i - 1));
   }
   for (std::size_t i = 0; i < profile.numAngles(); ++i)
-    for (const double deg : profile.angles(i).deg) require(std::isfinite(deg));
+    for (const double deg : profile.angles(i).values) require(std::isfinite(deg));
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
-    for (const double degC : profile.temperatures(i).degC) require(std::isfinite(degC));
+    for (const double degC : profile.temperatures(i).values) require(std::isfinite(degC));
 }
 
 void requireSame(const Profile& a, const Profile& b) {
@@ -52,7 +52,7 @@ void requireSame(const Profile& a, const Profile& b) {
   for (std::size_t i = 0; i < a.numFrames(); ++i)
     require(a.frameTimeUs(i) == b.frameTimeUs(i) && a.frame(i).values == b.frame(i).values);
   for (std::size_t i = 0; i < a.numAngles(); ++i)
-    require(a.angleTimeUs(i) == b.angleTimeUs(i) && a.angles(i).deg == b.angles(i).deg);
+    require(a.angleTimeUs(i) == b.angleTimeUs(i) && a.angles(i).values == b.angles(i).values);
 }
 
 std::optional<Profile> readOrRefuse(std::span<const std::byte> bytes) {

@@ -30,9 +30,9 @@ void requireSane(const Profile& profile) {
     require(i == 0 || profile.frameTimeUs(i) > profile.frameTimeUs(i - 1));
   }
   for (std::size_t i = 0; i < profile.numAngles(); ++i)
-    for (const double deg : profile.angles(i).deg) require(std::isfinite(deg));
+    for (const double deg : profile.angles(i).values) require(std::isfinite(deg));
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
-    for (const double degC : profile.temperatures(i).degC) require(std::isfinite(degC));
+    for (const double degC : profile.temperatures(i).values) require(std::isfinite(degC));
 }
 
 // A file of this process, in memory where the system has such a folder.

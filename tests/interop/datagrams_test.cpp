@@ -40,9 +40,9 @@ LiveResults largeResults(std::size_t numMatrices, std::size_t numAxes) {
     slip.motion.rotation.valid = slip.motion.rotation.refValid = true;
     slip.motion.rotation.rotationDeg = slip.motion.rotation.refRotationDeg = -3.4567890123456e-100;
   }
-  results.angles = JointAngles{1, std::vector<double>(numAxes, -12.345678901234567)};
-  if (numAxes > 2) results.angles->deg[2] = std::numeric_limits<double>::quiet_NaN();
-  results.temperatures = Temperatures{1, {41.25, 38.0}};
+  results.angles = Sample{1, std::vector<double>(numAxes, -12.345678901234567)};
+  if (numAxes > 2) results.angles->values[2] = std::numeric_limits<double>::quiet_NaN();
+  results.temperatures = Sample{1, {41.25, 38.0}, kTemperatures};
   return results;
 }
 

@@ -134,9 +134,9 @@ TEST(FoxgloveMessages, TransformsAgreeWithTheTaxels) {
   FoxgloveMessages messages(sdh2());
   LiveResults results = sampleResults();
   EXPECT_FALSE(messages.setPose(results));  // no angles yet
-  results.angles = JointAngles{1, std::vector<double>(5, 0.0)};
+  results.angles = Sample{1, std::vector<double>(5, 0.0)};
   EXPECT_FALSE(messages.setPose(results));  // angles of another hand
-  results.angles = JointAngles{1, {10.0, -20.0, 30.0, -40.0, 20.0, -10.0, 50.0}};
+  results.angles = Sample{1, {10.0, -20.0, 30.0, -40.0, 20.0, -10.0, 50.0}};
   ASSERT_TRUE(messages.setPose(results));
   const Json transforms = Json::parse(messages.transforms(1)).at("transforms");
   const Json cloud = Json::parse(messages.taxels(*results.frame));
@@ -180,7 +180,7 @@ TEST(FoxgloveMessages, LinksAndJointsHaveTheNamesOfTheUrdf) {
   FoxgloveMessages messages(parseHand(json, urdf, "hand.json"));
   ASSERT_EQ(messages.geometryProblem(), "");
   LiveResults results;
-  results.angles = JointAngles{1, {90.0}};
+  results.angles = Sample{1, {90.0}};
   ASSERT_TRUE(messages.setPose(results));
 
   const Json joints = Json::parse(messages.joints(*results.angles)).at("joints");
@@ -250,7 +250,7 @@ TEST(FoxgloveMessages, EveryHandHasItsChannels) {
     TactileFrame frame(hand.layout);
     frame.hostUs = 1;
     results.frame = std::make_shared<const TactileFrame>(frame);
-    if (!hand.axes.empty()) results.angles = JointAngles{1, std::vector<double>(hand.axes.size())};
+    if (!hand.axes.empty()) results.angles = Sample{1, std::vector<double>(hand.axes.size())};
     for (std::size_t m = 0; m < messages.numImages(); ++m)
       EXPECT_TRUE(Json::parse(messages.image(*results.frame, m)).isObject());
     EXPECT_EQ(messages.setPose(results), hasGeometry(hand)) << name;

@@ -67,7 +67,7 @@ TEST(FoxgloveStream, SendsWhatAFrameHolds) {
       "/signals", "/tactile/finger_0_distal/image", "/joint_states", "/tf", "/hand/taxels"};
   subscribe(client, topics);
   LiveResults results = sampleResults();
-  results.angles = JointAngles{results.frame->hostUs, std::vector<double>(7, 0.0)};
+  results.angles = Sample{results.frame->hostUs, std::vector<double>(7, 0.0)};
   stream.send(results);
   std::set<std::size_t> seen;
   while (seen.size() < topics.size()) {

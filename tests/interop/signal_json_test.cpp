@@ -83,8 +83,8 @@ TEST(SignalJson, SaysSlipForceAndTheHand) {
   pressure->matrices[1].inRange = false;
   pressure->forceN = 1.75;
   results.pressure = pressure;
-  results.angles = JointAngles{1, {0.0, -60.5, std::numeric_limits<double>::quiet_NaN()}};
-  results.temperatures = Temperatures{1, {41.25, 38.0}};
+  results.angles = Sample{1, {0.0, -60.5, std::numeric_limits<double>::quiet_NaN()}};
+  results.temperatures = Sample{1, {41.25, 38.0}, kTemperatures};
   LinkHealth link;
   link.frames.rateHz = 31.5;
   link.frames.ageMs = 12.0;

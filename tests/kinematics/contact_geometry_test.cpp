@@ -67,7 +67,7 @@ TEST(ContactGeometry, OfAHandThatHoldsABall) {
   PALPATE_NEED(folder);
   const Profile profile = openRecording(*folder / "grasps" / "foam_ball.dsa");
   const HandGeometry geometry(sdh2Geometry());
-  const HandPose pose = geometry.pose(profile.anglesAtFrame(2411)->deg);
+  const HandPose pose = geometry.pose(profile.anglesAtFrame(2411)->values);
   const HandContact contact = contactOf(profile.frame(2411), pose);
   EXPECT_EQ(contact.numActive, 60u);
   EXPECT_EQ(contact.matrices[1].numActive, 36u);

@@ -167,17 +167,18 @@ class DamagedAngles : public ProfileStorage {
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     whole_.readFrame(frame, out);
   }
-  std::size_t numAngles() const override { return whole_.numAngles(); }
-  std::int64_t angleTimeUs(std::size_t sample) const override { return whole_.angleTimeUs(sample); }
-  JointAngles angles(std::size_t sample) const override {
-    JointAngles angles = whole_.angles(sample);
-    if (sample % 7 == 3) angles.deg[2] = std::numeric_limits<double>::quiet_NaN();
-    if (sample % 7 == 4) angles.deg.pop_back();
+  std::size_t numSamples(std::size_t series) const override {
+    return series == kJointAngles ? whole_.numAngles() : 0;
+  }
+  std::int64_t sampleTimeUs(std::size_t, std::size_t i) const override {
+    return whole_.angleTimeUs(i);
+  }
+  Sample sample(std::size_t, std::size_t i) const override {
+    Sample angles = whole_.angles(i);
+    if (i % 7 == 3) angles.values[2] = std::numeric_limits<double>::quiet_NaN();
+    if (i % 7 == 4) angles.values.pop_back();
     return angles;
   }
-  std::size_t numTemperatures() const override { return 0; }
-  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
-  Temperatures temperatures(std::size_t) const override { return {}; }
 
  private:
   Profile whole_;

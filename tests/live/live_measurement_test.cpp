@@ -21,7 +21,7 @@ SharedFrame frameAt(std::int64_t us, float value = 0.0F, const HandDescription& 
   return std::make_shared<const TactileFrame>(std::move(frame));
 }
 
-JointAngles anglesAt(std::int64_t us, double deg) {
+Sample anglesAt(std::int64_t us, double deg) {
   return {kBeginUs + us, std::vector<double>(sdh2().axes.size(), deg)};
 }
 
@@ -52,7 +52,7 @@ TEST(LiveMeasurement, TheProfileHasWhatArrived) {
   LiveMeasurement measurement(sdh2(), {.seconds = 1.0});
   const std::size_t sensors = sdh2().temperatureSensors.size();
   for (int i = 0; i <= 10; ++i) {
-    measurement.add(Temperatures{kBeginUs + i * kPeriodUs, std::vector(sensors, 20.0 + i)});
+    measurement.add(Sample{kBeginUs + i * kPeriodUs, std::vector(sensors, 20.0 + i), kTemperatures});
     measurement.add(anglesAt(i * kPeriodUs, 5.0));
     measurement.add(frameAt(i * kPeriodUs, static_cast<float>(i)));
   }
@@ -64,7 +64,7 @@ TEST(LiveMeasurement, TheProfileHasWhatArrived) {
   EXPECT_EQ(std::as_const(profile).frame(7).matrix(1)(7, 2), 7.0F);
   EXPECT_EQ(profile.numAngles(), 11u);
   ASSERT_TRUE(profile.temperaturesAtFrame(4));
-  EXPECT_EQ(profile.temperaturesAtFrame(4)->degC.at(0), 24.0);
+  EXPECT_EQ(profile.temperaturesAtFrame(4)->values.at(0), 24.0);
   EXPECT_EQ(profile.info().serial, "1D9B0057");
   EXPECT_EQ(profile.info().format, kLiveMeasurementFormat);
   EXPECT_EQ(profile.hand().name, sdh2().name);

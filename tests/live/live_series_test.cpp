@@ -61,8 +61,8 @@ TEST(LiveSeries, ACurveThatIsChosenLaterHasThePastToo) {
     frame->matrix(1)(3, 2) = static_cast<float>(10 * i);
     frame->matrix(2)(3, 2) = 999.0F;  // of another matrix
     results.frame = frame;
-    results.angles = JointAngles{results.frame->hostUs, {1.0 * i, -2.0 * i}};
-    results.temperatures = Temperatures{results.frame->hostUs, {0.0, 30.0 + i}};
+    results.angles = Sample{results.frame->hostUs, {1.0 * i, -2.0 * i}};
+    results.temperatures = Sample{results.frame->hostUs, {0.0, 30.0 + i}, kTemperatures};
     auto pressure = std::make_shared<PressureFrame>();
     pressure->matrices.resize(6);
     pressure->matrices[4].forceN = 0.5 * i;

@@ -46,7 +46,7 @@ std::string bitsOf(const LiveResults& results) {
   append(bytes, static_cast<double>(results.peak.counts));
   append(bytes, results.angles ? static_cast<double>(results.angles->hostUs) : -1.0);
   if (results.angles)
-    for (const double deg : results.angles->deg) append(bytes, deg);
+    for (const double deg : results.angles->values) append(bytes, deg);
   append(bytes, results.temperatures ? static_cast<double>(results.temperatures->hostUs) : -1.0);
   return bytes;
 }

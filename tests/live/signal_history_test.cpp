@@ -61,8 +61,8 @@ TEST(SignalHistory, TenMinutesOfAFullHandFitIntoItsMemory) {
   for (std::size_t i = 0; i < frame->values.size(); i += 2) frame->values[i] = 100.0F;
   LiveResults results = resultsAt(1);
   results.frame = frame;
-  results.angles = JointAngles{1, std::vector<double>(7)};
-  results.temperatures = Temperatures{1, std::vector<double>(9)};
+  results.angles = Sample{1, std::vector<double>(7)};
+  results.temperatures = Sample{1, std::vector<double>(9), kTemperatures};
   SignalHistory history;
   history.add(results);
   EXPECT_LT(static_cast<double>(history.bytes()) * 600.0 * 31.7,

@@ -26,8 +26,9 @@ class NotingStage final : public Stage {
     if (testing::numberOf(*results.frame) == 2)
       out.push_back({results.frame->hostUs, results.frame->hostUs, "slip", 1, "slips", ""});
   }
-  void onAngles(const JointAngles&) override { notes_.push_back("angles"); }
-  void onTemperatures(const Temperatures&) override { notes_.push_back("temperatures"); }
+  void onSample(const Sample& sample) override {
+    notes_.push_back(sample.series == kJointAngles ? "angles" : "temperatures");
+  }
   void onEvent(const Event& event) override { notes_.push_back(event.kind); }
 
  private:

@@ -43,7 +43,7 @@ TEST(Profile, AnglesOfAFrameAreTheLastOnesAtOrBeforeItClampedAtBothEnds) {
   const Profile profile = builder.finish({});
   const double expected[] = {10.0, 10.0, 10.0, 20.0, 20.0};
   for (std::size_t i = 0; i < 5; ++i)
-    EXPECT_EQ(profile.anglesAtFrame(i)->deg, std::vector<double>{expected[i]}) << i;
+    EXPECT_EQ(profile.anglesAtFrame(i)->values, std::vector<double>{expected[i]}) << i;
   EXPECT_FALSE(profile.temperaturesAtFrame(0).has_value());
   EXPECT_THROW(profile.angles(3), std::out_of_range);
   EXPECT_THROW(profile.temperatures(0), std::out_of_range);

@@ -134,12 +134,9 @@ class UnsearchedStorage final : public ProfileStorage {
     return static_cast<std::int64_t>(i) * 10'000;
   }
   void readFrame(std::size_t, TactileFrame&) const override {}
-  std::size_t numAngles() const override { return 0; }
-  std::int64_t angleTimeUs(std::size_t) const override { return 0; }
-  JointAngles angles(std::size_t) const override { return {}; }
-  std::size_t numTemperatures() const override { return 0; }
-  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
-  Temperatures temperatures(std::size_t) const override { return {}; }
+  std::size_t numSamples(std::size_t) const override { return 0; }
+  std::int64_t sampleTimeUs(std::size_t, std::size_t) const override { return 0; }
+  Sample sample(std::size_t, std::size_t) const override { return {}; }
   std::optional<std::size_t> frameAt(std::int64_t) const override {
     ADD_FAILURE() << "the frame was searched for";
     return {};

@@ -39,7 +39,7 @@ TEST(GraspCollector, KeepsAGraspWithALittleBeforeAndAfterIt) {
   EXPECT_EQ(ended[0].numFrames(), 16u + 60u + 10u);
   EXPECT_EQ(ended[0].frameTimeUs(0), all.frameTimeUs(50 - 16));
   EXPECT_EQ(ended[0].frame(16).values, all.frame(50).values);
-  EXPECT_EQ(ended[0].anglesAtFrame(20)->deg, all.anglesAtFrame(54)->deg);
+  EXPECT_EQ(ended[0].anglesAtFrame(20)->values, all.anglesAtFrame(54)->values);
   EXPECT_FALSE(collector.touched());
   EXPECT_FALSE(collector.now());
   EXPECT_TRUE(collector.takeEnded().empty()) << "once";
@@ -61,7 +61,7 @@ TEST(GraspCollector, KeepsNoMoreOfAContactThatNeverEnds) {
   std::size_t keptAngles = 0;
   for (int i = 0; i < 20'000; ++i) {
     for (int k = 0; k < 3; ++k) {
-      JointAngles angles = held.angles(0);
+      Sample angles = held.angles(0);
       angles.hostUs = 1'000'000 + i * 32'000LL + k * 10'000LL;
       collector.addAngles(std::move(angles));
     }

@@ -138,7 +138,7 @@ TEST(GraspFeatures, PadsAreTheHands) {
   ProfileBuilder builder(swapped);
   for (std::size_t i = 0; i < of.numFrames(); ++i) builder.addFrame(of.frame(i));
   for (std::size_t i = 0; i < of.numAngles(); ++i)
-    builder.addAngles(of.angles(i).hostUs, of.angles(i).deg);
+    builder.addAngles(of.angles(i).hostUs, of.angles(i).values);
   const Profile profile = builder.finish({});
   EXPECT_NE(recordingFeatures(profile, FeatureSet::kBest).problem.find("matrices 1 and 3"),
             std::string::npos);

@@ -74,16 +74,17 @@ class DamagedStorage : public ProfileStorage {
     if (static_cast<int>(frame) == badFrame_)
       out.matrix(1)(9, 2) = std::numeric_limits<float>::quiet_NaN();
   }
-  std::size_t numAngles() const override { return whole_.numAngles(); }
-  std::int64_t angleTimeUs(std::size_t sample) const override { return whole_.angleTimeUs(sample); }
-  JointAngles angles(std::size_t sample) const override {
-    JointAngles angles = whole_.angles(sample);
-    if (static_cast<int>(sample) == badAngles_) angles.deg[2] = std::nan("");
+  std::size_t numSamples(std::size_t series) const override {
+    return series == kJointAngles ? whole_.numAngles() : 0;
+  }
+  std::int64_t sampleTimeUs(std::size_t, std::size_t i) const override {
+    return whole_.angleTimeUs(i);
+  }
+  Sample sample(std::size_t, std::size_t i) const override {
+    Sample angles = whole_.angles(i);
+    if (static_cast<int>(i) == badAngles_) angles.values[2] = std::nan("");
     return angles;
   }
-  std::size_t numTemperatures() const override { return 0; }
-  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
-  Temperatures temperatures(std::size_t) const override { return {}; }
 
  private:
   Profile whole_;

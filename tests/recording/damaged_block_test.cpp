@@ -97,7 +97,7 @@ TEST_P(DamagedBlock, OfFramesCostsItsFramesOnly) {
     if (lost) continue;
     ASSERT_EQ(frame.hostUs, longStampUs(i));
     ASSERT_EQ(frame.values[0], longValue(i)) << i;
-    ASSERT_EQ(profile.anglesAtFrame(i)->deg[0], static_cast<double>(i % 90)) << i;
+    ASSERT_EQ(profile.anglesAtFrame(i)->values[0], static_cast<double>(i % 90)) << i;
   }
   EXPECT_EQ(unreadable.runs, (std::vector<UnreadableSamples::Run>{{hit.first, hit.last}}));
   // The first and the last time of the block stand in the table of the blocks.
@@ -120,7 +120,7 @@ TEST_P(DamagedBlock, OfAnglesCostsItsAnglesOnly) {
   for (std::size_t i = 0; i < kFrames; ++i) {
     ASSERT_EQ(profile.angleSampleAt(profile.angleTimeUs(i)), i);
     if (hit.first <= i && i <= hit.last) continue;
-    ASSERT_EQ(profile.angles(i).deg[0], static_cast<double>(i % 90)) << i;
+    ASSERT_EQ(profile.angles(i).values[0], static_cast<double>(i % 90)) << i;
   }
   EXPECT_THROW((void)profile.angles(hit.last), FormatError);
   EXPECT_EQ(profile.frame(hit.first).values[0], longValue(hit.first));

@@ -28,11 +28,11 @@ void expectExample(const Profile& profile) {
   EXPECT_EQ(profile.frame(1).values, (std::vector<float>{0, 0, 100, 0, 1000, 0}));
   ASSERT_EQ(profile.numTemperatures(), 1u);
   EXPECT_EQ(profile.temperatureTimeUs(0), 1'400'000'000'010'000);
-  EXPECT_EQ(profile.temperatures(0).degC,
+  EXPECT_EQ(profile.temperatures(0).values,
             (std::vector<double>{35.5, 35.0, 31.25, 35.25, 31.5, 34.5, 32.0, 44.5, 44.25}));
   ASSERT_EQ(profile.numAngles(), 1u);
   EXPECT_EQ(profile.angleTimeUs(0), 1'400'000'000'001'000);
-  EXPECT_EQ(profile.angles(0).deg, (std::vector<double>{60, -10, 10, -90, 0, -10, 10}));
+  EXPECT_EQ(profile.angles(0).values, (std::vector<double>{60, -10, 10, -90, 0, -10, 10}));
 }
 
 // The warnings in one text.

@@ -31,12 +31,12 @@ void expectSameData(const Profile& a, const Profile& b) {
   ASSERT_EQ(a.numAngles(), b.numAngles());
   for (std::size_t i = 0; i < a.numAngles(); ++i) {
     ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i));
-    ASSERT_EQ(a.angles(i).deg, b.angles(i).deg);
+    ASSERT_EQ(a.angles(i).values, b.angles(i).values);
   }
   ASSERT_EQ(a.numTemperatures(), b.numTemperatures());
   for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
     ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i));
-    ASSERT_EQ(a.temperatures(i).degC, b.temperatures(i).degC);
+    ASSERT_EQ(a.temperatures(i).values, b.temperatures(i).values);
   }
 }
 

@@ -474,7 +474,7 @@ with changed('long.h5') as f:
   ASSERT_EQ(profile.numAngles(), 700'000u);
   for (const std::size_t i : {0u, 699'999u, 65'535u, 65'536u, 300'000u, 1u, 699'998u, 500'000u}) {
     EXPECT_EQ(profile.angleTimeUs(i), static_cast<std::int64_t>(i) * 7 + 3);
-    EXPECT_EQ(profile.angles(i).deg[2], static_cast<double>(i) * 7 + 2);
+    EXPECT_EQ(profile.angles(i).values[2], static_cast<double>(i) * 7 + 2);
   }
 }
 

@@ -100,11 +100,11 @@ void expectSame(const Profile& a, const Profile& b) {
   }
   for (std::size_t i = 0; i < a.numAngles(); ++i) {
     ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i));
-    ASSERT_EQ(a.angles(i).deg, b.angles(i).deg);
+    ASSERT_EQ(a.angles(i).values, b.angles(i).values);
   }
   for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
     ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i));
-    ASSERT_EQ(a.temperatures(i).degC, b.temperatures(i).degC);
+    ASSERT_EQ(a.temperatures(i).values, b.temperatures(i).values);
   }
 }
 
@@ -211,7 +211,7 @@ TEST(Hdf5Recording, severalThreadsReadAtOnce) {
       for (std::size_t i = t; i < 2600; i += 7) {
         const std::size_t k = (i * 977) % 2600;
         if (!(read.frame(k).values == profile.frame(k).values)) ++wrong[t];
-        if (read.angles(k / 2).deg != profile.angles(k / 2).deg) ++wrong[t];
+        if (read.angles(k / 2).values != profile.angles(k / 2).values) ++wrong[t];
       }
     });
   threads.clear();

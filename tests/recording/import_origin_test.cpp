@@ -84,15 +84,15 @@ TEST(ImportOrigin, JointsAreTakenByTheirNames) {
 )";
   const Imported found = importText(folder, text, hand);
   ASSERT_EQ(found.profile.numAngles(), 2u);
-  EXPECT_EQ(found.profile.angles(0).deg, (std::vector<double>{20, 10}));
-  EXPECT_EQ(found.profile.angles(1).deg, (std::vector<double>{21, 11}));
+  EXPECT_EQ(found.profile.angles(0).values, (std::vector<double>{20, 10}));
+  EXPECT_EQ(found.profile.angles(1).values, (std::vector<double>{21, 11}));
   // Names that the hand doesn't know are kept apart all the same.
   hand.axes[0].name = "a";
   hand.axes[1].name = "b";
   const Imported others = importText(folder, text, hand);
   ASSERT_EQ(others.profile.numAngles(), 2u);
-  EXPECT_EQ(others.profile.angles(0).deg, (std::vector<double>{10, 20}));
-  EXPECT_EQ(others.profile.angles(1).deg, (std::vector<double>{11, 21}));
+  EXPECT_EQ(others.profile.angles(0).values, (std::vector<double>{10, 20}));
+  EXPECT_EQ(others.profile.angles(1).values, (std::vector<double>{11, 21}));
   EXPECT_NE(notesOf(others.report).find("in the order of the file: a = joint.position.wrist"),
             std::string::npos)
       << notesOf(others.report);

@@ -35,8 +35,8 @@ inline void writeLong(const std::filesystem::path& path, std::size_t frames, boo
   for (std::size_t i = 0; i < frames; ++i) {
     frame.hostUs = longStampUs(i);
     frame.values[0] = longValue(i);
-    if (withSamples) writer.addAngles({frame.hostUs, {static_cast<double>(i % 90), 1.5}});
-    if (withSamples && i % 100 == 0) writer.addTemperatures({frame.hostUs, {20.0}});
+    if (withSamples) writer.addSample({frame.hostUs, {static_cast<double>(i % 90), 1.5}});
+    if (withSamples && i % 100 == 0) writer.addSample({frame.hostUs, {20.0}, kTemperatures});
     writer.addFrame(frame);
   }
   writer.finish();

@@ -97,12 +97,9 @@ class Endless final : public ProfileStorage {
     return static_cast<std::int64_t>(frame);
   }
   void readFrame(std::size_t, TactileFrame&) const override { throw Error("was read"); }
-  std::size_t numAngles() const override { return 0; }
-  std::int64_t angleTimeUs(std::size_t) const override { return 0; }
-  JointAngles angles(std::size_t) const override { return {}; }
-  std::size_t numTemperatures() const override { return 0; }
-  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
-  Temperatures temperatures(std::size_t) const override { return {}; }
+  std::size_t numSamples(std::size_t) const override { return 0; }
+  std::int64_t sampleTimeUs(std::size_t, std::size_t) const override { return 0; }
+  Sample sample(std::size_t, std::size_t) const override { return {}; }
 };
 
 TEST(MatExport, moreThanTheFormatHoldsIsRefusedBeforeAFrameIsRead) {

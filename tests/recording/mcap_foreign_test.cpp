@@ -54,7 +54,7 @@ def pad_of(publisher, at, value, frame='camera'):
     EXPECT_EQ(lostText(profile), "");
   }
   static void expectDeg(const Profile& profile, std::size_t sample, std::vector<double> rad) {
-    const std::vector<double> deg = profile.angles(sample).deg;
+    const std::vector<double> deg = profile.angles(sample).values;
     ASSERT_EQ(deg.size(), rad.size());
     for (std::size_t i = 0; i < rad.size(); ++i)
       EXPECT_NEAR(deg[i], rad[i] * kDegPerRad, 1e-9) << sample << ", " << i;

@@ -114,11 +114,11 @@ void expectSame(const Profile& a, const Profile& b) {
   }
   for (std::size_t i = 0; i < a.numAngles(); ++i) {
     ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i));
-    ASSERT_EQ(a.angles(i).deg, b.angles(i).deg);
+    ASSERT_EQ(a.angles(i).values, b.angles(i).values);
   }
   for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
     ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i));
-    ASSERT_EQ(a.temperatures(i).degC, b.temperatures(i).degC);
+    ASSERT_EQ(a.temperatures(i).values, b.temperatures(i).values);
   }
 }
 
@@ -283,7 +283,7 @@ TEST(McapRecording, severalThreadsReadAtOnce) {
       for (std::size_t i = t; i < 2600; i += 7) {
         const std::size_t k = (i * 977) % 2600;
         if (!(read.frame(k).values == profile.frame(k).values)) ++wrong[t];
-        if (read.angles(k / 2).deg != profile.angles(k / 2).deg) ++wrong[t];
+        if (read.angles(k / 2).values != profile.angles(k / 2).values) ++wrong[t];
       }
     });
   threads.clear();
@@ -378,7 +378,7 @@ TEST(McapRecording, jointStatesAreThoseOfTheUrdf) {
   McapWriteOptions options;
   options.compression = McapCompression::kNone;  // as the checker reads it
   McapLiveWriter writer(folder / "a.mcap", hand, {}, options);
-  writer.addAngles({1'000'000, {90.0}});
+  writer.addSample({1'000'000, {90.0}});
   writer.finish();
   runMcapPython(folder, R"(
 f = m.read(folder + 'a.mcap')
@@ -471,7 +471,7 @@ for name, chunk in ('loose', 0), ('chunks', 3):
     EXPECT_EQ(profile.frame(5).values, (std::vector<float>{2.0F, 304, 65535, 4, 2, 3, 4, 5, 255}));
     ASSERT_EQ(profile.numAngles(), 5u);
     EXPECT_EQ(profile.angleTimeUs(0), 1'000'000'000'000'007);
-    EXPECT_DOUBLE_EQ(profile.angles(2).deg[0], 180.0);
+    EXPECT_DOUBLE_EQ(profile.angles(2).values[0], 180.0);
     EXPECT_EQ(profile.hand().axes.at(1).name, "b");
     EXPECT_EQ(verifyRecording(folder / name).state, VerifyReport::State::kSound);
     EXPECT_TRUE(readEvents(folder / name).events.empty());
@@ -725,10 +725,10 @@ TEST(McapLiveWriter, whatIsFlushedCanBeReadBeforeTheEnd) {
   ASSERT_EQ(read.profile.numFrames(), 300u);
   EXPECT_EQ(read.profile.frame(299).values, profile.frame(299).values);
   EXPECT_EQ(read.profile.frame(297).filtered, profile.frame(297).filtered);
-  for (std::size_t i = 0; i < profile.numAngles(); ++i) writer.addAngles(profile.angles(i));
+  for (std::size_t i = 0; i < profile.numAngles(); ++i) writer.addSample(profile.angles(i));
   for (std::size_t i = 301; i < 400; ++i) writer.addFrame(profile.frame(i));
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
-    writer.addTemperatures(profile.temperatures(i));
+    writer.addSample(profile.temperatures(i));
   writer.finish();
   const Recording whole = readMcap(folder / "a.mcap");
   EXPECT_EQ(testing::dumped(whole.profile), testing::dumped(profile));
@@ -742,8 +742,8 @@ TEST(McapLiveWriter, refusesWhatDoesNotFitAndAddsNothing) {
   writer.addFrame(profile.frame(1));
   EXPECT_THROW(writer.addFrame(profile.frame(0)), std::invalid_argument);
   EXPECT_THROW(writer.addFrame(testing::sampleFrame(99)), std::invalid_argument);
-  writer.addAngles({1, {1.0, 2.0}});
-  EXPECT_THROW(writer.addAngles({2, {1.0}}), std::invalid_argument);
+  writer.addSample({1, {1.0, 2.0}});
+  EXPECT_THROW(writer.addSample({2, {1.0}}), std::invalid_argument);
   writer.finish();
   EXPECT_EQ(openRecording(folder / "a.mcap").numFrames(), 1u);
   EXPECT_THROW(McapLiveWriter(folder / "a.mcap", profile.hand(), {}), FileError);

@@ -33,7 +33,7 @@ inline void expectFrames(const std::filesystem::path& path,
     ASSERT_EQ(frame.values, expected.values) << i;
   }
   for (std::size_t i = 0; i < profile.numAngles(); ++i)
-    ASSERT_EQ(profile.angles(i).deg, sampleAngles(i).deg) << i;
+    ASSERT_EQ(profile.angles(i).values, sampleAngles(i).values) << i;
   const VerifyReport report = verifyRecording(path);
   EXPECT_EQ(report.state, VerifyReport::State::kSound) << report.message;
 }
@@ -67,7 +67,7 @@ inline RunResult record(const std::filesystem::path& path) {
       // The sample that the call brought is kept; those behind it in this round are still to come.
       for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
         try {
-          writer->addAngles(sampleAngles(k));
+          writer->addSample(sampleAngles(k));
         } catch (const std::invalid_argument&) {  // there already
         } catch (const FileError&) {
         }

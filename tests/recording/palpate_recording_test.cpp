@@ -80,13 +80,13 @@ TEST(PalpateRecording, anIndependentReaderFindsWhatWasWritten) {
   for (std::size_t i = 0; i < 1200; ++i) {
     put(sampleAngles(i).hostUs);
     put(std::int64_t{INT64_MIN});
-    for (double deg : sampleAngles(i).deg) put(deg);
+    for (double deg : sampleAngles(i).values) put(deg);
   }
   put(std::int64_t{10});
   for (std::size_t i = 0; i < 10; ++i) {
     put(sampleTemperatures(i).hostUs);
     put(std::int64_t{INT64_MIN});
-    for (double degC : sampleTemperatures(i).degC) put(degC);
+    for (double degC : sampleTemperatures(i).values) put(degC);
   }
   expectIndependentlyEqual(folder / "a.palpate", expected);
   EXPECT_TRUE(dumped(openRecording(folder / "a.palpate")) == expected);
@@ -169,7 +169,7 @@ TEST(PalpateRecording, randomAccessGivesWhatReadingInOrderGives) {
       ASSERT_EQ(frame.deviceUs, expected.deviceUs);
       ASSERT_EQ(profile.frameAt(expected.hostUs + 1), i);
       const std::size_t k = random() % 20000;
-      ASSERT_EQ(profile.angles(k).deg, sampleAngles(k).deg);
+      ASSERT_EQ(profile.angles(k).values, sampleAngles(k).values);
       ASSERT_EQ(profile.angleSampleAt(sampleAngles(k).hostUs), k);
     }
   };
@@ -274,9 +274,9 @@ TEST(PalpateRecording, theWriterRefusesWhatNoReaderCouldRead) {
   frame.hostUs = sampleFrame(2).hostUs;
   frame.values[5] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(writer.addFrame(frame), std::invalid_argument);
-  EXPECT_THROW(writer.addAngles({1, std::vector<double>(65)}), std::invalid_argument);
-  writer.addAngles({1, {1.0, 2.0}});
-  EXPECT_THROW(writer.addAngles({2, {1.0}}), std::invalid_argument);
+  EXPECT_THROW(writer.addSample({1, std::vector<double>(65)}), std::invalid_argument);
+  writer.addSample({1, {1.0, 2.0}});
+  EXPECT_THROW(writer.addSample({2, {1.0}}), std::invalid_argument);
   writer.addEvent({});
   EXPECT_THROW(writer.addEvent({0, 0, "", {}, std::string(kMaxEventBytes + 1, 'a'), ""}),
                std::invalid_argument);

@@ -30,23 +30,24 @@ inline TactileFrame sampleFrame(std::size_t i, bool floats = false) {
   }
   return frame;
 }
-inline JointAngles sampleAngles(std::size_t i) {
-  JointAngles angles;
+inline Sample sampleAngles(std::size_t i) {
+  Sample angles;
   angles.hostUs = kSampleStartUs + static_cast<std::int64_t>(i) * 9'000;
   for (int axis = 0; axis < 7; ++axis)
-    angles.deg.push_back(static_cast<double>(i) + 0.125 * axis + (i % 5 == 0 ? 0.1 : 0.0));
+    angles.values.push_back(static_cast<double>(i) + 0.125 * axis + (i % 5 == 0 ? 0.1 : 0.0));
   return angles;
 }
-inline Temperatures sampleTemperatures(std::size_t i) {
+inline Sample sampleTemperatures(std::size_t i) {
   return {kSampleStartUs + static_cast<std::int64_t>(i) * 1'000'000,
-          std::vector<double>(9, 20.0 + static_cast<double>(i))};
+          std::vector<double>(9, 20.0 + static_cast<double>(i)),
+          kTemperatures};
 }
 
 // Frames with their angles and temperatures.
 inline void addSamples(PalpateWriter& writer, std::size_t from, std::size_t to) {
   for (std::size_t i = from; i < to; ++i) {
-    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) writer.addAngles(sampleAngles(k));
-    if (i % 30 == 0) writer.addTemperatures(sampleTemperatures(i / 30));
+    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) writer.addSample(sampleAngles(k));
+    if (i % 30 == 0) writer.addSample(sampleTemperatures(i / 30));
     writer.addFrame(sampleFrame(i));
   }
 }
@@ -93,13 +94,13 @@ inline std::string dumped(const Profile& profile) {
   for (std::size_t i = 0; i < profile.numAngles(); ++i) {
     put(profile.angleTimeUs(i));
     put(std::int64_t{INT64_MIN});
-    for (double deg : profile.angles(i).deg) put(deg);
+    for (double deg : profile.angles(i).values) put(deg);
   }
   put(static_cast<std::int64_t>(profile.numTemperatures()));
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i) {
     put(profile.temperatureTimeUs(i));
     put(std::int64_t{INT64_MIN});
-    for (double degC : profile.temperatures(i).degC) put(degC);
+    for (double degC : profile.temperatures(i).values) put(degC);
   }
   return out;
 }

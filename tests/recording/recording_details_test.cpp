@@ -106,7 +106,7 @@ TEST(RecordingDetails, ofARecordingWithoutFrames) {
   const TemporaryFolder folder;
   {
     PalpateWriter writer(folder / "r.palpate", sdh2().layout);
-    writer.addAngles(sampleAngles(0));
+    writer.addSample(sampleAngles(0));
     writer.finish();
   }
   const RecordingDetails details = readDetails(folder / "r.palpate");

@@ -49,12 +49,12 @@ void expectSame(const Profile& expected, const Profile& found) {
   ASSERT_EQ(found.numAngles(), expected.numAngles());
   for (std::size_t i = 0; i < expected.numAngles(); ++i) {
     EXPECT_EQ(found.angleTimeUs(i), expected.angleTimeUs(i));
-    EXPECT_EQ(found.angles(i).deg, expected.angles(i).deg);
+    EXPECT_EQ(found.angles(i).values, expected.angles(i).values);
   }
   ASSERT_EQ(found.numTemperatures(), expected.numTemperatures());
   for (std::size_t i = 0; i < expected.numTemperatures(); ++i) {
     EXPECT_EQ(found.temperatureTimeUs(i), expected.temperatureTimeUs(i));
-    EXPECT_EQ(found.temperatures(i).degC, expected.temperatures(i).degC);
+    EXPECT_EQ(found.temperatures(i).values, expected.temperatures(i).values);
   }
 }
 
@@ -170,7 +170,7 @@ TEST(RecordingImport, PlotJugglersExport) {
             (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9.5F, 10, 11}));
   ASSERT_EQ(made.profile.numAngles(), 2u);
   EXPECT_EQ(made.profile.angleTimeUs(0), 1'700'000'000'015'000);
-  EXPECT_EQ(made.profile.angles(0).deg, (std::vector<double>{12.5, -3.0}));
+  EXPECT_EQ(made.profile.angles(0).values, (std::vector<double>{12.5, -3.0}));
   EXPECT_EQ(made.report.refused.total(), 0u);
 }
 
@@ -221,9 +221,9 @@ TEST(RecordingImport, UnitsAndScalesAreConverted) {
                                "1,2500,500,3.14159265358979323846,0.012,300\n",
                                hand);
   EXPECT_EQ(made.profile.frame(0).values, (std::vector<float>{2.5F, 0.5F}));
-  EXPECT_NEAR(made.profile.angles(0).deg[0], 180.0, 1e-12);
-  EXPECT_NEAR(made.profile.angles(0).deg[1], 12.0, 1e-12);
-  EXPECT_NEAR(made.profile.temperatures(0).degC[0], 26.85, 1e-12);
+  EXPECT_NEAR(made.profile.angles(0).values[0], 180.0, 1e-12);
+  EXPECT_NEAR(made.profile.angles(0).values[1], 12.0, 1e-12);
+  EXPECT_NEAR(made.profile.temperatures(0).values[0], 26.85, 1e-12);
   mapping.matrices = {{0, "p*", {0.5, -1.0, "N/cm2"}, false}};
   const auto scaled = importText(folder, "t,p0,p1\n1,4,2\n", hand, mapping);
   EXPECT_EQ(scaled.profile.frame(0).values, (std::vector<float>{10.0F, 0.0F}));
@@ -372,7 +372,7 @@ with h5py.File(folder + 'a.h5', 'w') as f:
         EXPECT_EQ(values[12 + k], static_cast<float>((i * 10 + k) % 89)) << name;
     }
     ASSERT_EQ(profile.numAngles(), 60u) << name;
-    EXPECT_NEAR(profile.angles(59).deg[1], 57.29577951308232, 1e-12);
+    EXPECT_NEAR(profile.angles(59).values[1], 57.29577951308232, 1e-12);
     EXPECT_EQ(profile.angleTimeUs(2), 1'700'000'000'017'000);
   }
 }

@@ -180,7 +180,7 @@ TEST(UnfinishedRecordings, anySampleOrNoteIsWorthRecovering) {
   }
   {
     PalpateWriter writer(folder / "angles.palpate", sdh2().layout);
-    writer.addAngles(sampleAngles(0));
+    writer.addSample(sampleAngles(0));
   }
   const Names names = namesIn(folder.path());
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()),
@@ -202,7 +202,7 @@ TEST(UnfinishedRecordings, whatIsSaidOfTheRecordingIsRecovered) {
                                                 {"sensor_serial", "1D9B0057"}};
   {
     PalpateWriter writer(in, sdh2().layout, said);
-    writer.addAngles(sampleAngles(0));
+    writer.addSample(sampleAngles(0));
   }
   EXPECT_EQ(recoverRecording(in, out).state, RecoverReport::State::kWhole);
   const std::map<std::string, std::string> kept = readRecordingMeta(out);

@@ -21,14 +21,13 @@ class DamagedStorage final : public ProfileStorage {
     if (first_ <= i && i <= last_) throw FormatError("x.palpate", "block 7 is damaged");
     source_.readFrame(i, out);
   }
-  std::size_t numAngles() const override { return source_.numAngles(); }
-  std::int64_t angleTimeUs(std::size_t i) const override { return source_.angleTimeUs(i); }
-  JointAngles angles(std::size_t i) const override { return source_.angles(i); }
-  std::size_t numTemperatures() const override { return source_.numTemperatures(); }
-  std::int64_t temperatureTimeUs(std::size_t i) const override {
-    return source_.temperatureTimeUs(i);
+  std::size_t numSamples(std::size_t series) const override { return source_.numSamples(series); }
+  std::int64_t sampleTimeUs(std::size_t series, std::size_t i) const override {
+    return source_.sampleTimeUs(series, i);
   }
-  Temperatures temperatures(std::size_t i) const override { return source_.temperatures(i); }
+  Sample sample(std::size_t series, std::size_t i) const override {
+    return source_.sample(series, i);
+  }
 
  private:
   Profile source_;

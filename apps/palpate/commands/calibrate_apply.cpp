@@ -53,12 +53,12 @@ void calibrateApplyAppendRow(std::string& line,
 // Copies joint angles and temperatures, so that the new recording is complete.
 void copyState(const Profile& profile, ProfileBuilder& builder) {
   for (std::size_t i = 0; i < profile.numAngles(); ++i) {
-    const JointAngles angles = profile.angles(i);
-    builder.addAngles(angles.hostUs, angles.deg);
+    const Sample angles = profile.angles(i);
+    builder.addAngles(angles.hostUs, angles.values);
   }
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i) {
-    const Temperatures temperatures = profile.temperatures(i);
-    builder.addTemperatures(temperatures.hostUs, temperatures.degC);
+    const Sample temperatures = profile.temperatures(i);
+    builder.addTemperatures(temperatures.hostUs, temperatures.values);
   }
 }
 

@@ -125,7 +125,7 @@ CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
 const PressureFrame& CalibratedFrames::of(const TactileFrame& frame) {
   std::vector<double> degC;
   if (const auto sample = profile_.temperatureSampleAt(frame.hostUs))
-    degC = profile_.temperatures(*sample).degC;
+    degC = profile_.temperatures(*sample).values;
   if (tare_) {
     tared_ = frame;
     applyTare(*tare_, tared_.values);

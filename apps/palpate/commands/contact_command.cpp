@@ -173,7 +173,7 @@ class PoseOfFrames {
     const std::size_t sample = profile_.angleSampleAt(hostUs).value();
     if (sample_ != sample) {
       sample_ = sample;
-      const std::vector<double> anglesDeg = profile_.angles(sample).deg;
+      const std::vector<double> anglesDeg = profile_.angles(sample).values;
       check_ = checkAngles(anglesDeg, profile_.hand().axes);
       if (check_.state != AngleValidity::kUnusable)
         geometry_.pose(anglesDeg, pose_);

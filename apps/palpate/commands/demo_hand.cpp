@@ -41,14 +41,11 @@ struct ReplayComparison : DeviceSink {
     same = same && i < profile.numFrames() && profile.frame(i).values == frame.values &&
            profile.frameTimeUs(i) == frame.hostUs;
   }
-  void onAngles(JointAngles&& sample) override {
-    const std::size_t i = angles++;
-    same = same && i < profile.numAngles() && profile.angles(i).deg == sample.deg &&
-           profile.angles(i).hostUs == sample.hostUs;
-  }
-  void onTemperatures(Temperatures&& sample) override {
-    const std::size_t i = temperatures++;
-    same = same && i < profile.numTemperatures() && profile.temperatures(i).degC == sample.degC;
+  void onSample(Sample&& sample) override {
+    const std::size_t i = (sample.series == kJointAngles ? angles : temperatures)++;
+    same = same && i < profile.numSamples(sample.series) &&
+           profile.sample(sample.series, i).values == sample.values &&
+           profile.sample(sample.series, i).hostUs == sample.hostUs;
   }
   void onEvent(Event&&) override {}
 

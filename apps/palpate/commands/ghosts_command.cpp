@@ -114,7 +114,7 @@ Profile lookedAtOver(double belowCounts,
   const SensorLayout& layout = profile.layout();
   if (!hand.file || !hand.file->characteristics || profile.numTemperatures() == 0 ||
       std::any_of(hand.matrices.begin(), hand.matrices.end(), [&](const MatrixDescription& matrix) {
-        return matrix.temperatureSensor.value_or(SIZE_MAX) >= profile.temperatures(0).degC.size();
+        return matrix.temperatureSensor.value_or(SIZE_MAX) >= profile.temperatures(0).values.size();
       }))
     throw FileError(file,
                     "--below needs the characteristics of the hand's taxels and the temperatures "
@@ -124,11 +124,11 @@ Profile lookedAtOver(double belowCounts,
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     profile.readFrame(i, frame);
-    const Temperatures temperatures = *profile.temperaturesAtFrame(i);
+    const Sample temperatures = *profile.temperaturesAtFrame(i);
     for (std::size_t m = 0; m < matrices.size(); ++m) {
       const auto threshold = static_cast<float>(
           noiseThresholdCounts(matrices[m],
-                               temperatures.degC[*hand.matrices[m].temperatureSensor],
+                               temperatures.values[*hand.matrices[m].temperatureSensor],
                                NoisyContactsOptions{}.noiseMultiple,
                                belowCounts));
       const std::size_t from = layout.offset(m);

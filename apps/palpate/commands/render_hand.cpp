@@ -106,7 +106,7 @@ gui::FramePictures::Paint handPainter(const CommandLine& given,
   for (std::size_t i = 0; i <= std::min(kLooks, span.count() - 1); ++i) {
     const std::size_t frame = span.first + (span.count() - 1) * i / kLooks;
     const auto angles = profile.anglesAtFrame(frame);
-    drawing.setMoment(profile.frame(frame), angles ? angles->deg : assumedDeg);
+    drawing.setMoment(profile.frame(frame), angles ? angles->values : assumedDeg);
     const auto extent = drawing.extent(options.look);
     seen.insert(seen.end(), extent.begin(), extent.end());
   }

@@ -227,8 +227,8 @@ int streamLinesOf(const CommandLine& given, StreamKind kind) {
   options.onResults = [&lines](const LiveResults& results) { lines.write(results, nullptr); };
   const HandDescription hand =
       describeHand(profile.layout(),
-                   profile.numAngles() > 0 ? profile.angles(0).deg.size() : 0,
-                   profile.numTemperatures() > 0 ? profile.temperatures(0).degC.size() : 0);
+                   profile.numAngles() > 0 ? profile.angles(0).values.size() : 0,
+                   profile.numTemperatures() > 0 ? profile.temperatures(0).values.size() : 0);
   ProcessingChain chain(streamedStages(nullptr, hand, streamCalibrationOf(given)),
                         std::move(options));
   Interruption interruption;

@@ -1,5 +1,5 @@
 // Bounded queues from a capture session to one consumer (the recorder, live processing): one for
-// tactile frames, one for motion data, one for events. They never make the device wait and never
+// tactile frames, one for the samples of series, one for events. They never make the device wait and never
 // drop an item silently.
 //
 // Items that don't fit are lost. An event of kind "gap" then covers exactly the lost time span:
@@ -23,23 +23,31 @@
 
 #include <palpate/core/bounded_queue.h>
 #include <palpate/model/event.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 #include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 
 // Frames are shared by all consumers and never changed.
 using SharedFrame = std::shared_ptr<const TactileFrame>;
-using CaptureItem = std::variant<SharedFrame, JointAngles, Temperatures, Event>;
+using CaptureItem = std::variant<SharedFrame, Sample, Event>;
 
-// The kind of an item, in the order of CaptureItem.
-enum class CaptureStream : std::uint8_t { kTactile, kAngles, kTemperatures, kEvents };
-constexpr std::size_t kCaptureStreams = 4;
+// What an item belongs to: frames, a series (1 + its index), events.
+enum class CaptureStream : std::uint8_t {
+  kTactile = 0,
+  kAngles = 1 + kJointAngles,
+  kTemperatures = 1 + palpate::kTemperatures,
+  kEvents = 1 + kMaxSeries
+};
+constexpr std::size_t kCaptureStreams = 2 + kMaxSeries;
 
 CaptureStream streamOf(const CaptureItem& item) noexcept;
+// The sample, if it is one of that series, otherwise null.
+const Sample* sampleOf(const CaptureItem& item, std::size_t series) noexcept;
 // Time stamp [us since 1970]; of an event its begin.
 std::int64_t stampOf(const CaptureItem& item) noexcept;
-// Order by stamps; at equal times events, temperatures, angles, then the frame they belong to.
+// Order by stamps; at equal times events, samples (the later series first), then the frame they
+// belong to.
 bool isEarlier(const CaptureItem& a, const CaptureItem& b) noexcept;
 
 // Consecutive lost items of one stream.
@@ -49,13 +57,18 @@ struct CaptureLoss {
   std::uint64_t count = 0;
 };
 // The loss as an event of kind "gap": text for the user, json {"stream", "lost", "reason"}.
-Event gapEvent(CaptureStream stream, const CaptureLoss& loss, std::string_view reason);
+// `series`: the names of all series; may be empty.
+Event gapEvent(CaptureStream stream,
+               const CaptureLoss& loss,
+               std::string_view reason,
+               const std::vector<std::string>& series = {});
 
 struct CaptureQueueOptions {
   // Capacity for frames: 27 s at 300 frames/s, 258 s at 31.7. An SDH-2's frame takes 2.1 kB: 17 MB
   // when full. An empty place takes 136 bytes.
   std::size_t tactileItems = 8192;
-  // Capacity for angles and temperatures: 73 s at 111/s; 0.2 kB each: 1.6 MB when full.
+  // Capacity for the samples of all series: 73 s at 111/s, 8 s at 1 kHz; 0.2 kB each: 1.6 MB when
+  // full.
   std::size_t motionItems = 8192;
   std::size_t eventItems = 1024;
   // True: the producer waits for room instead of losing items; only for a replay, which can wait.
@@ -63,6 +76,7 @@ struct CaptureQueueOptions {
   // A waiting consumer wakes when a queue contains this number of items; the recorder checks every
   // 80 ms in any case, every 100 ms without a recording.
   std::size_t wakeAtItems = 1;
+  std::vector<std::string> series;  // the names of all series, for gaps; may be empty
 };
 
 struct CaptureQueueStats {

@@ -83,8 +83,8 @@ class CaptureSession : private DeviceSink {
 
   // For the display: the newest item since the last call; null or empty when there is none.
   SharedFrame takeFrame();
-  std::optional<JointAngles> takeAngles();
-  std::optional<Temperatures> takeTemperatures();
+  std::optional<Sample> takeAngles();
+  std::optional<Sample> takeTemperatures();
   LatestValueStats screenStats() const { return screenFrame_.stats(); }
   // Events since the last call, at most the last 1000.
   std::vector<Event> takeEvents();
@@ -96,8 +96,7 @@ class CaptureSession : private DeviceSink {
 
  private:
   void onFrame(TactileFrame&& frame) override;
-  void onAngles(JointAngles&& angles) override;
-  void onTemperatures(Temperatures&& temperatures) override;
+  void onSample(Sample&& sample) override;
   void onEvent(Event&& event) override;
 
   void pass(const CaptureItem& item);
@@ -116,11 +115,11 @@ class CaptureSession : private DeviceSink {
   std::atomic<bool> started_ = false;
 
   LatestValue<SharedFrame> screenFrame_;
-  LatestValue<JointAngles> screenAngles_;
-  LatestValue<Temperatures> screenTemperatures_;
+  LatestValue<Sample> screenAngles_;
+  LatestValue<Sample> screenTemperatures_;
   mutable std::mutex shownMutex_;
   std::deque<Event> shown_;
-  std::optional<Temperatures> lastTemperatures_;
+  std::optional<Sample> lastTemperatures_;
 
   std::mutex feedsMutex_;
   std::vector<std::shared_ptr<CaptureQueue>> feeds_;

@@ -14,7 +14,7 @@
 #include <palpate/capture/capture_queue.h>
 #include <palpate/capture/recorder.h>
 #include <palpate/device/device.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 
 namespace palpate {
 
@@ -110,7 +110,7 @@ struct LinkInputs {
   CaptureQueueStats queues;
   RecorderStatus recorder;
   // The newest temperatures; empty before the first ones.
-  std::optional<Temperatures> temperatures;
+  std::optional<Sample> temperatures;
 };
 
 struct LinkHealth {

@@ -98,6 +98,7 @@ struct RecordingReport {
   std::int64_t frames = 0;
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
+  std::int64_t samples = 0;  // of other series
   std::int64_t events = 0;
   // Number of received items that are missing in the recording because a queue overflowed or
   // the disk failed; gap events say which. Of a recording that could not be finished, the frames
@@ -153,6 +154,7 @@ struct RecorderStatus {
   std::int64_t frames = 0;
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
+  std::int64_t samples = 0;  // of other series
   double elapsedS = 0.0;  // since the start, or since the contact that began it [s]
   // Stamps of the first and the newest recorded frame [us since 1970]; 0: there is none yet.
   std::int64_t firstFrameUs = 0;

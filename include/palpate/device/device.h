@@ -12,7 +12,7 @@
 #include <palpate/device/port_probe.h>
 #include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 #include <palpate/model/tactile_frame.h>
 
 namespace palpate {
@@ -38,8 +38,7 @@ class DeviceSink {
  public:
   virtual ~DeviceSink() = default;
   virtual void onFrame(TactileFrame&& frame) = 0;
-  virtual void onAngles(JointAngles&& angles) = 0;
-  virtual void onTemperatures(Temperatures&& temperatures) = 0;
+  virtual void onSample(Sample&& sample) = 0;
   virtual void onEvent(Event&& event) = 0;
 };
 

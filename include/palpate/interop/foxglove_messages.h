@@ -66,7 +66,7 @@ class FoxgloveMessages {
                            std::uint64_t sequence,
                            const LinkHealth* link) const;
   // foxglove.JointStates; position in rad or m.
-  std::string joints(const JointAngles& angles) const;
+  std::string joints(const Sample& angles) const;
   // foxglove.Log: a warning for gaps, faults and alarms, information otherwise.
   std::string event(const Event& event) const;
 

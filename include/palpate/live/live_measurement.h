@@ -73,8 +73,8 @@ class LiveMeasurement {
 
  private:
   void addFrame(const TactileFrame& frame);
-  void addAngles(const JointAngles& angles);
-  void addTemperatures(const Temperatures& temperatures);
+  void addAngles(const Sample& angles);
+  void addTemperatures(const Sample& temperatures);
   void addEvent(const Event& event);
 
   const LiveMeasurementOptions options_;

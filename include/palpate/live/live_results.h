@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <palpate/capture/capture_queue.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 #include <palpate/model/tactile_frame.h>
 #include <palpate/signals/characteristic_signals.h>
 #include <palpate/slip/slip_detector.h>
@@ -23,8 +23,8 @@ struct LiveResults {
   // The unfiltered frame where filters are on, else null. Saturation must be checked here.
   SharedFrame unfiltered;
   // The last samples at or before the frame; empty before the first one.
-  std::optional<JointAngles> angles;
-  std::optional<Temperatures> temperatures;
+  std::optional<Sample> angles;
+  std::optional<Sample> temperatures;
   // Signals of each matrix and of all matrices together, from SignalsStage.
   std::vector<CharacteristicSignals> matrixSignals;
   CharacteristicSignals wholeSignals;

@@ -90,8 +90,8 @@ class ProcessingChain {
   std::shared_ptr<CaptureQueue> queue_;
   std::vector<CaptureItem> items_;  // held back
   std::vector<Event> found_;
-  std::optional<JointAngles> angles_;
-  std::optional<Temperatures> temperatures_;
+  std::optional<Sample> angles_;
+  std::optional<Sample> temperatures_;
   LatestValue<LiveResults> newest_;
 
   mutable std::mutex mutex_;

@@ -6,7 +6,7 @@
 
 #include <palpate/live/live_results.h>
 #include <palpate/model/event.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 
 namespace palpate {
 
@@ -21,8 +21,7 @@ class Stage {
   // `results` contains the frame and the results of earlier stages; events found by this stage (a
   // slip, a grasp) are appended to `out`.
   virtual void onFrame(LiveResults& results, std::vector<Event>& out) = 0;
-  virtual void onAngles(const JointAngles&) {}
-  virtual void onTemperatures(const Temperatures&) {}
+  virtual void onSample(const Sample&) {}
   // An event of the source, such as "gap" (frames are missing) or "settings" (the meaning of the
   // counts has changed).
   virtual void onEvent(const Event&) {}

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <palpate/model/matrix_layout.h>
+#include <palpate/model/series.h>
 
 namespace palpate {
 
@@ -34,7 +35,7 @@ struct MatrixDescription {
 };
 
 // Name and limits of one axis. Lengths take the place of angles where the axis slides: `Deg` in a
-// name then means millimetres, here and in JointAngles (isSliding).
+// name then means millimetres, here and in Sample (isSliding).
 struct AxisDescription {
   std::string name;         // "finger 1 proximal"
   double minimumDeg = 0.0;  // range of motion [deg]
@@ -98,6 +99,10 @@ bool sameSizes(const SensorLayout& a, const SensorLayout& b);
 HandDescription withSeriesOf(HandDescription hand,
                              std::size_t numAxes,
                              std::size_t numTemperatureSensors);
+
+// The series of the hand itself: kJointAngles with a column per axis, kTemperatures with one per
+// sensor.
+std::vector<SeriesDescription> seriesOf(const HandDescription& hand);
 
 // The sizes of the matrices, equal ones counted: "3 x 14x6, 3 x 13x6" (rows x columns).
 std::string sizesText(const SensorLayout& layout);

@@ -19,7 +19,7 @@ struct HandJoint {
   double factor = 1.0;
   double offset = 0.0;
 
-  // The value for angles of the axes (JointAngles::deg) [rad, sliding: m]; that of an axis which is
+  // The value for angles of the axes (Sample::deg) [rad, sliding: m]; that of an axis which is
   // missing in `angles` counts as 0.
   double valueSi(std::span<const double> angles) const;
 };

@@ -1,7 +1,6 @@
 // The samples of a profile, and events beside them, one after the other in order of time.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,17 +15,20 @@ namespace palpate {
 
 class InTimeOrder {
  public:
-  // Of equal times the first of these comes first: a frame has what was measured up to it.
-  enum class Kind : std::size_t { kEvent, kTemperatures, kAngles, kFrame };
+  // Of equal times the first of these comes first, and the later series before the earlier one: a
+  // frame has what was measured up to it.
+  enum class Kind : std::uint8_t { kEvent, kSample, kFrame };
   struct Item {
     Kind kind{};
-    std::size_t index = 0;    // among those of its kind
+    std::size_t series = 0;   // of a sample
+    std::size_t index = 0;    // among those of its kind and series
     std::int64_t timeUs = 0;  // [us since 1970]
     bool operator==(const Item&) const = default;
   };
 
   // Events keep their order: one that is earlier than that before it comes right after it.
-  InTimeOrder(Profile profile, std::span<const Event> events) : profile_(std::move(profile)) {
+  InTimeOrder(Profile profile, std::span<const Event> events)
+      : profile_(std::move(profile)), samplesTaken_(profile_.series().size()) {
     for (const Event& event : events) eventTimesUs_.push_back(event.tUs);
   }
 
@@ -37,7 +39,9 @@ class InTimeOrder {
  private:
   Profile profile_;
   std::vector<std::int64_t> eventTimesUs_;
-  std::array<std::size_t, 4> taken_{};  // by Kind
+  std::size_t eventsTaken_ = 0;
+  std::size_t framesTaken_ = 0;
+  std::vector<std::size_t> samplesTaken_;  // by series
 };
 
 }  // namespace palpate

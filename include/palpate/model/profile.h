@@ -1,7 +1,8 @@
-// A profile is the data of one recording: tactile frames, joint angles and temperatures, read-only
-// and with random access. The three time series are independent and have their own time stamps. No
-// sampling rate is assumed, since gaps of minutes occur. Data never changes after recording: a crop
-// is a new profile. Readers make profiles; filters, signals, playback and the window read them.
+// A profile is the data of one recording: tactile frames and any number of series (joint angles,
+// temperatures, a load cell, ..), read-only and with random access. Frames and series are
+// independent and have their own time stamps. No sampling rate is assumed, since gaps of minutes
+// occur. Data never changes after recording: a crop is a new profile. Readers make profiles;
+// filters, signals, playback and the window read them.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +10,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <palpate/model/hand_description.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 #include <palpate/model/tactile_frame.h>
 
 namespace palpate {
@@ -52,9 +54,9 @@ struct UnreadableSamples {
 // Access to the data of a profile in memory or in a file. Profile checks the indices before it
 // calls. Const member functions must be safe to call from several threads at once.
 //
-// Damage to a part of a file costs the samples in it and nothing else: frame, angles and
-// temperatures that can't be read throw Error, their times don't. Where a time is lost, too, it is
-// estimated, so that times always ascend.
+// Damage to a part of a file costs the samples in it and nothing else: frames and samples that
+// can't be read throw Error, their times don't. Where a time is lost, too, it is estimated, so that
+// times always ascend.
 class ProfileStorage {
  public:
   virtual ~ProfileStorage() = default;
@@ -62,18 +64,15 @@ class ProfileStorage {
   virtual std::int64_t frameTimeUs(std::size_t frame) const = 0;
   // Writes layout.numCells() values and the device time into `out`.
   virtual void readFrame(std::size_t frame, TactileFrame& out) const = 0;
-  virtual std::size_t numAngles() const = 0;
-  virtual std::int64_t angleTimeUs(std::size_t sample) const = 0;
-  virtual JointAngles angles(std::size_t sample) const = 0;
-  virtual std::size_t numTemperatures() const = 0;
-  virtual std::int64_t temperatureTimeUs(std::size_t sample) const = 0;
-  virtual Temperatures temperatures(std::size_t sample) const = 0;
+  // Of a series: the index is one of Profile::series().
+  virtual std::size_t numSamples(std::size_t series) const = 0;
+  virtual std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const = 0;
+  virtual Sample sample(std::size_t series, std::size_t sample) const = 0;
   // The last sample at or before a time, the first one before all; empty without samples. These
   // search over the times. A storage that knows the times of whole parts of its file searches over
   // those first, and reads only the part in which the sample lies.
   virtual std::optional<std::size_t> frameAt(std::int64_t timeUs) const;
-  virtual std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const;
-  virtual std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const;
+  virtual std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const;
 };
 
 // A handle to shared, read-only data; cheap to copy. Const member functions may be called from
@@ -82,7 +81,12 @@ class ProfileStorage {
 // ProfileStorage.
 class Profile {
  public:
-  Profile(ProfileInfo info, HandDescription hand, std::shared_ptr<const ProfileStorage> storage);
+  // `further`: the series that follow those of the hand. Throws std::invalid_argument where one is
+  // not valid or two have the same name.
+  Profile(ProfileInfo info,
+          HandDescription hand,
+          std::shared_ptr<const ProfileStorage> storage,
+          std::vector<SeriesDescription> further = {});
 
   const ProfileInfo& info() const noexcept { return data_->info; }
   const HandDescription& hand() const noexcept { return data_->hand; }
@@ -97,24 +101,41 @@ class Profile {
   // be read is added to it, and false returned; only the time in `out` is valid then.
   bool readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples* unreadable) const;
 
-  std::size_t numAngles() const { return data_->storage->numAngles(); }
-  std::int64_t angleTimeUs(std::size_t sample) const;
-  JointAngles angles(std::size_t sample) const;
-
-  std::size_t numTemperatures() const { return data_->storage->numTemperatures(); }
-  std::int64_t temperatureTimeUs(std::size_t sample) const;
-  Temperatures temperatures(std::size_t sample) const;
+  // All series: first those of the hand (kJointAngles, kTemperatures), whose columns are its axes
+  // and sensors.
+  const std::vector<SeriesDescription>& series() const noexcept { return data_->series; }
+  // The series with samples of a name; empty if there is none.
+  std::optional<std::size_t> seriesNamed(std::string_view name) const;
+  std::size_t numSamples(std::size_t series) const;
+  std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const;
+  Sample sample(std::size_t series, std::size_t sample) const;
+  // The same for the series of the hand.
+  std::size_t numAngles() const { return numSamples(kJointAngles); }
+  std::int64_t angleTimeUs(std::size_t i) const { return sampleTimeUs(kJointAngles, i); }
+  Sample angles(std::size_t i) const { return sample(kJointAngles, i); }
+  std::size_t numTemperatures() const { return numSamples(kTemperatures); }
+  std::int64_t temperatureTimeUs(std::size_t i) const { return sampleTimeUs(kTemperatures, i); }
+  Sample temperatures(std::size_t i) const { return sample(kTemperatures, i); }
 
   // Index of the last frame at or before a time, clamped to the first and the last frame; empty
   // when the profile has no frames.
   std::optional<std::size_t> frameAt(std::int64_t timeUs) const;
-  // Sample of the angles or temperatures that belongs to a time or a frame: the last sample at or
-  // before it; the first sample when the time is earlier than all samples; empty when there are no
-  // samples.
-  std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const;
-  std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const;
-  std::optional<JointAngles> anglesAtFrame(std::size_t frame) const;
-  std::optional<Temperatures> temperaturesAtFrame(std::size_t frame) const;
+  // The sample of a series that belongs to a time or a frame: the last one at or before it; the
+  // first one when the time is earlier than all samples; empty when there are no samples.
+  std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const;
+  std::optional<Sample> sampleAtFrame(std::size_t series, std::size_t frame) const;
+  std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const {
+    return sampleAt(kJointAngles, timeUs);
+  }
+  std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const {
+    return sampleAt(kTemperatures, timeUs);
+  }
+  std::optional<Sample> anglesAtFrame(std::size_t frame) const {
+    return sampleAtFrame(kJointAngles, frame);
+  }
+  std::optional<Sample> temperaturesAtFrame(std::size_t frame) const {
+    return sampleAtFrame(kTemperatures, frame);
+  }
 
   // Time from the first to the last frame [us]; 0 with fewer than two.
   std::int64_t durationUs() const;
@@ -124,6 +145,7 @@ class Profile {
     ProfileInfo info;
     HandDescription hand;
     std::shared_ptr<const ProfileStorage> storage;
+    std::vector<SeriesDescription> series;
   };
   std::shared_ptr<const Data> data_;
 };

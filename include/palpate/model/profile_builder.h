@@ -21,25 +21,44 @@ class ProfileBuilder {
   ~ProfileBuilder();
   ProfileBuilder(ProfileBuilder&&) noexcept;
 
+  // Adds a series beside those of the hand and returns its index. Throws std::invalid_argument as
+  // validate() does, or when another one has its name.
+  std::size_t addSeries(SeriesDescription description);
+
   // The functions below append one sample. Its time [us since 1970] must be later than that of the
-  // previous sample of the series. The number of values must be that of the layout (frames) or of
-  // the first sample (angles, temperatures), and values must be finite. They throw
-  // std::invalid_argument that names the violated rule.
+  // previous one. The number of values must be that of the layout (frames), of the series'
+  // description, or of its first sample (angles, temperatures). Values must be finite; those of a
+  // series beside the hand's may be NaN. They throw std::invalid_argument that names the violated
+  // rule.
   void addFrame(std::int64_t hostUs,
                 std::span<const float> values,
                 std::optional<std::int64_t> deviceUs = {});
   // Appends a frame of another profile with its filtered values, if any.
   void addFrame(const TactileFrame& frame);
-  void addAngles(std::int64_t hostUs, std::span<const double> deg);
-  void addTemperatures(std::int64_t hostUs, std::span<const double> degC);
+  void addSample(std::size_t series,
+                 std::int64_t hostUs,
+                 std::span<const double> values,
+                 std::optional<std::int64_t> deviceUs = {});
+  void addSample(const Sample& sample) {
+    addSample(sample.series, sample.hostUs, sample.values, sample.deviceUs);
+  }
+  void addAngles(std::int64_t hostUs, std::span<const double> deg) {
+    addSample(kJointAngles, hostUs, deg);
+  }
+  void addTemperatures(std::int64_t hostUs, std::span<const double> degC) {
+    addSample(kTemperatures, hostUs, degC);
+  }
 
   std::size_t numFrames() const noexcept;
-  std::size_t numAngles() const noexcept;
-  std::size_t numTemperatures() const noexcept;
-  // Time stamp of the last sample of each series [us since 1970]; empty before the first sample.
+  std::size_t numSamples(std::size_t series) const;
+  std::size_t numAngles() const { return numSamples(kJointAngles); }
+  std::size_t numTemperatures() const { return numSamples(kTemperatures); }
+  // Time stamp of the last frame, and of the last sample of a series [us since 1970]; empty before
+  // the first one.
   std::optional<std::int64_t> lastFrameUs() const noexcept;
-  std::optional<std::int64_t> lastAngleUs() const noexcept;
-  std::optional<std::int64_t> lastTemperatureUs() const noexcept;
+  std::optional<std::int64_t> lastSampleUs(std::size_t series) const;
+  std::optional<std::int64_t> lastAngleUs() const { return lastSampleUs(kJointAngles); }
+  std::optional<std::int64_t> lastTemperatureUs() const { return lastSampleUs(kTemperatures); }
 
   // Returns the profile and leaves the builder empty. Sets info.valueType from the data.
   Profile finish(ProfileInfo info);

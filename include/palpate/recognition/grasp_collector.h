@@ -17,7 +17,7 @@
 
 #include <palpate/model/gap_detector.h>
 #include <palpate/model/hand_description.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 #include <palpate/model/profile.h>
 #include <palpate/recognition/grasp_features.h>
 
@@ -47,7 +47,7 @@ class GraspCollector {
   // Adds a frame or joint angles, in order of time. A frame that is not later than the last one is
   // ignored, and so is one of another size; the same holds for angles.
   void addFrame(std::shared_ptr<const TactileFrame> frame);
-  void addAngles(JointAngles angles);
+  void addAngles(Sample angles);
   // Forgets the present contact: earlier frames are not combined with later ones.
   void reset();
 
@@ -74,7 +74,7 @@ class GraspCollector {
   GapDetector gaps_;
   // From before the contact on.
   std::deque<std::shared_ptr<const TactileFrame>> frames_;
-  std::deque<JointAngles> angles_;
+  std::deque<Sample> angles_;
   // Number of frames since the contact began, bridged ones included; 0: no contact.
   std::size_t contactFrames_ = 0;
   // Number of frames without contact since the last one with contact.

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <palpate/model/series.h>
+
 namespace palpate {
 
 // Where the content of an exported file comes from. Each text may be empty: not known, or none.
@@ -25,11 +27,6 @@ struct Provenance {
 // of a day's frames is never in memory as a whole.
 class ExportedSeries {
  public:
-  struct Column {
-    std::string name;  // "m0/mean", "m2/slip/dx"
-    std::string unit;  // "counts", "kPa", "deg", "taxels"; empty: a number without unit
-  };
-
   virtual ~ExportedSeries() = default;
   // The group it belongs to: "signals", "slip".
   virtual const std::string& name() const = 0;

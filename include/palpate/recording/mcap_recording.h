@@ -76,8 +76,7 @@ class McapLiveWriter {
   // and nothing more can be added. Throw std::invalid_argument (a frame of another layout, stamps
   // that don't ascend): nothing was added.
   void addFrame(const TactileFrame& frame);
-  void addAngles(const JointAngles& angles);
-  void addTemperatures(const Temperatures& temperatures);
+  void addSample(const Sample& sample);
   void addEvent(const Event& event);
   // Writes what waits for its chunk. Throws FileError, also when the file is no longer found under
   // its name.

@@ -26,8 +26,10 @@ class BlockPacker {
   void addFrame(std::int64_t hostUs,
                 std::optional<std::int64_t> deviceUs,
                 std::span<const float> values);
-  // Adds a sample of joint angles [deg] or temperatures [deg C].
-  void addSample(std::int64_t hostUs, std::span<const double> values);
+  // Adds a sample of a series.
+  void addSample(std::int64_t hostUs,
+                 std::span<const double> values,
+                 std::optional<std::int64_t> deviceUs = {});
   // Adds a frame together with what filters gave beside its values (TactileFrame::filtered).
   void addFrame(const TactileFrame& frame);
   // Hands over what is gathered; does nothing when there is nothing.
@@ -49,13 +51,13 @@ class BlockPacker {
 // Whether the fields of a block make sense. It is asked before the data is looked at.
 bool plausible(const Block& block) noexcept;
 
-// The number of values per sample of a block of angles or temperatures; 0 where the size of the
-// block makes no sense.
+// The number of values per sample of a block of a series; 0 where the size of the block makes no
+// sense.
 std::size_t sampleWidth(const Block& block) noexcept;
 
 // The stamps of the items of a block [us since 1970], and where the values of each begin in its
-// data. `numValues` is the number of values per item: places of the layout, axes, or temperature
-// sensors. indexBlock() returns false when the data is not what the fields say; it never throws on
+// data. `numValues` is the number of values per item: places of the layout, or columns of
+// the series. indexBlock() returns false when the data is not what the fields say; it never throws on
 // damaged data.
 struct BlockIndex {
   std::vector<std::int64_t> hostUs;

@@ -1,12 +1,12 @@
 // The native recording `*.palpate`: one SQLite 3 file (docs/palpate_format.md). What writer, reader
 // and recovery agree on: names, codings, checksums, the bytes of a block.
 //
-// A block holds consecutive items of one stream: frames, samples of joint angles, or samples of
-// temperatures. Its data is, per item and little-endian:
+// A block holds consecutive items of one stream: frames, or samples of one series. Its data is, per
+// item and little-endian:
 //   u32 host time offset from the block's t0_us [us] | i64 device time [ms or us] | values
 // A device time of INT64_MIN stands for none. The values of a frame are run-length coded
-// (model/frame_coding.h). An angle or a temperature is one number: f32 where all numbers of the
-// sample are exact in it, f64 otherwise.
+// (model/frame_coding.h). The values of a sample are f32 where all of them are exact in it, f64
+// otherwise.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +23,9 @@ constexpr std::int32_t kPalpateApplicationId = 0x50414C50;  // "PALP"
 constexpr std::int32_t kPalpateVersion = 1;                 // user_version
 // The user_version of a file that has blocks with device times in microseconds.
 constexpr std::int32_t kPalpateVersionWithDeviceUs = 2;
+// The user_version of a file with series beside those of the hand (table `series`), or with taxels
+// whose touch is decided when they are read (table `touch`).
+constexpr std::int32_t kPalpateVersionWithSeries = 3;
 // The most bytes of data in a block of several items. Its row then never overflows its 4096-byte
 // page of SQLite, so that recovery finds it in the raw bytes of the page.
 constexpr std::size_t kMaxBlockBytes = 4000;
@@ -30,10 +33,17 @@ constexpr std::size_t kMaxBlockBytes = 4000;
 // Bounds of what is read, so that a hostile file costs little time and memory.
 constexpr std::size_t kMaxMatrices = 64;
 constexpr std::size_t kMaxPlaces = 65'536;    // of all matrices together
-constexpr std::size_t kMaxSampleValues = 64;  // axes or temperature sensors
+constexpr std::size_t kMaxSampleValues = kMaxColumns;  // of a series
+constexpr std::size_t kMaxStreams = 1 + kMaxSeries;
 
-// What a block holds items of; the number stands in the file.
+// What a block holds items of; the number stands in the file. 0 is the frames, others are series.
 enum class Stream : std::uint8_t { kTactile = 0, kAngles = 1, kTemperatures = 2 };
+constexpr Stream streamOfSeries(std::size_t series) noexcept {
+  return static_cast<Stream>(series + 1);
+}
+constexpr std::size_t seriesOfStream(Stream stream) noexcept {
+  return static_cast<std::size_t>(stream) - 1;
+}
 
 // How the values of a block are coded; the number stands in the file.
 enum class BlockCoding : std::uint8_t {

@@ -15,7 +15,7 @@
 #include <palpate/core/progress.h>
 #include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/tactile_frame.h>
 
@@ -48,15 +48,18 @@ class PalpateWriter {
   PalpateWriter(const PalpateWriter&) = delete;
   PalpateWriter& operator=(const PalpateWriter&) = delete;
 
+  // Adds a series beside those of the hand; before or between samples. Returns its index. Throws
+  // std::invalid_argument (not valid, a name that is there already).
+  std::size_t addSeries(const SeriesDescription& description);
+
   // Each appends in order of time and commits when the interval has passed since the last commit.
-  // Throw std::invalid_argument (wrong size, not finite, time not later than before): nothing was
+  // Throw std::invalid_argument (wrong size, not finite, no such series, time not later than before): nothing was
   // added. Throw FileError (the disk is full, ..): what was committed before is safe; later
   // samples, also that of this call, are kept in memory, and the next commit that is due writes
   // them. Only when kMaxPendingBytes are kept does a call refuse its sample: pendingFull() is then
   // true.
   void addFrame(const TactileFrame& frame);
-  void addAngles(const JointAngles& angles);
-  void addTemperatures(const Temperatures& temperatures);
+  void addSample(const Sample& sample);
   void addEvent(const Event& event);
   void setCounter(const std::string& name, std::int64_t value);
 

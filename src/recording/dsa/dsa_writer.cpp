@@ -225,7 +225,7 @@ class Writer {
     for (std::size_t i = 0; i < profile_.numTemperatures(); ++i) {
       beginSample("temp", i, profile_.temperatureTimeUs(i));
       text_ += "      <temp_data>";
-      addNumbers(text_, profile_.temperatures(i).degC, 2);
+      addNumbers(text_, profile_.temperatures(i).values, 2);
       text_ += "</temp_data>\n";
       endSample("temp");
     }
@@ -238,7 +238,7 @@ class Writer {
     for (std::size_t i = 0; i < profile_.numAngles(); ++i) {
       beginSample("angle", i, profile_.angleTimeUs(i));
       text_ += "      <angle_data>";
-      addNumbers(text_, profile_.angles(i).deg, 5);
+      addNumbers(text_, profile_.angles(i).values, 5);
       text_ += "</angle_data>\n";
       endSample("angle");
     }

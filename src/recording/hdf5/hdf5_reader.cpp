@@ -383,28 +383,18 @@ class Hdf5Storage final : public ProfileStorage {
         if (block->kept[m][at * cells + k] == 0) out.values[layout_.offset(m) + k] = 0.0F;
     }
   }
-  std::size_t numAngles() const override { return angles_.timesUs().size(); }
-  std::int64_t angleTimeUs(std::size_t sample) const override {
-    return angles_.timesUs().at(sample);
+  std::size_t numSamples(std::size_t series) const override { return of(series).timesUs().size(); }
+  std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const override {
+    return of(series).timesUs().at(sample);
   }
-  JointAngles angles(std::size_t sample) const override {
-    return {angles_.timesUs().at(sample), angles_.row(sample)};
-  }
-  std::size_t numTemperatures() const override { return temperatures_.timesUs().size(); }
-  std::int64_t temperatureTimeUs(std::size_t sample) const override {
-    return temperatures_.timesUs().at(sample);
-  }
-  Temperatures temperatures(std::size_t sample) const override {
-    return {temperatures_.timesUs().at(sample), temperatures_.row(sample)};
+  Sample sample(std::size_t series, std::size_t sample) const override {
+    return {of(series).timesUs().at(sample), of(series).row(sample), series};
   }
   std::optional<std::size_t> frameAt(std::int64_t timeUs) const override {
     return timesUs_.indexAt(timeUs);
   }
-  std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const override {
-    return angles_.timesUs().indexAt(timeUs);
-  }
-  std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const override {
-    return temperatures_.timesUs().indexAt(timeUs);
+  std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const override {
+    return of(series).timesUs().indexAt(timeUs);
   }
 
  private:
@@ -417,6 +407,9 @@ class Hdf5Storage final : public ProfileStorage {
     std::vector<std::vector<std::uint8_t>> kept;
   };
 
+  const SampleSeries& of(std::size_t series) const {
+    return series == kJointAngles ? angles_ : temperatures_;
+  }
   std::vector<std::uint64_t> shapeOf(std::size_t m) const {
     return {timesUs_.size(),
             static_cast<std::uint64_t>(layout_.matrix(m).rows),

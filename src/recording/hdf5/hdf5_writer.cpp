@@ -99,8 +99,8 @@ class Hdf5Writer {
       makeGroup("joints");
       makeGroup("temperatures");
     }
-    writeSamples("joints", "angles", writtenAngles(profile_));
-    writeSamples("temperatures", "values", writtenTemperatures(profile_));
+    writeSamples("joints", "angles", writtenSamples(profile_, kJointAngles));
+    writeSamples("temperatures", "values", writtenSamples(profile_, kTemperatures));
     writeFrames();
     work_.finishAll();
     writeVersion();

@@ -277,8 +277,7 @@ void ImportRows::add(const TableSource& source,
   for (std::size_t i = 0; i < series.values.size(); ++i)
     if (series.values[i].target) sample_[*series.values[i].target] = valueAt(i);
   ++(isAngles ? report_.angles : report_.temperatures);
-  if (isAngles && sink_.angles) sink_.angles({us, sample_});
-  if (!isAngles && sink_.temperatures) sink_.temperatures({us, sample_});
+  if (sink_.sample) sink_.sample({us, sample_, isAngles ? kJointAngles : kTemperatures});
 }
 
 bool ImportRows::examineAll(const TableSource& source, const Pass& pass, const TableRow& row) {

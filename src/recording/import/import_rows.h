@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "palpate/model/gap_detector.h"
-#include "palpate/model/hand_state.h"
+#include "palpate/model/series.h"
 #include "palpate/model/tactile_frame.h"
 #include "palpate/recording/recording_import.h"
 
@@ -18,8 +18,7 @@ namespace palpate {
 // Receives the samples in order; functions may be empty.
 struct ImportSink {
   std::function<void(const TactileFrame&)> frame;
-  std::function<void(const JointAngles&)> angles;
-  std::function<void(const Temperatures&)> temperatures;
+  std::function<void(const Sample&)> sample;
 };
 
 class ImportRows {

@@ -147,8 +147,7 @@ ImportReport importRecording(const fs::path& data,
           if (firstUs == 0) firstUs = frame.hostUs;
           writer.addFrame(frame);
         };
-        sink.angles = [&](const JointAngles& angles) { writer.addAngles(angles); };
-        sink.temperatures = [&](const Temperatures& each) { writer.addTemperatures(each); };
+        sink.sample = [&](const Sample& sample) { writer.addSample(sample); };
         ImportRows rows(hand, mapping, plan, options.strict, std::move(sink));
         rows.run(*source, UINT64_MAX, progress);
         report = rows.report();

@@ -213,11 +213,13 @@ class ForeignStorage final : public ProfileStorage {
     out.filtered.clear();
     out.values = values_;
   }
-  std::size_t numAngles() const override { return angles_.size(); }
-  std::int64_t angleTimeUs(std::size_t sample) const override {
+  std::size_t numSamples(std::size_t series) const override {
+    return series == kJointAngles ? angles_.size() : 0;
+  }
+  std::int64_t sampleTimeUs(std::size_t, std::size_t sample) const override {
     return places_[angles_[sample]].timeUs;
   }
-  JointAngles angles(std::size_t sample) const override {
+  Sample sample(std::size_t series, std::size_t sample) const override {
     const std::lock_guard lock(mutex_);
     std::vector<std::uint32_t> latest;  // of each set of joints
     for (const std::vector<std::uint32_t>& set : joints_) {
@@ -225,13 +227,10 @@ class ForeignStorage final : public ProfileStorage {
       if (behind != set.begin()) latest.push_back(*std::prev(behind));
     }
     std::sort(latest.begin(), latest.end());
-    JointAngles result{angleTimeUs(sample), std::vector<double>(columns_.unitsPerSi.size())};
-    for (const std::uint32_t at : latest) takeAngles(places_[at], result.deg);
+    Sample result{sampleTimeUs(series, sample), std::vector<double>(columns_.unitsPerSi.size())};
+    for (const std::uint32_t at : latest) takeAngles(places_[at], result.values);
     return result;
   }
-  std::size_t numTemperatures() const override { return 0; }
-  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
-  Temperatures temperatures(std::size_t) const override { return {}; }
 
  private:
   [[noreturn]] void throwChanged() const {

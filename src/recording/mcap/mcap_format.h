@@ -45,6 +45,7 @@ constexpr const char* kHandUrdf = "hand.urdf";
 constexpr const char* kFrames = "/palpate/frames";
 constexpr const char* kAngles = "/palpate/angles";
 constexpr const char* kTemperatures = "/palpate/temperatures";
+constexpr const char* kSeries = "/palpate/series/";  // then the name of a further series
 constexpr const char* kEvents = "/palpate/events";
 constexpr const char* kJointStates = "/joint_states";
 constexpr const char* kLog = "/events";

@@ -509,26 +509,24 @@ class McapStorage final : public ProfileStorage {
     for (std::size_t k = 0; k < cells; ++k)
       if ((kept[k / 8] >> k % 8 & 1) == 0) out.values[k] = 0.0F;
   }
-  std::size_t numAngles() const override { return angles_.timesUs.size(); }
-  std::int64_t angleTimeUs(std::size_t sample) const override { return angles_.timesUs[sample]; }
-  JointAngles angles(std::size_t sample) const override {
-    const std::size_t piece = angles_.pieceOf(sample);
-    const std::shared_ptr<const McapBlock> block = blockOf(piece);
-    return {angles_.timesUs[sample],
-            rowOf(block->angles, angles_, sample - angles_.firsts[piece], piece)};
+  std::size_t numSamples(std::size_t series) const override { return of(series).timesUs.size(); }
+  std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const override {
+    return of(series).timesUs[sample];
   }
-  std::size_t numTemperatures() const override { return temperatures_.timesUs.size(); }
-  std::int64_t temperatureTimeUs(std::size_t sample) const override {
-    return temperatures_.timesUs[sample];
-  }
-  Temperatures temperatures(std::size_t sample) const override {
-    const std::size_t piece = temperatures_.pieceOf(sample);
+  Sample sample(std::size_t series, std::size_t sample) const override {
+    const McapSeriesIndex& index = of(series);
+    const std::size_t piece = index.pieceOf(sample);
     const std::shared_ptr<const McapBlock> block = blockOf(piece);
-    return {temperatures_.timesUs[sample],
-            rowOf(block->temperatures, temperatures_, sample - temperatures_.firsts[piece], piece)};
+    const auto& values = series == kJointAngles ? block->angles : block->temperatures;
+    return {index.timesUs[sample],
+            rowOf(values, index, sample - index.firsts[piece], piece),
+            series};
   }
 
  private:
+  const McapSeriesIndex& of(std::size_t series) const {
+    return series == kJointAngles ? angles_ : temperatures_;
+  }
   McapBlock readBlock(std::size_t piece) const {
     return readMcapBlock(file_, own_, pieces_, piece, salvage_);
   }

@@ -122,7 +122,7 @@ void McapRecordingWriter::addAbout(int version) {
 }
 
 std::uint16_t McapRecordingWriter::valuesChannel(
-    const std::string& topic, const std::vector<ExportedSeries::Column>& columns) {
+    const std::string& topic, const std::vector<Column>& columns) {
   if (!valuesSchema_) {
     const McapSchemaText schema = mcapValuesSchema();
     valuesSchema_ = file_.addSchema(schema.name, schema.encoding, schema.data);
@@ -161,8 +161,12 @@ void McapRecordingWriter::beginTemperatures(std::size_t width) {
   numTemperatures_ = width;
 }
 
+void McapRecordingWriter::beginSamples(std::size_t series, const SeriesDescription& description) {
+  samples_[series] = valuesChannel(mcap_format::kSeries + description.name, description.columns);
+}
+
 std::uint16_t McapRecordingWriter::beginSeries(const std::string& name,
-                                               const std::vector<ExportedSeries::Column>& columns) {
+                                               const std::vector<Column>& columns) {
   return valuesChannel("/palpate/" + name, columns);
 }
 
@@ -246,17 +250,23 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
   file_.endGroup();
 }
 
-void McapRecordingWriter::addAngles(const JointAngles& angles) {
-  if (!angles_) beginAngles(angles.deg.size());
-  if (angles.deg.size() != numAngles_)
+void McapRecordingWriter::addSample(const Sample& sample) {
+  if (sample.series == kJointAngles) return addAngles(sample);
+  if (sample.series == kTemperatures) return addTemperatures(sample);
+  addRow(samples_.at(sample.series), sample.hostUs, sample.values);
+}
+
+void McapRecordingWriter::addAngles(const Sample& angles) {
+  if (!angles_) beginAngles(angles.values.size());
+  if (angles.values.size() != numAngles_)
     throw std::invalid_argument("McapRecordingWriter: another number of angles");
-  addValues(*angles_, angles.hostUs, angles.deg);
+  addValues(*angles_, angles.hostUs, angles.values);
   std::string& out = file_.beginMessage(jointStates_, mcapTimeNs(angles.hostUs));
   CdrWriter cdr(out);
   cdr.time(angles.hostUs);
   out += jointNames_;
   std::vector<double> positions;
-  for (const HandJoint& joint : joints_) positions.push_back(joint.valueSi(angles.deg));
+  for (const HandJoint& joint : joints_) positions.push_back(joint.valueSi(angles.values));
   cdr.sequence(std::span<const double>(positions));
   cdr.sequence(std::span<const double>());
   cdr.sequence(std::span<const double>());
@@ -264,11 +274,11 @@ void McapRecordingWriter::addAngles(const JointAngles& angles) {
   file_.endGroup();
 }
 
-void McapRecordingWriter::addTemperatures(const Temperatures& temperatures) {
-  if (!temperatures_) beginTemperatures(temperatures.degC.size());
-  if (temperatures.degC.size() != numTemperatures_)
+void McapRecordingWriter::addTemperatures(const Sample& temperatures) {
+  if (!temperatures_) beginTemperatures(temperatures.values.size());
+  if (temperatures.values.size() != numTemperatures_)
     throw std::invalid_argument("McapRecordingWriter: another number of temperatures");
-  addValues(*temperatures_, temperatures.hostUs, temperatures.degC);
+  addValues(*temperatures_, temperatures.hostUs, temperatures.values);
   file_.endGroup();
 }
 

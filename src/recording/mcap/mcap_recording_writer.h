@@ -29,13 +29,14 @@ class McapRecordingWriter {
   // Begin a channel. Call them before the samples.
   void beginAngles(std::size_t width);
   void beginTemperatures(std::size_t width);
+  // A series beside those of the hand.
+  void beginSamples(std::size_t series, const SeriesDescription& description);
   std::uint16_t beginSeries(const std::string& name,
-                            const std::vector<ExportedSeries::Column>& columns);
+                            const std::vector<Column>& columns);
 
   // Throw std::invalid_argument (another number of values, a value that is no count).
   void addFrame(const TactileFrame& frame);
-  void addAngles(const JointAngles& angles);
-  void addTemperatures(const Temperatures& temperatures);
+  void addSample(const Sample& sample);
   void addEvent(const Event& event);
   void addRow(std::uint16_t series, std::int64_t timeUs, std::span<const double> values);
 
@@ -45,8 +46,10 @@ class McapRecordingWriter {
   // Writes what is said about the file, in this version of the layout.
   void addAbout(int version);
   std::uint16_t valuesChannel(const std::string& topic,
-                              const std::vector<ExportedSeries::Column>& columns);
+                              const std::vector<Column>& columns);
   void addValues(std::uint16_t channel, std::int64_t timeUs, std::span<const double> values);
+  void addAngles(const Sample& angles);
+  void addTemperatures(const Sample& temperatures);
   void addImage(std::size_t matrix, const TactileFrame& frame, bool counts);
 
   const HandDescription hand_;
@@ -66,6 +69,7 @@ class McapRecordingWriter {
   std::vector<HandJoint> joints_;
   std::string jointNames_;  // of a JointState: from behind the stamp to before the positions
   std::optional<std::uint16_t> temperatures_;
+  std::map<std::size_t, std::uint16_t> samples_;  // channels of further series
   std::size_t numAngles_ = 0;
   std::size_t numTemperatures_ = 0;
 };

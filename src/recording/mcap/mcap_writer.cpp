@@ -46,8 +46,10 @@ void writeMcap(const RecordingContent& content,
                              writtenMeta(profile.info(), profile.hand(), content.meta),
                              content.extras.provenance,
                              options);
-  if (profile.numAngles() > 0) writer.beginAngles(profile.angles(0).deg.size());
-  if (profile.numTemperatures() > 0) writer.beginTemperatures(profile.temperatures(0).degC.size());
+  if (profile.numAngles() > 0) writer.beginAngles(profile.angles(0).values.size());
+  if (profile.numTemperatures() > 0) writer.beginTemperatures(profile.temperatures(0).values.size());
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    writer.beginSamples(i, profile.series()[i]);
   std::vector<std::pair<std::uint16_t, std::unique_ptr<RunningSeries>>> series;
   for (const auto& one : content.extras.series)
     series.emplace_back(writer.beginSeries(one->name(), one->columns()),
@@ -67,11 +69,8 @@ void writeMcap(const RecordingContent& content,
       case InTimeOrder::Kind::kEvent:
         writer.addEvent(content.events[i]);
         break;
-      case InTimeOrder::Kind::kTemperatures:
-        writer.addTemperatures(profile.temperatures(i));
-        break;
-      case InTimeOrder::Kind::kAngles:
-        writer.addAngles(profile.angles(i));
+      case InTimeOrder::Kind::kSample:
+        writer.addSample(profile.sample(item->series, i));
         break;
       case InTimeOrder::Kind::kFrame:
         reportProgress(progress, i, profile.numFrames(), kMcapFramesPerReport);
@@ -144,8 +143,7 @@ struct McapLiveWriter::Impl {
   std::shared_ptr<const SensorLayout> layout;
   std::unique_ptr<McapRecordingWriter> writer;
   std::optional<std::int64_t> lastFrameUs;
-  std::optional<std::int64_t> lastAnglesUs;
-  std::optional<std::int64_t> lastTemperaturesUs;
+  std::array<std::optional<std::int64_t>, kMaxSeries> lastSampleUs;  // by series
 };
 
 McapLiveWriter::McapLiveWriter(const fs::path& path,
@@ -163,14 +161,9 @@ void McapLiveWriter::addFrame(const TactileFrame& frame) {
   impl_->writer->addFrame(frame);
 }
 
-void McapLiveWriter::addAngles(const JointAngles& angles) {
-  Impl::requireLater(impl_->lastAnglesUs, angles.hostUs);
-  impl_->writer->addAngles(angles);
-}
-
-void McapLiveWriter::addTemperatures(const Temperatures& temperatures) {
-  Impl::requireLater(impl_->lastTemperaturesUs, temperatures.hostUs);
-  impl_->writer->addTemperatures(temperatures);
+void McapLiveWriter::addSample(const Sample& sample) {
+  Impl::requireLater(impl_->lastSampleUs[sample.series], sample.hostUs);
+  impl_->writer->addSample(sample);
 }
 
 void McapLiveWriter::addEvent(const Event& event) { impl_->writer->addEvent(event); }

@@ -37,15 +37,21 @@ constexpr std::int64_t kLatestUs = std::int64_t{1} << 60;  // the year 38505
 
 bool exactAsFloat(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
 
-bool allFinite(std::span<const std::byte> bytes, BlockCoding coding, std::size_t numValues) {
+// Values of series beside those of the hand may be missing (NaN).
+bool allFinite(std::span<const std::byte> bytes,
+               BlockCoding coding,
+               std::size_t numValues,
+               bool mayMiss) {
   if (coding == BlockCoding::kFilteredRuns)
-    return allFinite(bytes.subspan(activeBytes(numValues)), BlockCoding::kFloatRuns, numValues);
+    return allFinite(
+        bytes.subspan(activeBytes(numValues)), BlockCoding::kFloatRuns, numValues, mayMiss);
   ByteReader in(bytes);
   bool finite = true;
   while (finite && in.remaining() > 0) {
     if (coding == BlockCoding::kFloatRuns) in.u8();
-    finite =
-        std::isfinite(coding == BlockCoding::kPlainF64 ? in.f64() : static_cast<double>(in.f32()));
+    const double value =
+        coding == BlockCoding::kPlainF64 ? in.f64() : static_cast<double>(in.f32());
+    finite = std::isfinite(value) || (mayMiss && std::isnan(value));
   }
   return finite && in.ok();
 }
@@ -112,9 +118,11 @@ void BlockPacker::addFrame(const TactileFrame& frame) {
   add(frame.hostUs, frame.deviceUs, BlockCoding::kFilteredRuns);
 }
 
-void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values) {
+void BlockPacker::addSample(std::int64_t hostUs,
+                            std::span<const double> values,
+                            std::optional<std::int64_t> deviceUs) {
   bool single = true;
-  for (double value : values) single = single && exactAsFloat(value);
+  for (double value : values) single = single && (std::isnan(value) || exactAsFloat(value));
   item_.clear();
   for (double value : values) {
     if (single)
@@ -122,7 +130,7 @@ void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values)
     else
       appendLittleEndian(item_, std::bit_cast<std::uint64_t>(value), 8);
   }
-  add(hostUs, std::nullopt, single ? BlockCoding::kPlainF32 : BlockCoding::kPlainF64);
+  add(hostUs, deviceUs, single ? BlockCoding::kPlainF32 : BlockCoding::kPlainF64);
 }
 
 void BlockPacker::add(std::int64_t hostUs,
@@ -157,7 +165,7 @@ void BlockPacker::flush() {
 }
 
 bool plausible(const Block& block) noexcept {
-  return static_cast<int>(block.stream) <= 2 && static_cast<int>(valueCoding(block.coding)) <= 4 &&
+  return static_cast<std::size_t>(block.stream) < kMaxStreams && static_cast<int>(valueCoding(block.coding)) <= 4 &&
          block.first >= 0 && block.first <= std::numeric_limits<std::int64_t>::max() - kMostItems &&
          block.n >= 1 && block.n <= kMostItems && block.t0Us >= -kLatestUs &&
          block.t1Us <= kLatestUs && block.t1Us >= block.t0Us &&
@@ -216,7 +224,7 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
     }
     if (size > bytes.size() - at) return false;
     if (coding != BlockCoding::kCountsRuns &&
-        !allFinite(bytes.subspan(at, size), coding, numValues))
+        !allFinite(bytes.subspan(at, size), coding, numValues, block.stream > Stream::kTemperatures))
       return false;
     at += size;
   }

@@ -28,7 +28,8 @@ class PalpateStorage final : public BlockStorage {
       : BlockStorage(path, [this](std::int64_t id) { return load(id); }),
         path_(path),
         access_(path),
-        layout_(readLayout(access_.database())) {
+        layout_(readLayout(access_.database())),
+        series_(readSeries(access_.database())) {
     if (access_.beingWritten())
       indexGrowing(progress);
     else
@@ -38,6 +39,8 @@ class PalpateStorage final : public BlockStorage {
     readBlock_.emplace(access_.database().prepare(
         "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?"));
     setWidth(Stream::kTactile, layout_.numCells());
+    for (std::size_t i = 0; i < series_.size(); ++i)
+      setWidth(streamOfSeries(kHandSeries + i), series_[i].columns.size());
     for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) {
       if (places(stream).empty()) continue;
       setWidth(stream, widthOf(places(stream)));
@@ -49,6 +52,8 @@ class PalpateStorage final : public BlockStorage {
   }
 
   const SensorLayout& layout() const { return layout_; }
+  // Those beside the hand's.
+  const std::vector<SeriesDescription>& series() const { return series_; }
   PalpateConnection& access() { return access_; }
   // Streams that are left out because no block of theirs can be read.
   const std::vector<Stream>& dropped() const { return dropped_; }
@@ -74,7 +79,7 @@ class PalpateStorage final : public BlockStorage {
     const std::int64_t stream = row.integer(0);
     const BlockEntry place{
         row.integer(1), row.integer(2), row.integer(3), row.integer(4), row.integer(5)};
-    if (stream < 0 || stream > 2 || !add(static_cast<Stream>(stream), place)) throwMissing();
+    if (stream < 0 || stream > static_cast<std::int64_t>(kHandSeries + series_.size()) || !add(static_cast<Stream>(stream), place)) throwMissing();
   }
 
   void indexBlocks(const Progress& progress) {
@@ -128,6 +133,7 @@ class PalpateStorage final : public BlockStorage {
   fs::path path_;
   PalpateConnection access_;
   SensorLayout layout_;
+  std::vector<SeriesDescription> series_;
   std::optional<SqliteStatement> readBlock_;
   std::vector<Stream> dropped_;
 };
@@ -164,7 +170,8 @@ Profile profileOf(std::shared_ptr<PalpateStorage> storage) {
                                       storage->layout(),
                                       storage->width(Stream::kAngles),
                                       storage->width(Stream::kTemperatures));
-  return {std::move(info), std::move(hand), std::move(storage)};
+  std::vector<SeriesDescription> series = storage->series();
+  return {std::move(info), std::move(hand), std::move(storage), std::move(series)};
 }
 
 }  // namespace

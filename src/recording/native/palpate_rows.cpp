@@ -9,6 +9,7 @@
 #include "palpate/core/byte_reader.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/palpate_schema.h"
 
@@ -45,6 +46,10 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kTables{{
 constexpr const char* kOverviewTable =
     "CREATE TABLE overview(id INTEGER PRIMARY KEY, n INTEGER NOT NULL, crc32 INTEGER NOT NULL,"
     " data BLOB NOT NULL)";
+// Only in files with series beside those of the hand. `idx` is the number of the stream.
+constexpr const char* kSeriesTable =
+    "CREATE TABLE series(idx INTEGER PRIMARY KEY, name TEXT NOT NULL, role TEXT NOT NULL,"
+    " source TEXT NOT NULL, columns TEXT NOT NULL, crc32 INTEGER NOT NULL)";
 constexpr const char* kBlockIndex =
     "CREATE INDEX block_at ON block(stream, first, n, t0_us, t1_us)";
 
@@ -102,9 +107,11 @@ void checkTables(SqliteDatabase& database) {
         kTables.begin(), kTables.end(), [&](const auto& table) { return name == table.first; });
     const bool isTable = type == "table" && rows.integer(2) > 0;
     const bool isIndex = type == "index";
-    if (name == "overview") {
-      if (!isTable || normalized(rows.text(3)) != normalized(kOverviewTable))
-        throw FormatError(database.path(), "its table 'overview' is not as the format has it");
+    if (const char* sql = name == "overview" ? kOverviewTable
+                          : name == "series" ? kSeriesTable
+                                             : nullptr) {
+      if (!isTable || normalized(rows.text(3)) != normalized(sql))
+        throw FormatError(database.path(), "its table '" + name + "' is not as the format has it");
     } else if (known != kTables.end()) {
       if (!isTable || normalized(rows.text(3)) != normalized(known->second))
         throw FormatError(database.path(),
@@ -218,6 +225,70 @@ SensorLayout readLayout(SqliteDatabase& database) {
   } catch (const std::invalid_argument& error) {
     throw FormatError(path, std::string("the layout of its matrices is invalid: ") + error.what());
   }
+}
+
+namespace {
+
+std::string columnsText(const std::vector<Column>& columns) {
+  return jsonList(columns,
+                  [](const Column& column) {
+                    return Json::object().set("name", column.name).set("unit", column.unit);
+                  })
+      .text(-1);
+}
+
+std::uint32_t seriesCrc(std::int64_t stream, const SeriesDescription& series) {
+  return RowCrc()
+      .integer(stream)
+      .text(series.name)
+      .text(series.role)
+      .text(series.source)
+      .text(columnsText(series.columns))
+      .value();
+}
+
+}  // namespace
+
+void insertSeries(SqliteDatabase& database, std::size_t index, const SeriesDescription& series) {
+  const auto stream = static_cast<std::int64_t>(streamOfSeries(index));
+  const std::string columns = columnsText(series.columns);
+  if (index == kHandSeries) database.execute(kSeriesTable);
+  database.prepare("INSERT INTO series VALUES(?, ?, ?, ?, ?, ?)")
+      .bind(1, stream)
+      .bind(2, std::string_view(series.name))
+      .bind(3, std::string_view(series.role))
+      .bind(4, std::string_view(series.source))
+      .bind(5, std::string_view(columns))
+      .bind(6, static_cast<std::int64_t>(seriesCrc(stream, series)))
+      .run();
+}
+
+std::vector<SeriesDescription> readSeries(SqliteDatabase& database) {
+  std::vector<SeriesDescription> all;
+  if (database.integerOf("SELECT count(*) FROM sqlite_schema WHERE name='series'") == 0) return all;
+  SqliteStatement rows =
+      database.prepare("SELECT idx, name, role, source, columns, crc32 FROM series ORDER BY idx");
+  while (rows.next()) {
+    const auto fail = [&](const std::string& fault) {
+      throw FormatError(database.path(),
+                        "its series are damaged (" + fault + "); try 'palpate recover'");
+    };
+    const auto stream = static_cast<std::int64_t>(streamOfSeries(kHandSeries + all.size()));
+    if (kHandSeries + all.size() == kMaxSeries) fail("too many");
+    SeriesDescription series{rows.text(1), rows.text(2), {}, rows.text(3)};
+    try {
+      for (const Json& column : Json::parse(rows.text(4)).elements())
+        series.columns.push_back({column.at("name").asString(), column.at("unit").asString()});
+      validate(series);
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+    if (rows.integer(0) != stream ||
+        rows.integer(5) != static_cast<std::int64_t>(seriesCrc(stream, series)))
+      fail("a checksum is wrong");
+    all.push_back(std::move(series));
+  }
+  return all;
 }
 
 Block blockFrom(const SqliteStatement& row, int column, int dataColumn) {

@@ -44,6 +44,11 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 // Reads the layout back. Throws FormatError where it is damaged or makes no sense.
 SensorLayout readLayout(SqliteDatabase& database);
 
+// The description of a series beside those of the hand. The first one makes the table.
+void insertSeries(SqliteDatabase& database, std::size_t index, const SeriesDescription& series);
+// Those of the file, none if it has no such table. Throws FormatError where one is damaged.
+std::vector<SeriesDescription> readSeries(SqliteDatabase& database);
+
 // The block of a row in which stream, first, n, t0_us, t1_us and coding stand from `column` on and
 // the data in `dataColumn`. Nothing is checked.
 Block blockFrom(const SqliteStatement& row, int column, int dataColumn);

@@ -29,19 +29,19 @@ BlockStorage::BlockStorage(std::filesystem::path path, Loader loader)
     : path_(std::move(path)), loader_(std::move(loader)) {}
 
 bool BlockStorage::add(Stream stream, const BlockEntry& place) {
-  Series& series = series_[static_cast<std::size_t>(stream)];
+  Entries& entries = streams_[static_cast<std::size_t>(stream)];
   if (place.n < 1 || place.n > static_cast<std::int64_t>(kMaxBlockBytes) ||
-      place.first != static_cast<std::int64_t>(series.numItems) || place.t1Us < place.t0Us ||
+      place.first != static_cast<std::int64_t>(entries.numItems) || place.t1Us < place.t0Us ||
       spanUs(place) < static_cast<std::uint64_t>(place.n - 1) ||
-      (!series.places.empty() && place.t0Us <= series.places.back().t1Us))
+      (!entries.places.empty() && place.t0Us <= entries.places.back().t1Us))
     return false;
-  series.places.push_back(place);
-  series.numItems += static_cast<std::size_t>(place.n);
+  entries.places.push_back(place);
+  entries.numItems += static_cast<std::size_t>(place.n);
   return true;
 }
 
 void BlockStorage::setWidth(Stream stream, std::size_t numValues) {
-  series_[static_cast<std::size_t>(stream)].numValues = numValues;
+  streams_[static_cast<std::size_t>(stream)].numValues = numValues;
 }
 
 std::int64_t BlockStorage::frameTimeUs(std::size_t frame) const {
@@ -60,30 +60,25 @@ std::optional<std::size_t> BlockStorage::frameAt(std::int64_t timeUs) const {
   return itemAt(Stream::kTactile, timeUs);
 }
 
-std::optional<std::size_t> BlockStorage::angleSampleAt(std::int64_t timeUs) const {
-  return itemAt(Stream::kAngles, timeUs);
+std::optional<std::size_t> BlockStorage::sampleAt(std::size_t series, std::int64_t timeUs) const {
+  return itemAt(streamOfSeries(series), timeUs);
 }
 
-std::optional<std::size_t> BlockStorage::temperatureSampleAt(std::int64_t timeUs) const {
-  return itemAt(Stream::kTemperatures, timeUs);
+std::int64_t BlockStorage::sampleTimeUs(std::size_t series, std::size_t sample) const {
+  return timeUs(streamOfSeries(series), sample);
 }
 
-std::int64_t BlockStorage::angleTimeUs(std::size_t sample) const {
-  return timeUs(Stream::kAngles, sample);
-}
-
-JointAngles BlockStorage::angles(std::size_t sampleIndex) const {
-  auto [hostUs, values] = sample(Stream::kAngles, sampleIndex);
-  return {hostUs, std::move(values)};
-}
-
-std::int64_t BlockStorage::temperatureTimeUs(std::size_t sample) const {
-  return timeUs(Stream::kTemperatures, sample);
-}
-
-Temperatures BlockStorage::temperatures(std::size_t sampleIndex) const {
-  auto [hostUs, values] = sample(Stream::kTemperatures, sampleIndex);
-  return {hostUs, std::move(values)};
+Sample BlockStorage::sample(std::size_t series, std::size_t item) const {
+  const Stream stream = streamOfSeries(series);
+  std::unique_lock lock(mutex_);
+  const auto [block, within] = open(stream, item);
+  lock.unlock();
+  Sample sample{block->index.hostUs[within],
+                std::vector<double>(of(stream).numValues),
+                series,
+                block->index.deviceUs[within]};
+  readSampleValues(block->block, block->index.begin[within], sample.values);
+  return sample;
 }
 
 const BlockEntry& BlockStorage::placeOf(Stream stream, std::size_t item) const {
@@ -174,16 +169,6 @@ std::optional<std::size_t> BlockStorage::itemAt(Stream stream, std::int64_t time
                            : estimatedUs(place, static_cast<std::int64_t>(item)));
   });
   return first + later - 1;
-}
-
-std::pair<std::int64_t, std::vector<double>> BlockStorage::sample(Stream stream,
-                                                                  std::size_t item) const {
-  std::unique_lock lock(mutex_);
-  const auto [block, within] = open(stream, item);
-  lock.unlock();
-  std::vector<double> values(of(stream).numValues);
-  readSampleValues(block->block, block->index.begin[within], values);
-  return {block->index.hostUs[within], std::move(values)};
 }
 
 }  // namespace palpate

@@ -44,7 +44,7 @@ class BlockStorage : public ProfileStorage {
   // the ones before it in index and time, or makes no sense.
   bool add(Stream stream, const BlockEntry& place);
   // Takes all entries of a stream out again.
-  void drop(Stream stream) { series_[static_cast<std::size_t>(stream)] = {}; }
+  void drop(Stream stream) { streams_[static_cast<std::size_t>(stream)] = {}; }
   // The number of values per item; it must be set before items are read.
   void setWidth(Stream stream, std::size_t numValues);
   std::size_t width(Stream stream) const { return of(stream).numValues; }
@@ -53,19 +53,17 @@ class BlockStorage : public ProfileStorage {
   std::size_t numFrames() const override { return of(Stream::kTactile).numItems; }
   std::int64_t frameTimeUs(std::size_t frame) const override;
   void readFrame(std::size_t frame, TactileFrame& out) const override;
-  std::size_t numAngles() const override { return of(Stream::kAngles).numItems; }
-  std::int64_t angleTimeUs(std::size_t sample) const override;
-  JointAngles angles(std::size_t sample) const override;
-  std::size_t numTemperatures() const override { return of(Stream::kTemperatures).numItems; }
-  std::int64_t temperatureTimeUs(std::size_t sample) const override;
-  Temperatures temperatures(std::size_t sample) const override;
+  std::size_t numSamples(std::size_t series) const override {
+    return of(streamOfSeries(series)).numItems;
+  }
+  std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const override;
+  Sample sample(std::size_t series, std::size_t sample) const override;
   // Search over the times of the blocks, and read at most the block that holds the sample.
   std::optional<std::size_t> frameAt(std::int64_t timeUs) const override;
-  std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const override;
-  std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const override;
+  std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const override;
 
  private:
-  struct Series {
+  struct Entries {
     std::vector<BlockEntry> places;
     std::size_t numItems = 0;
     std::size_t numValues = 0;  // per item
@@ -82,11 +80,10 @@ class BlockStorage : public ProfileStorage {
 
   static constexpr std::size_t kCachedBytes = 2u << 20;  // of blocks, per profile
 
-  const Series& of(Stream stream) const { return series_[static_cast<std::size_t>(stream)]; }
+  const Entries& of(Stream stream) const { return streams_[static_cast<std::size_t>(stream)]; }
   const BlockEntry& placeOf(Stream stream, std::size_t item) const;
   std::int64_t timeUs(Stream stream, std::size_t item) const;
   std::optional<std::size_t> itemAt(Stream stream, std::int64_t timeUs) const;
-  std::pair<std::int64_t, std::vector<double>> sample(Stream stream, std::size_t item) const;
   // The lock is held in these four.
   OpenItem open(Stream stream, std::size_t item) const;
   std::shared_ptr<const OpenBlock> loaded(Stream stream, const BlockEntry& place) const;
@@ -96,11 +93,11 @@ class BlockStorage : public ProfileStorage {
 
   std::filesystem::path path_;
   Loader loader_;
-  std::array<Series, 3> series_;
+  std::array<Entries, kMaxStreams> streams_;
   mutable std::mutex mutex_;  // over loader and cache
   mutable BlockCache<std::shared_ptr<const OpenBlock>> cache_{kCachedBytes};  // by id
   mutable std::unordered_map<std::int64_t, FormatError> damaged_;  // by id: not read again
-  mutable std::array<std::shared_ptr<const OpenBlock>, 3> last_;   // read last, per stream
+  mutable std::array<std::shared_ptr<const OpenBlock>, kMaxStreams> last_;  // read last, per stream
 };
 
 }  // namespace palpate

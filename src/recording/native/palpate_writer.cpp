@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -40,20 +41,24 @@ void requireReadable(const SensorLayout& layout) {
                                 " matrices with " + std::to_string(kMaxPlaces) + " places in all");
 }
 
-void requireFinite(const char* what, const std::vector<double>& values, std::size_t width) {
+// The values of series beside those of the hand may be missing (NaN).
+void requireValues(const std::string& what, const Sample& sample, std::size_t width) {
+  const std::vector<double>& values = sample.values;
   if (values.empty() || values.size() > kMaxSampleValues || (width != 0 && values.size() != width))
-    throw std::invalid_argument(std::string(what) + ": expected " + std::to_string(width) +
-                                " values, got " + std::to_string(values.size()));
-  if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
-    throw std::invalid_argument(std::string(what) + ": a value is not a number");
+    throw std::invalid_argument(what + ": expected " + std::to_string(width) + " values, got " +
+                                std::to_string(values.size()));
+  if (!std::all_of(values.begin(), values.end(), [&](double v) {
+        return std::isfinite(v) || (std::isnan(v) && sample.series >= kHandSeries);
+      }))
+    throw std::invalid_argument(what + ": a value is not a number");
 }
 
-void requireLater(const char* what, std::optional<std::int64_t> last, std::int64_t hostUs) {
+void requireLater(const std::string& what, std::optional<std::int64_t> last, std::int64_t hostUs) {
   constexpr std::int64_t kLatestSampleUs = std::int64_t{1} << 60;  // what a block can hold
   if (hostUs < -kLatestSampleUs || hostUs > kLatestSampleUs)
-    throw std::invalid_argument(std::string(what) + ": time is out of range");
+    throw std::invalid_argument(what + ": time is out of range");
   if (last && hostUs <= *last)
-    throw std::invalid_argument(std::string(what) + ": time must be later than the last one's");
+    throw std::invalid_argument(what + ": time must be later than the last one's");
 }
 
 // Tells a file that was just given its name from one that somebody put there in the same moment.
@@ -134,16 +139,16 @@ void writeAll(const Profile& profile,
               PalpateWriter& writer,
               const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 256;
-  std::size_t angle = 0;
-  std::size_t temperature = 0;
-  // All angles, then all temperatures: which samples a block has depends on this order.
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    writer.addSeries(profile.series()[i]);
+  std::vector<std::size_t> next(profile.series().size());
+  // One series after the other: which samples a block has depends on this order.
   const auto addBefore = [&](std::int64_t untilUs) {
-    for (; angle < profile.numAngles() && profile.angleTimeUs(angle) <= untilUs; ++angle)
-      writer.addAngles(profile.angles(angle));
-    for (; temperature < profile.numTemperatures() &&
-           profile.temperatureTimeUs(temperature) <= untilUs;
-         ++temperature)
-      writer.addTemperatures(profile.temperatures(temperature));
+    for (std::size_t series = 0; series < next.size(); ++series)
+      for (std::size_t& i = next[series];
+           i < profile.numSamples(series) && profile.sampleTimeUs(series, i) <= untilUs;
+           ++i)
+        writer.addSample(profile.sample(series, i));
   };
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
@@ -316,7 +321,8 @@ struct PalpateWriter::Impl {
   }
 
   void flushPackers() {
-    for (BlockPacker* packer : {&tactile, &angles, &temperatures}) packer->flush();
+    tactile.flush();
+    for (WrittenSeries& each : series) each.packer.flush();
   }
 
   // Somebody may have removed the open journal. SQLite would go on with a file that has no name,
@@ -334,19 +340,19 @@ struct PalpateWriter::Impl {
     flushPackers();
     requireFile();
     std::optional<RowWriter>& rows = file->rows;
+    const std::int32_t version = neededVersion();
     try {
       renewJournal();
       file->beginCommit->run();
       // Without this, blocks would be written into whatever was copied into the file.
       if (!isOwn()) throwOverwritten();
       file->version = file->database.version();
+      for (std::size_t i = 0; i < pending.series.size(); ++i)
+        insertSeries(file->database, numSeries + i, pending.series[i]);
       std::int64_t id = numBlocks;
       for (const Block& block : pending.blocks) rows->block(++id, block);
-      if (std::any_of(pending.blocks.begin(), pending.blocks.end(), [](const Block& block) {
-            return hasDeviceUs(block.coding);
-          }))
-        file->database.execute("PRAGMA user_version=" +
-                               std::to_string(kPalpateVersionWithDeviceUs));
+      if (version > formatVersion)
+        file->database.execute("PRAGMA user_version=" + std::to_string(version));
       id = numSeconds;
       for (const SecondSummary& row : pending.seconds) rows->second(++id, row);
       id = numEvents;
@@ -365,6 +371,8 @@ struct PalpateWriter::Impl {
     file->version = file->database.version();
     file->commitFailed = false;
     if (!file->journal) file->journal = fileIdOf(journalPathOf(file->database.path()));
+    formatVersion = std::max(formatVersion, version);
+    numSeries += pending.series.size();
     numBlocks += static_cast<std::int64_t>(pending.blocks.size());
     numSeconds += static_cast<std::int64_t>(pending.seconds.size());
     numEvents += static_cast<std::int64_t>(pending.events.size());
@@ -372,21 +380,31 @@ struct PalpateWriter::Impl {
     pendingSinceUs.reset();
     committedFrames = tactile.numItems();
   }
+  // The version in the file is the lowest one that has everything in it.
+  std::int32_t neededVersion() const {
+    const bool inUs = std::any_of(pending.blocks.begin(),
+                                  pending.blocks.end(),
+                                  [](const Block& block) { return hasDeviceUs(block.coding); });
+    if (series.size() > kHandSeries) return kPalpateVersionWithSeries;
+    return inUs ? kPalpateVersionWithDeviceUs : kPalpateVersion;
+  }
   void commit() {
-    if (pending.empty() && tactile.empty() && angles.empty() && temperatures.empty())
+    if (pending.empty() && tactile.empty() &&
+        std::all_of(series.begin(), series.end(), [](const auto& s) { return s.packer.empty(); }))
       return requireFile();
     commit([] {});
   }
 
   // What no commit has taken yet.
   struct Pending {
+    std::vector<SeriesDescription> series;
     std::vector<Block> blocks;
     std::vector<SecondSummary> seconds;
     std::vector<Event> events;
     std::map<std::string, std::int64_t> counters;
     std::size_t bytes = 0;
     bool empty() const {
-      return blocks.empty() && seconds.empty() && events.empty() && counters.empty();
+      return series.empty() && blocks.empty() && seconds.empty() && events.empty() && counters.empty();
     }
   };
 
@@ -402,18 +420,22 @@ struct PalpateWriter::Impl {
       allCounts = false;
   };
   BlockPacker tactile{Stream::kTactile, sink};
-  BlockPacker angles{Stream::kAngles, sink};
-  BlockPacker temperatures{Stream::kTemperatures, sink};
+  struct WrittenSeries {
+    std::string name;
+    BlockPacker packer;
+    std::size_t width = 0;  // 0: that of the first sample
+    std::optional<std::int64_t> lastUs = std::nullopt;
+  };
+  std::deque<WrittenSeries> series{{"angles", BlockPacker(Stream::kAngles, sink)},
+                                   {"temperatures", BlockPacker(Stream::kTemperatures, sink)}};
+  std::size_t numSeries = kHandSeries;  // whose description is committed
+  std::int32_t formatVersion = kPalpateVersion;
   SecondSummarizer seconds{[this](const SecondSummary& row) {
     pending.seconds.push_back(row);
     pending.bytes += sizeof row;
   }};
   std::optional<std::int64_t> lastFrameUs;
-  std::optional<std::int64_t> lastAnglesUs;
-  std::optional<std::int64_t> lastTemperaturesUs;
   std::optional<std::int64_t> pendingSinceUs;  // host time of the oldest sample not committed
-  std::size_t numAxes = 0;
-  std::size_t numTemperatureSensors = 0;
   std::int64_t committedFrames = 0;
   std::int64_t numBlocks = 0;  // rows committed
   std::int64_t numSeconds = 0;
@@ -458,24 +480,35 @@ void PalpateWriter::addFrame(const TactileFrame& frame) {
   impl_->commitWhenDue(frame.hostUs);
 }
 
-void PalpateWriter::addAngles(const JointAngles& angles) {
-  requireFinite("angles", angles.deg, impl_->numAxes);
-  requireLater("angles", impl_->lastAnglesUs, angles.hostUs);
-  impl_->requireRoom();
-  impl_->numAxes = angles.deg.size();
-  impl_->lastAnglesUs = angles.hostUs;
-  impl_->angles.addSample(angles.hostUs, angles.deg);
-  impl_->commitWhenDue(angles.hostUs);
+std::size_t PalpateWriter::addSeries(const SeriesDescription& description) {
+  validate(description);
+  std::deque<Impl::WrittenSeries>& series = impl_->series;
+  if (series.size() == kMaxSeries)
+    throw std::invalid_argument("at most " + std::to_string(kMaxSeries) + " series");
+  for (const Impl::WrittenSeries& other : series)
+    if (other.name == description.name)
+      throw std::invalid_argument("two series have the name " + description.name);
+  series.push_back({description.name,
+                    BlockPacker(streamOfSeries(series.size()), impl_->sink),
+                    description.columns.size()});
+  impl_->pending.series.push_back(description);
+  return series.size() - 1;
 }
 
-void PalpateWriter::addTemperatures(const Temperatures& temperatures) {
-  requireFinite("temperatures", temperatures.degC, impl_->numTemperatureSensors);
-  requireLater("temperatures", impl_->lastTemperaturesUs, temperatures.hostUs);
+void PalpateWriter::addSample(const Sample& sample) {
+  if (sample.series >= impl_->series.size())
+    throw std::invalid_argument("there is no series " + std::to_string(sample.series));
+  Impl::WrittenSeries& series = impl_->series[sample.series];
+  requireValues(series.name, sample, series.width);
+  requireLater(series.name, series.lastUs, sample.hostUs);
   impl_->requireRoom();
-  impl_->numTemperatureSensors = temperatures.degC.size();
-  impl_->lastTemperaturesUs = temperatures.hostUs;
-  impl_->temperatures.addSample(temperatures.hostUs, temperatures.degC);
-  impl_->commitWhenDue(temperatures.hostUs);
+  series.width = sample.values.size();
+  series.lastUs = sample.hostUs;
+  // The hand's own have never had them: its files stay as they are.
+  series.packer.addSample(sample.hostUs,
+                          sample.values,
+                          sample.series < kHandSeries ? std::nullopt : sample.deviceUs);
+  impl_->commitWhenDue(sample.hostUs);
 }
 
 void PalpateWriter::addEvent(const Event& event) {
@@ -504,8 +537,12 @@ void PalpateWriter::finish() {
       insertMeta(
           database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
       insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
-      insertMeta(database, "angle_samples", std::to_string(impl.angles.numItems()));
-      insertMeta(database, "temperature_samples", std::to_string(impl.temperatures.numItems()));
+      insertMeta(database,
+                 "angle_samples",
+                 std::to_string(impl.series[kJointAngles].packer.numItems()));
+      insertMeta(database,
+                 "temperature_samples",
+                 std::to_string(impl.series[kTemperatures].packer.numItems()));
       insertMeta(database, "value_type", impl.allCounts ? "counts" : "float");
       insertMeta(database, "finished", "1");
     });

@@ -168,14 +168,14 @@ TEST_F(InspectTest, ShowsAnglesAndTemperaturesAtTheCursor) {
     const auto angles = profile.anglesAtFrame(frame);
     const auto temperatures = profile.temperaturesAtFrame(frame);
     ASSERT_TRUE(angles && temperatures);
-    for (std::size_t i = 0; i < angles->deg.size(); ++i) {
+    for (std::size_t i = 0; i < angles->values.size(); ++i) {
       const QString shown = fact("angleFacts", QString::fromStdString(profile.hand().axes[i].name));
       ASSERT_TRUE(shown.endsWith("°")) << shown.toStdString();
-      EXPECT_NEAR(shown.chopped(1).toDouble(), angles->deg[i], 0.051);
+      EXPECT_NEAR(shown.chopped(1).toDouble(), angles->values[i], 0.051);
     }
     const QString motor = fact("temperatureFacts", "motor 0");
     ASSERT_TRUE(motor.endsWith(" °C")) << motor.toStdString();
-    EXPECT_NEAR(motor.chopped(3).toDouble(), temperatures->degC[0], 0.051);
+    EXPECT_NEAR(motor.chopped(3).toDouble(), temperatures->values[0], 0.051);
   }
 }
 

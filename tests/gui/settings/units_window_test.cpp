@@ -105,10 +105,10 @@ TEST_F(UnitsWindowTest, InspectFollowsAtOnce) {
   use(kOthers);
   const QString angle = fact("angleFacts", angleName());
   ASSERT_TRUE(angle.endsWith(" rad")) << angle.toStdString();
-  EXPECT_NEAR(angle.chopped(4).toDouble(), angles->deg[1] * kRadPerDeg, 0.000501);
+  EXPECT_NEAR(angle.chopped(4).toDouble(), angles->values[1] * kRadPerDeg, 0.000501);
   const QString heat = fact("temperatureFacts", sensorName());
   ASSERT_TRUE(heat.endsWith(" K")) << heat.toStdString();
-  EXPECT_NEAR(heat.chopped(2).toDouble(), heats->degC[2] + 273.15, 0.0501);
+  EXPECT_NEAR(heat.chopped(2).toDouble(), heats->values[2] + 273.15, 0.0501);
   MatrixTableModel& table = window().findChild<InspectPanel*>()->table();
   EXPECT_EQ(table.headerData(MatrixTableModel::kArea, Qt::Horizontal, Qt::DisplayRole), "cm²");
   const int all = table.rowCount() - 1;
@@ -139,7 +139,7 @@ TEST_F(UnitsWindowTest, TablesForFilesKeepTheBaseUnits) {
   const std::size_t angle = curve(kAngle);
   EXPECT_EQ(shown.curves[angle].unit, "rad");
   EXPECT_NEAR(shown.curves[angle].values[0],
-              recording()->profile.anglesAtFrame(0)->deg[1] * kRadPerDeg,
+              recording()->profile.anglesAtFrame(0)->values[1] * kRadPerDeg,
               1e-9);
 }
 

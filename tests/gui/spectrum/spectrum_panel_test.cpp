@@ -218,12 +218,9 @@ class DamagedFrames : public ProfileStorage {
   void readFrame(std::size_t frame, TactileFrame&) const override {
     if (frame > 50) throw FormatError("a.palpate", "block 7 is damaged");
   }
-  std::size_t numAngles() const override { return 0; }
-  std::int64_t angleTimeUs(std::size_t) const override { return 0; }
-  JointAngles angles(std::size_t) const override { return {}; }
-  std::size_t numTemperatures() const override { return 0; }
-  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
-  Temperatures temperatures(std::size_t) const override { return {}; }
+  std::size_t numSamples(std::size_t) const override { return 0; }
+  std::int64_t sampleTimeUs(std::size_t, std::size_t) const override { return 0; }
+  Sample sample(std::size_t, std::size_t) const override { return {}; }
 };
 
 TEST_F(SpectrumPanelTest, SaysWhatCannotBeRead) {

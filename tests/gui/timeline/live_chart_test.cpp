@@ -41,7 +41,7 @@ class LiveChartTest : public ::testing::Test {
     results.matrixSignals.resize(6);
     results.matrixSignals[2].mean = mean;
     results.wholeSignals.mean = mean / 2;
-    results.angles = JointAngles{made->hostUs, {10.0, 20.0 + atS, 30.0, 40.0, 50.0, 60.0, 70.0}};
+    results.angles = Sample{made->hostUs, {10.0, 20.0 + atS, 30.0, 40.0, 50.0, 60.0, 70.0}};
     history_.add(results);
   }
   // One frame in 1/10 s, with its time as the mean.

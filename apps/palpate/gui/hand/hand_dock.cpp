@@ -544,9 +544,9 @@ void HandDock::showSamples() {
   if (!queue_) return;
   items_.clear();
   queue_->take(items_);
-  const Temperatures* temperatures = nullptr;
+  const Sample* temperatures = nullptr;
   for (const CaptureItem& item : items_) {
-    if (const auto* sample = std::get_if<Temperatures>(&item)) temperatures = sample;
+    if (const Sample* sample = sampleOf(item, kTemperatures)) temperatures = sample;
     if (const auto* frame = std::get_if<SharedFrame>(&item)) layout_ = (*frame)->layout;
   }
   tactile_->showScanned(layout_);
@@ -554,15 +554,15 @@ void HandDock::showSamples() {
   items_.clear();
 }
 
-void HandDock::showHeat(const Temperatures& temperatures) {
+void HandDock::showHeat(const Sample& temperatures) {
   shownTemperatures_ = temperatures;
   const ShownUnit unit = shownUnit(units_.temperature);
   const double hottest = HealthOptions{}.maxTemperatureDegC;
   QStringList hot;
-  for (std::size_t i = 0; i < std::min(temperatures.degC.size(), sensors_.size()); ++i)
-    if (temperatures.degC[i] > hottest)
+  for (std::size_t i = 0; i < std::min(temperatures.values.size(), sensors_.size()); ++i)
+    if (temperatures.values[i] > hottest)
       hot.append(QString::fromStdString(sensors_[i].name) + " " +
-                 unit.text(temperatures.degC[i], 1));
+                 unit.text(temperatures.values[i], 1));
   heat_->setVisible(!hot.isEmpty());
   heat_->setText("Too hot: " + hot.join(", ") + ". Relax the hand and let it cool below " +
                  unit.text(hottest, 0) + ".");
@@ -570,7 +570,7 @@ void HandDock::showHeat(const Temperatures& temperatures) {
 
 void HandDock::setUnits(const DisplayUnits& units) {
   units_ = units;
-  if (shownTemperatures_) showHeat(Temperatures(*shownTemperatures_));
+  if (shownTemperatures_) showHeat(Sample(*shownTemperatures_));
 }
 
 }  // namespace palpate::gui

@@ -135,7 +135,7 @@ class HandDock : public QWidget {
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
   void showSamples();
   // Warns of sensors that are too hot.
-  void showHeat(const Temperatures& temperatures);
+  void showHeat(const Sample& temperatures);
 
   const HandActions& actions_;
   QScrollArea* body_ = nullptr;
@@ -160,7 +160,7 @@ class HandDock : public QWidget {
   DisplayUnits units_;
   std::vector<TemperatureSensorDescription> sensors_;
   // The last ones.
-  std::optional<Temperatures> shownTemperatures_;
+  std::optional<Sample> shownTemperatures_;
   StopKey* stopKey_;
   // What the hand did by itself, and GraspStatus::stopsAsked, at the last refresh; whether a stop
   // ended it, and when the last grasp had ended then [us since 1970].

@@ -94,7 +94,7 @@ void Hand3dFeature::connectMoment() {
             if (panel_->isHidden()) return;
             if (const auto objects = windowState.live.objects()) view.setObjects(*objects);
             panel_->showLive(*results.frame,
-                             results.angles ? results.angles->deg : std::vector<double>());
+                             results.angles ? results.angles->values : std::vector<double>());
           });
   connect(
       &windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, [&windowState, &view] {
@@ -137,7 +137,7 @@ void Hand3dFeature::showMoment() {
   // The view stays as it was and shows the notice.
   if (state().currentFrame.damaged()) return;
   const auto& angles = state().currentFrame.angles();
-  panel_->show(state().currentFrame.frame(), angles ? angles->deg : std::vector<double>());
+  panel_->show(state().currentFrame.frame(), angles ? angles->values : std::vector<double>());
 }
 
 void Hand3dFeature::connectLook() {

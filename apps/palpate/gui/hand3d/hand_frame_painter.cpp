@@ -18,7 +18,7 @@ FramePictures::Paint handFramePainter(const Profile& profile,
     HandPictureOptions now = options;
     if (!now.page.title.isEmpty()) now.page.caption = captionOf(profile, frame);
     const auto angles = profile.anglesAtFrame(frame);
-    drawing->setMoment(profile.frame(frame), angles ? angles->deg : assumedDeg);
+    drawing->setMoment(profile.frame(frame), angles ? angles->values : assumedDeg);
     now.notice = poseNotice(*drawing, !angles && !assumedDeg.empty());
     paintHandPicture(painter, QRectF(QPointF(), now.page.size), *drawing, now);
   };

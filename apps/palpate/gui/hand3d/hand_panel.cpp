@@ -36,7 +36,7 @@ std::vector<Eigen::Vector3d> handPanelExtentOf(const OpenedRecording& recording,
        {std::size_t{0}, recording.table.frameOfLargestSum(), profile.numFrames() - 1}) {
     try {
       const auto angles = profile.anglesAtFrame(frame);
-      drawing.setMoment(profile.frame(frame), angles ? angles->deg : std::vector<double>());
+      drawing.setMoment(profile.frame(frame), angles ? angles->values : std::vector<double>());
     } catch (const Error&) {
       // The frame is damaged; that is reported when it is shown.
       continue;

@@ -240,27 +240,27 @@ void InspectPanel::showLatest() {
 }
 
 void InspectPanel::showFrame(std::size_t frame,
-                             const std::optional<JointAngles>& angles,
-                             const std::optional<Temperatures>& temperatures) {
+                             const std::optional<Sample>& angles,
+                             const std::optional<Sample>& temperatures) {
   if (!recording_) return;
   model_->showFrame(frame);
   if (angles) showAngles(*angles);
   if (temperatures) showTemperatures(*temperatures);
 }
 
-void InspectPanel::showAngles(const JointAngles& angles) {
+void InspectPanel::showAngles(const Sample& angles) {
   shownAngles_ = angles;
-  const std::size_t rows = std::min({angles.deg.size(), angles_->facts().size(), axes_.size()});
+  const std::size_t rows = std::min({angles.values.size(), angles_->facts().size(), axes_.size()});
   for (std::size_t i = 0; i < rows; ++i)
-    angles_->setValue(i, shownUnit(axes_[i], units_).text(angles.deg[i], 1));
+    angles_->setValue(i, shownUnit(axes_[i], units_).text(angles.values[i], 1));
 }
 
-void InspectPanel::showTemperatures(const Temperatures& temperatures) {
+void InspectPanel::showTemperatures(const Sample& temperatures) {
   shownTemperatures_ = temperatures;
   const ShownUnit unit = shownUnit(units_.temperature);
-  const std::size_t rows = std::min(temperatures.degC.size(), temperatures_->facts().size());
+  const std::size_t rows = std::min(temperatures.values.size(), temperatures_->facts().size());
   for (std::size_t i = 0; i < rows; ++i) {
-    const double value = temperatures.degC[i];
+    const double value = temperatures.values[i];
     temperatures_->setValue(i, value == 0.0 ? QString("–") : unit.text(value, 1));
   }
 }
@@ -268,8 +268,8 @@ void InspectPanel::showTemperatures(const Temperatures& temperatures) {
 void InspectPanel::setUnits(const DisplayUnits& units) {
   units_ = units;
   model_->setUnits(units);
-  if (shownAngles_) showAngles(JointAngles(*shownAngles_));
-  if (shownTemperatures_) showTemperatures(Temperatures(*shownTemperatures_));
+  if (shownAngles_) showAngles(Sample(*shownAngles_));
+  if (shownTemperatures_) showTemperatures(Sample(*shownTemperatures_));
 }
 
 void InspectPanel::setStale(bool matrices, bool angles) {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include <palpate/live/live_results.h>
-#include <palpate/model/hand_state.h>
+#include <palpate/model/series.h>
 
 #include "gui/inspect/matrix_table.h"
 #include "gui/source/opened_recording.h"
@@ -25,8 +25,8 @@ class InspectPanel : public QScrollArea {
   void setRecording(const OpenedRecordingPtr& recording, const OpenedRecordingPtr& asRecorded);
   // Shows a frame of the recording; angles and temperatures that aren't known keep their values.
   void showFrame(std::size_t frame,
-                 const std::optional<JointAngles>& angles,
-                 const std::optional<Temperatures>& temperatures);
+                 const std::optional<Sample>& angles,
+                 const std::optional<Sample>& temperatures);
   // Shows the events of the recording as edited.
   void showEvents(const std::vector<Event>& events);
   // The calibration as text: "none: values are counts", or its name.
@@ -61,8 +61,8 @@ class InspectPanel : public QScrollArea {
   // Two columns where there is room for both.
   void arrange();
   void listSensors(const HandDescription& hand, bool angles, bool temperatures);
-  void showAngles(const JointAngles& angles);
-  void showTemperatures(const Temperatures& temperatures);
+  void showAngles(const Sample& angles);
+  void showTemperatures(const Sample& temperatures);
 
   OpenedRecordingPtr recording_;
   // Newest live results that aren't shown yet; null when all are.
@@ -81,8 +81,8 @@ class InspectPanel : public QScrollArea {
   DisplayUnits units_;
   // The axes of the hand, and the values that are shown.
   std::vector<AxisDescription> axes_;
-  std::optional<JointAngles> shownAngles_;
-  std::optional<Temperatures> shownTemperatures_;
+  std::optional<Sample> shownAngles_;
+  std::optional<Sample> shownTemperatures_;
   FactsView* events_;
   FactsView* angles_;
   FactsView* temperatures_;

@@ -238,8 +238,8 @@ void RecogniseFeature::takeItems() {
   for (CaptureItem& item : items_) {
     if (auto* frame = std::get_if<SharedFrame>(&item))
       collector_->addFrame(std::move(*frame));
-    else if (auto* angles = std::get_if<JointAngles>(&item))
-      collector_->addAngles(std::move(*angles));
+    else if (const Sample* angles = sampleOf(item, kJointAngles))
+      collector_->addAngles(*angles);
   }
   items_.clear();
   std::vector<Profile> ended = collector_->takeEnded();

@@ -27,7 +27,7 @@ ShowScene::ShowScene(WindowState& windowState, MatricesPanel& panel, QWidget* pa
   connect(&current, &CurrentFrame::resultsReceived, this, [this](const LiveResults& results) {
     if (const auto objects = windowState_.live.objects()) hand_->setObjects(*objects);
     hand_->setLiveMoment(*results.frame,
-                         results.angles ? results.angles->deg : std::vector<double>());
+                         results.angles ? results.angles->values : std::vector<double>());
   });
   connect(&current, &CurrentFrame::staleNoticeChanged, this, [this, &current] {
     hand_->setStale(current.old());
@@ -52,7 +52,7 @@ void ShowScene::takeFrame() {
   matrices_->setFrame(current.frame());
   if (!windowState_.displayed.isLive())
     hand_->setMoment(current.frame(),
-                     current.angles() ? current.angles()->deg : std::vector<double>());
+                     current.angles() ? current.angles()->values : std::vector<double>());
 }
 
 void ShowScene::takeLook() {

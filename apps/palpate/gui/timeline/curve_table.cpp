@@ -30,11 +30,11 @@ std::string curveCell(const OpenedRecording& recording,
       return numberText(meanOf(recording.profile.frame(frame), choice.taxels));
     case SeriesChoice::Kind::kAngle: {
       const auto angles = recording.profile.anglesAtFrame(frame);
-      return angles ? of(angles->deg, choice.index) : std::string();
+      return angles ? of(angles->values, choice.index) : std::string();
     }
     case SeriesChoice::Kind::kTemperature: {
       const auto temperatures = recording.profile.temperaturesAtFrame(frame);
-      return temperatures ? of(temperatures->degC, choice.index) : std::string();
+      return temperatures ? of(temperatures->values, choice.index) : std::string();
     }
   }
   return {};

@@ -30,8 +30,8 @@ class CurrentFrame : public QObject {
   bool hasFrame() const { return !frame_.values.empty(); }
   // Joint angles and temperatures of a recording: the last ones at or before the frame; nothing
   // when the recording has none or they are damaged.
-  const std::optional<JointAngles>& angles() const noexcept { return angles_; }
-  const std::optional<Temperatures>& temperatures() const noexcept { return temperatures_; }
+  const std::optional<Sample>& angles() const noexcept { return angles_; }
+  const std::optional<Sample>& temperatures() const noexcept { return temperatures_; }
   // The angles or temperatures at this frame can't be read.
   bool damaged() const noexcept { return damaged_; }
   // Index of the frame in the recording; 0 for a live source.
@@ -69,8 +69,8 @@ class CurrentFrame : public QObject {
   LiveController& live_;
   PlaybackController& playback_;
   TactileFrame frame_;
-  std::optional<JointAngles> angles_;
-  std::optional<Temperatures> temperatures_;
+  std::optional<Sample> angles_;
+  std::optional<Sample> temperatures_;
   bool damaged_ = false;
   bool held_ = false;
   StaleNotice stale_;
