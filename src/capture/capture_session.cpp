@@ -190,8 +190,8 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
 }
 
 void CaptureSession::onSample(Sample&& sample) {
-  if (sample.series == kJointAngles) screenAngles_.put(sample);
-  if (sample.series == kTemperatures) {
+  if (sample.series == kAngleSeries) screenAngles_.put(sample);
+  if (sample.series == kTemperatureSeries) {
     screenTemperatures_.put(sample);
     const std::lock_guard lock(shownMutex_);
     lastTemperatures_ = sample;

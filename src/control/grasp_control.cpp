@@ -181,9 +181,9 @@ void GraspControl::processFrames() {
   for (const CaptureItem& item : items_)
     if (const auto* frame = std::get_if<SharedFrame>(&item))
       machine_.onFrame(**frame, nowUs);
-    else if (const Sample* angles = sampleOf(item, kJointAngles))
+    else if (const Sample* angles = sampleOf(item, kAngleSeries))
       machine_.onAngles(angles->values, nowUs);
-    else if (const Sample* temperatures = sampleOf(item, kTemperatures))
+    else if (const Sample* temperatures = sampleOf(item, kTemperatureSeries))
       onTemperatures(temperatures->values);
   items_.clear();
 }

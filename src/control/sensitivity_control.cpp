@@ -172,7 +172,7 @@ void SensitivityControl::processFrames() {
   queue_->take(items_);
   for (const CaptureItem& item : items_) {
     if (const auto* frame = std::get_if<SharedFrame>(&item)) onFrame(**frame);
-    if (const Sample* temperatures = sampleOf(item, kTemperatures)) degC_ = temperatures->values;
+    if (const Sample* temperatures = sampleOf(item, kTemperatureSeries)) degC_ = temperatures->values;
     // A pause of the stream must not count as a low rate.
     if (const auto* event = std::get_if<Event>(&item))
       if (event->kind == "settings" || event->kind == "gap") stampsUs_.clear();

@@ -297,7 +297,7 @@ void MotionLink::pollAngles() {
 }
 
 void MotionLink::pollTemperatures() {
-  Sample temperatures{.series = kTemperatures};
+  Sample temperatures{0, {}, kTemperatureSeries};
   temperatures.values = controller_->temperatures();
   temperatures.hostUs = stampAfter(session_.lastTemperatureStampUs);
   sink_->onSample(std::move(temperatures));

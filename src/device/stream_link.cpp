@@ -238,7 +238,7 @@ void StreamLink::take(const StreamItem& item) {
       return sink_->onSample(
           {stampAfter(session_.lastTemperaturesUs),
            {item.numbers.begin(), item.numbers.end()},
-           kTemperatures});
+           kTemperatureSeries});
     case StreamItemKind::kDescription:
       return takeDescription(item.text);
   }

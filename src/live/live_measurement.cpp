@@ -60,9 +60,9 @@ void LiveMeasurement::add(const CaptureItem& item) {
   if (state_ != State::kRunning) return;
   if (const auto* frame = std::get_if<SharedFrame>(&item))
     addFrame(**frame);
-  else if (const Sample* angles = sampleOf(item, kJointAngles))
+  else if (const Sample* angles = sampleOf(item, kAngleSeries))
     addAngles(*angles);
-  else if (const Sample* temperatures = sampleOf(item, kTemperatures))
+  else if (const Sample* temperatures = sampleOf(item, kTemperatureSeries))
     addTemperatures(*temperatures);
   else if (const auto* event = std::get_if<Event>(&item))
     addEvent(*event);

@@ -127,8 +127,8 @@ void ProcessingChain::process(const CaptureItem& item) {
   if (const auto* frame = std::get_if<SharedFrame>(&item)) {
     processFrame(*frame);
   } else if (const auto* sample = std::get_if<Sample>(&item)) {
-    if (sample->series == kJointAngles) angles_ = *sample;
-    if (sample->series == kTemperatures) temperatures_ = *sample;
+    if (sample->series == kAngleSeries) angles_ = *sample;
+    if (sample->series == kTemperatureSeries) temperatures_ = *sample;
     for (const auto& stage : stages_) stage->onSample(*sample);
   } else {
     for (const auto& stage : stages_) stage->onEvent(std::get<Event>(item));

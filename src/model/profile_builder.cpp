@@ -131,8 +131,8 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     return numFrames_ == 0 ? std::nullopt : std::optional(frameTimeUs(numFrames_ - 1));
   }
 
-  std::deque<Series> series{Series({kHandSeriesNames[kJointAngles], {}, {}, {}}),
-                            Series({kHandSeriesNames[kTemperatures], {}, {}, {}})};
+  std::deque<Series> series{Series({kHandSeriesNames[kAngleSeries], {}, {}, {}}),
+                            Series({kHandSeriesNames[kTemperatureSeries], {}, {}, {}})};
   bool allCounts = true;
 
  private:
@@ -203,8 +203,8 @@ std::optional<std::int64_t> ProfileBuilder::lastSampleUs(std::size_t series) con
 Profile ProfileBuilder::finish(ProfileInfo info) {
   const std::shared_ptr<Storage> storage = std::exchange(storage_, std::make_shared<Storage>());
   info.valueType = storage->allCounts ? ValueType::kCounts : ValueType::kFloat;
-  const std::size_t axes = storage->series[kJointAngles].width();
-  const std::size_t sensors = storage->series[kTemperatures].width();
+  const std::size_t axes = storage->series[kAngleSeries].width();
+  const std::size_t sensors = storage->series[kTemperatureSeries].width();
   std::vector<SeriesDescription> further;
   for (std::size_t i = kHandSeries; i < storage->series.size(); ++i)
     further.push_back(storage->series[i].description);

@@ -56,9 +56,9 @@ struct WrittenSamples {
 inline WrittenSamples writtenSamples(const Profile& profile, std::size_t series) {
   const std::size_t count = profile.numSamples(series);
   std::vector<Column> columns = profile.series()[series].columns;
-  if (count > 0 && series == kJointAngles)
+  if (count > 0 && series == kAngleSeries)
     columns = angleColumns(profile.hand(), profile.angles(0).values.size());
-  if (count > 0 && series == kTemperatures)
+  if (count > 0 && series == kTemperatureSeries)
     columns = temperatureColumns(profile.hand(), profile.temperatures(0).values.size());
   return {count,
           [profile, series](std::size_t i) { return profile.sampleTimeUs(series, i); },

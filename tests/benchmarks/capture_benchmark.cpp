@@ -76,7 +76,7 @@ double recordedCpuS(double rateHz, const std::vector<TactileFrame>& frames) {
       [&](std::int64_t nowUs) {
         scripted.clock.pass(kRoundUs);
         if (nowUs % 960'000 == 0)
-          sink.onSample({kWallStartUs + nowUs, std::vector<double>(9, 33.5), kTemperatures});
+          sink.onSample({kWallStartUs + nowUs, std::vector<double>(9, 33.5), kTemperatureSeries});
         scripted.session->step();
       });
   const RecordingReport report = scripted.session->stopRecording();

@@ -92,7 +92,7 @@ void makeDay(const fs::path& path) {
   palpate::TactileFrame frame(hand.layout);
   palpate::Sample angles{0, std::vector<double>(7)};
   palpate::Sample temperatures{
-      0, std::vector<double>(9, 30.0), palpate::kTemperatures};
+      0, std::vector<double>(9, 30.0), palpate::kTemperatureSeries};
   std::mt19937 random(1);
   constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
   int nextAngles = 0;

@@ -33,7 +33,7 @@ TEST(CaptureQueue, handsOutInOrderOfTimeWhateverThePort) {
   queue.put(frameAt(40));
   queue.put(Sample{10, {1.0}});
   queue.put(Sample{40, {2.0}});
-  queue.put(Sample{40, {30.0}, kTemperatures});
+  queue.put(Sample{40, {30.0}, kTemperatureSeries});
   queue.put(Event{30, 30, "label", {}, "x", ""});
   std::vector<std::int64_t> stamps;
   std::vector<CaptureStream> streams;

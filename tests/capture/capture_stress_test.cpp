@@ -65,7 +65,7 @@ class EagerDevice : public ScriptedDevice {
     for (std::size_t n = 0; n < 3 * frames_ && !stop.stop_requested(); ++n) {
       const std::int64_t atUs = kWallStartUs + static_cast<std::int64_t>(n) * 9'000;
       sink_->onSample(numberedAngles(n, atUs));
-      if (n % 111 == 0) sink_->onSample({atUs, std::vector<double>(9, 30.0), kTemperatures});
+      if (n % 111 == 0) sink_->onSample({atUs, std::vector<double>(9, 30.0), kTemperatureSeries});
       if (n % 1000 == 0) sink_->onEvent({atUs, atUs, "motion", {}, "moved", ""});
       sentAngles = n + 1;
     }

@@ -232,9 +232,9 @@ TEST(LinkHealth, aSenderOfAnotherHandIsNotSilent) {
 
 TEST(LinkHealth, aHandThatIsTooHotIsAnAlarm) {
   LinkInputs inputs = streaming();
-  inputs.temperatures = Sample{0, {30.0, 65.0}, kTemperatures};
+  inputs.temperatures = Sample{0, {30.0, 65.0}, kTemperatureSeries};
   EXPECT_TRUE(assessHealth(inputs).alarms.empty());
-  inputs.temperatures = Sample{0, {30.0, 70.2, 0.0}, kTemperatures};
+  inputs.temperatures = Sample{0, {30.0, 70.2, 0.0}, kTemperatureSeries};
   const LinkHealth hot = assessHealth(inputs);
   ASSERT_EQ(kindsOf(hot), std::vector{AlarmKind::kTooHot});
   EXPECT_EQ(hot.alarms[0].text, "the hand is 70 deg C hot: relax it and let it cool down below 65");
@@ -295,7 +295,7 @@ TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
   EXPECT_EQ(textOf(inputs, {"/full", true, 18'000}),
             "not ready: /full has space for less than a minute: choose another folder, or free "
             "some space");
-  inputs.temperatures = Sample{0, {30.0, 70.2}, kTemperatures};
+  inputs.temperatures = Sample{0, {30.0, 70.2}, kTemperatureSeries};
   const PreflightCheck hot = checkPreflight(inputs, kGoodFolder);
   EXPECT_FALSE(hot.ready);
   EXPECT_NE(hot.text.find("70 deg C"), std::string::npos);

@@ -35,7 +35,7 @@ class Listener : public DeviceSink {
     frames.push_back(std::move(frame));
   }
   void onSample(Sample&& sample) override {
-    const bool isAngles = sample.series == kJointAngles;
+    const bool isAngles = sample.series == kAngleSeries;
     items.push_back({isAngles ? 'a' : 't', sample.hostUs});
     (isAngles ? angles : temperatures).push_back(std::move(sample));
   }

@@ -88,7 +88,7 @@ class ScriptedDevice : public Device {
   void frame(std::size_t n, std::int64_t hostUs) { sink->onFrame(numberedFrame(n, hostUs)); }
   void angles(std::size_t n, std::int64_t hostUs) { sink->onSample(numberedAngles(n, hostUs)); }
   void temperatures(double degC, std::int64_t hostUs) {
-    sink->onSample({hostUs, std::vector<double>(9, degC), kTemperatures});
+    sink->onSample({hostUs, std::vector<double>(9, degC), kTemperatureSeries});
   }
 };
 

@@ -32,7 +32,7 @@ class ReplayCheck : public DeviceSink {
     ++frames;
   }
   void onSample(Sample&& sample) override {
-    if (sample.series == kJointAngles) ++angles;
+    if (sample.series == kAngleSeries) ++angles;
   }
   void onEvent(Event&&) override {}
   std::size_t frames = 0, angles = 0, different = 0;

@@ -182,7 +182,7 @@ TEST_F(SequenceRunTest, ATaskThatThrowsStopsTheHandAndRaisesAnAlarm) {
 // Nobody but the control cycle has to notice it.
 TEST_F(SequenceRunTest, AHandThatIsTooHotEndsItAndBeginsNone) {
   const auto measure = [&](double degC) {
-    Sample temperatures{.series = kTemperatures};
+    Sample temperatures{0, {}, kTemperatureSeries};
     temperatures.hostUs = now();
     temperatures.values.assign(sdh2().temperatureSensors.size(), 40.0);
     temperatures.values[1] = degC;

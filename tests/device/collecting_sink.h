@@ -20,7 +20,7 @@ class CollectingSink : public DeviceSink {
   }
   void onSample(Sample&& sample) override {
     std::lock_guard lock(mutex_);
-    (sample.series == kJointAngles ? angles : temperatures).push_back(std::move(sample));
+    (sample.series == kAngleSeries ? angles : temperatures).push_back(std::move(sample));
     changed_.notify_all();
   }
   void onEvent(Event&& event) override {

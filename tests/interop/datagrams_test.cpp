@@ -42,7 +42,7 @@ LiveResults largeResults(std::size_t numMatrices, std::size_t numAxes) {
   }
   results.angles = Sample{1, std::vector<double>(numAxes, -12.345678901234567)};
   if (numAxes > 2) results.angles->values[2] = std::numeric_limits<double>::quiet_NaN();
-  results.temperatures = Sample{1, {41.25, 38.0}, kTemperatures};
+  results.temperatures = Sample{1, {41.25, 38.0}, kTemperatureSeries};
   return results;
 }
 

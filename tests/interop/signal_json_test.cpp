@@ -84,7 +84,7 @@ TEST(SignalJson, SaysSlipForceAndTheHand) {
   pressure->forceN = 1.75;
   results.pressure = pressure;
   results.angles = Sample{1, {0.0, -60.5, std::numeric_limits<double>::quiet_NaN()}};
-  results.temperatures = Sample{1, {41.25, 38.0}, kTemperatures};
+  results.temperatures = Sample{1, {41.25, 38.0}, kTemperatureSeries};
   LinkHealth link;
   link.frames.rateHz = 31.5;
   link.frames.ageMs = 12.0;

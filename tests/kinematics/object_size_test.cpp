@@ -168,7 +168,7 @@ class DamagedAngles : public ProfileStorage {
     whole_.readFrame(frame, out);
   }
   std::size_t numSamples(std::size_t series) const override {
-    return series == kJointAngles ? whole_.numAngles() : 0;
+    return series == kAngleSeries ? whole_.numAngles() : 0;
   }
   std::int64_t sampleTimeUs(std::size_t, std::size_t i) const override {
     return whole_.angleTimeUs(i);

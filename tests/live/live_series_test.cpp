@@ -62,7 +62,7 @@ TEST(LiveSeries, ACurveThatIsChosenLaterHasThePastToo) {
     frame->matrix(2)(3, 2) = 999.0F;  // of another matrix
     results.frame = frame;
     results.angles = Sample{results.frame->hostUs, {1.0 * i, -2.0 * i}};
-    results.temperatures = Sample{results.frame->hostUs, {0.0, 30.0 + i}, kTemperatures};
+    results.temperatures = Sample{results.frame->hostUs, {0.0, 30.0 + i}, kTemperatureSeries};
     auto pressure = std::make_shared<PressureFrame>();
     pressure->matrices.resize(6);
     pressure->matrices[4].forceN = 0.5 * i;

@@ -62,7 +62,7 @@ TEST(SignalHistory, TenMinutesOfAFullHandFitIntoItsMemory) {
   LiveResults results = resultsAt(1);
   results.frame = frame;
   results.angles = Sample{1, std::vector<double>(7)};
-  results.temperatures = Sample{1, std::vector<double>(9), kTemperatures};
+  results.temperatures = Sample{1, std::vector<double>(9), kTemperatureSeries};
   SignalHistory history;
   history.add(results);
   EXPECT_LT(static_cast<double>(history.bytes()) * 600.0 * 31.7,

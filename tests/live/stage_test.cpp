@@ -27,7 +27,7 @@ class NotingStage final : public Stage {
       out.push_back({results.frame->hostUs, results.frame->hostUs, "slip", 1, "slips", ""});
   }
   void onSample(const Sample& sample) override {
-    notes_.push_back(sample.series == kJointAngles ? "angles" : "temperatures");
+    notes_.push_back(sample.series == kAngleSeries ? "angles" : "temperatures");
   }
   void onEvent(const Event& event) override { notes_.push_back(event.kind); }
 

@@ -75,7 +75,7 @@ class DamagedStorage : public ProfileStorage {
       out.matrix(1)(9, 2) = std::numeric_limits<float>::quiet_NaN();
   }
   std::size_t numSamples(std::size_t series) const override {
-    return series == kJointAngles ? whole_.numAngles() : 0;
+    return series == kAngleSeries ? whole_.numAngles() : 0;
   }
   std::int64_t sampleTimeUs(std::size_t, std::size_t i) const override {
     return whole_.angleTimeUs(i);

@@ -36,7 +36,7 @@ inline void writeLong(const std::filesystem::path& path, std::size_t frames, boo
     frame.hostUs = longStampUs(i);
     frame.values[0] = longValue(i);
     if (withSamples) writer.addSample({frame.hostUs, {static_cast<double>(i % 90), 1.5}});
-    if (withSamples && i % 100 == 0) writer.addSample({frame.hostUs, {20.0}, kTemperatures});
+    if (withSamples && i % 100 == 0) writer.addSample({frame.hostUs, {20.0}, kTemperatureSeries});
     writer.addFrame(frame);
   }
   writer.finish();

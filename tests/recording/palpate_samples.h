@@ -40,7 +40,7 @@ inline Sample sampleAngles(std::size_t i) {
 inline Sample sampleTemperatures(std::size_t i) {
   return {kSampleStartUs + static_cast<std::int64_t>(i) * 1'000'000,
           std::vector<double>(9, 20.0 + static_cast<double>(i)),
-          kTemperatures};
+          kTemperatureSeries};
 }
 
 // Frames with their angles and temperatures.

@@ -42,7 +42,7 @@ struct ReplayComparison : DeviceSink {
            profile.frameTimeUs(i) == frame.hostUs;
   }
   void onSample(Sample&& sample) override {
-    const std::size_t i = (sample.series == kJointAngles ? angles : temperatures)++;
+    const std::size_t i = (sample.series == kAngleSeries ? angles : temperatures)++;
     same = same && i < profile.numSamples(sample.series) &&
            profile.sample(sample.series, i).values == sample.values &&
            profile.sample(sample.series, i).hostUs == sample.hostUs;

@@ -35,8 +35,8 @@ using CaptureItem = std::variant<SharedFrame, Sample, Event>;
 // What an item belongs to: frames, a series (1 + its index), events.
 enum class CaptureStream : std::uint8_t {
   kTactile = 0,
-  kAngles = 1 + kJointAngles,
-  kTemperatures = 1 + palpate::kTemperatures,
+  kAngles = 1 + kAngleSeries,
+  kTemperatures = 1 + palpate::kTemperatureSeries,
   kEvents = 1 + kMaxSeries
 };
 constexpr std::size_t kCaptureStreams = 2 + kMaxSeries;

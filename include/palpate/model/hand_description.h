@@ -100,7 +100,7 @@ HandDescription withSeriesOf(HandDescription hand,
                              std::size_t numAxes,
                              std::size_t numTemperatureSensors);
 
-// The series of the hand itself: kJointAngles with a column per axis, kTemperatures with one per
+// The series of the hand itself: kAngleSeries with a column per axis, kTemperatureSeries with one per
 // sensor.
 std::vector<SeriesDescription> seriesOf(const HandDescription& hand);
 

@@ -101,7 +101,7 @@ class Profile {
   // be read is added to it, and false returned; only the time in `out` is valid then.
   bool readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples* unreadable) const;
 
-  // All series: first those of the hand (kJointAngles, kTemperatures), whose columns are its axes
+  // All series: first those of the hand (kAngleSeries, kTemperatureSeries), whose columns are its axes
   // and sensors.
   const std::vector<SeriesDescription>& series() const noexcept { return data_->series; }
   // The series with samples of a name; empty if there is none.
@@ -110,12 +110,12 @@ class Profile {
   std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const;
   Sample sample(std::size_t series, std::size_t sample) const;
   // The same for the series of the hand.
-  std::size_t numAngles() const { return numSamples(kJointAngles); }
-  std::int64_t angleTimeUs(std::size_t i) const { return sampleTimeUs(kJointAngles, i); }
-  Sample angles(std::size_t i) const { return sample(kJointAngles, i); }
-  std::size_t numTemperatures() const { return numSamples(kTemperatures); }
-  std::int64_t temperatureTimeUs(std::size_t i) const { return sampleTimeUs(kTemperatures, i); }
-  Sample temperatures(std::size_t i) const { return sample(kTemperatures, i); }
+  std::size_t numAngles() const { return numSamples(kAngleSeries); }
+  std::int64_t angleTimeUs(std::size_t i) const { return sampleTimeUs(kAngleSeries, i); }
+  Sample angles(std::size_t i) const { return sample(kAngleSeries, i); }
+  std::size_t numTemperatures() const { return numSamples(kTemperatureSeries); }
+  std::int64_t temperatureTimeUs(std::size_t i) const { return sampleTimeUs(kTemperatureSeries, i); }
+  Sample temperatures(std::size_t i) const { return sample(kTemperatureSeries, i); }
 
   // Index of the last frame at or before a time, clamped to the first and the last frame; empty
   // when the profile has no frames.
@@ -125,16 +125,16 @@ class Profile {
   std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const;
   std::optional<Sample> sampleAtFrame(std::size_t series, std::size_t frame) const;
   std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const {
-    return sampleAt(kJointAngles, timeUs);
+    return sampleAt(kAngleSeries, timeUs);
   }
   std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const {
-    return sampleAt(kTemperatures, timeUs);
+    return sampleAt(kTemperatureSeries, timeUs);
   }
   std::optional<Sample> anglesAtFrame(std::size_t frame) const {
-    return sampleAtFrame(kJointAngles, frame);
+    return sampleAtFrame(kAngleSeries, frame);
   }
   std::optional<Sample> temperaturesAtFrame(std::size_t frame) const {
-    return sampleAtFrame(kTemperatures, frame);
+    return sampleAtFrame(kTemperatureSeries, frame);
   }
 
   // Time from the first to the last frame [us]; 0 with fewer than two.

@@ -43,22 +43,22 @@ class ProfileBuilder {
     addSample(sample.series, sample.hostUs, sample.values, sample.deviceUs);
   }
   void addAngles(std::int64_t hostUs, std::span<const double> deg) {
-    addSample(kJointAngles, hostUs, deg);
+    addSample(kAngleSeries, hostUs, deg);
   }
   void addTemperatures(std::int64_t hostUs, std::span<const double> degC) {
-    addSample(kTemperatures, hostUs, degC);
+    addSample(kTemperatureSeries, hostUs, degC);
   }
 
   std::size_t numFrames() const noexcept;
   std::size_t numSamples(std::size_t series) const;
-  std::size_t numAngles() const { return numSamples(kJointAngles); }
-  std::size_t numTemperatures() const { return numSamples(kTemperatures); }
+  std::size_t numAngles() const { return numSamples(kAngleSeries); }
+  std::size_t numTemperatures() const { return numSamples(kTemperatureSeries); }
   // Time stamp of the last frame, and of the last sample of a series [us since 1970]; empty before
   // the first one.
   std::optional<std::int64_t> lastFrameUs() const noexcept;
   std::optional<std::int64_t> lastSampleUs(std::size_t series) const;
-  std::optional<std::int64_t> lastAngleUs() const { return lastSampleUs(kJointAngles); }
-  std::optional<std::int64_t> lastTemperatureUs() const { return lastSampleUs(kTemperatures); }
+  std::optional<std::int64_t> lastAngleUs() const { return lastSampleUs(kAngleSeries); }
+  std::optional<std::int64_t> lastTemperatureUs() const { return lastSampleUs(kTemperatureSeries); }
 
   // Returns the profile and leaves the builder empty. Sets info.valueType from the data.
   Profile finish(ProfileInfo info);

@@ -12,9 +12,9 @@ namespace palpate {
 
 // Index of a series in a profile or a source. The first two are those of the hand, in every
 // profile, also where they have no samples; others follow.
-constexpr std::size_t kJointAngles = 0;  // one column per axis [deg, sliding: mm]
+constexpr std::size_t kAngleSeries = 0;  // one column per axis [deg, sliding: mm]
 // One column per temperature sensor [deg C]; 0 when the sensor has not reported yet (power-up).
-constexpr std::size_t kTemperatures = 1;
+constexpr std::size_t kTemperatureSeries = 1;
 constexpr std::size_t kHandSeries = 2;
 
 constexpr std::size_t kMaxSeries = 64;      // of a profile, those of the hand included
@@ -42,7 +42,7 @@ struct SeriesDescription {
 struct Sample {
   std::int64_t hostUs = 0;     // time of arrival [us since 1970]
   std::vector<double> values;  // one per column; NaN where a value is not known
-  std::size_t series = kJointAngles;
+  std::size_t series = kAngleSeries;
   std::optional<std::int64_t> deviceUs = std::nullopt;  // the sender's clock [us]
 };
 

@@ -220,8 +220,8 @@ void writeMat(const RecordingContent& content,
   file.add("provenance", matProvenanceOf(extras.provenance, profile));
   file.add("meta", matMetaOf(profile, content.meta));
   file.add("tactile", samples.tactile());
-  file.add("joints", MatExport::samples("angles", writtenSamples(profile, kJointAngles)));
-  file.add("temperatures", MatExport::samples("values", writtenSamples(profile, kTemperatures)));
+  file.add("joints", MatExport::samples("angles", writtenSamples(profile, kAngleSeries)));
+  file.add("temperatures", MatExport::samples("values", writtenSamples(profile, kTemperatureSeries)));
   file.add("events", matEventsOf(content.events));
   for (const auto& series : extras.series) file.add(series->name(), MatExport::series(*series));
   file.commit();

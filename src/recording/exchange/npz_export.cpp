@@ -320,8 +320,8 @@ void writeNpz(const Profile& profile,
     filtered = writeMatrix(zip, profile, m, progress) || filtered;
   for (std::size_t m = 0; filtered && m < profile.layout().numMatrices(); ++m)
     writeActive(zip, profile, m);
-  npzExportWriteSamples(zip, "angle", writtenSamples(profile, kJointAngles));
-  npzExportWriteSamples(zip, "temperature", writtenSamples(profile, kTemperatures));
+  npzExportWriteSamples(zip, "angle", writtenSamples(profile, kAngleSeries));
+  npzExportWriteSamples(zip, "temperature", writtenSamples(profile, kTemperatureSeries));
   NpyArray mask(zip, "static_mask", "|u1", 1, {profile.layout().numCells()});
   for (const MatrixLayout& matrix : profile.layout().matrices())
     for (auto on : matrix.staticMask) mask.u8(on);

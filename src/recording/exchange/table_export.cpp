@@ -108,9 +108,9 @@ void writeCsv(const Profile& profile,
     writePiece(taxels, text);
   }
   writePiece(taxels, text, true);
-  if (angles) tableExportWriteSamples(*angles, writtenSamples(profile, kJointAngles), "axis", unitsRow);
+  if (angles) tableExportWriteSamples(*angles, writtenSamples(profile, kAngleSeries), "axis", unitsRow);
   if (temperatures)
-    tableExportWriteSamples(*temperatures, writtenSamples(profile, kTemperatures), "sensor", unitsRow);
+    tableExportWriteSamples(*temperatures, writtenSamples(profile, kTemperatureSeries), "sensor", unitsRow);
   std::vector<OutputFile*> files{&taxels};
   if (angles) files.push_back(&*angles);
   if (temperatures) files.push_back(&*temperatures);

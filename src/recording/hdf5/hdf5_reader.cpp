@@ -408,7 +408,7 @@ class Hdf5Storage final : public ProfileStorage {
   };
 
   const SampleSeries& of(std::size_t series) const {
-    return series == kJointAngles ? angles_ : temperatures_;
+    return series == kAngleSeries ? angles_ : temperatures_;
   }
   std::vector<std::uint64_t> shapeOf(std::size_t m) const {
     return {timesUs_.size(),

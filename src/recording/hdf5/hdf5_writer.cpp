@@ -99,8 +99,8 @@ class Hdf5Writer {
       makeGroup("joints");
       makeGroup("temperatures");
     }
-    writeSamples("joints", "angles", writtenSamples(profile_, kJointAngles));
-    writeSamples("temperatures", "values", writtenSamples(profile_, kTemperatures));
+    writeSamples("joints", "angles", writtenSamples(profile_, kAngleSeries));
+    writeSamples("temperatures", "values", writtenSamples(profile_, kTemperatureSeries));
     writeFrames();
     work_.finishAll();
     writeVersion();

@@ -277,7 +277,7 @@ void ImportRows::add(const TableSource& source,
   for (std::size_t i = 0; i < series.values.size(); ++i)
     if (series.values[i].target) sample_[*series.values[i].target] = valueAt(i);
   ++(isAngles ? report_.angles : report_.temperatures);
-  if (sink_.sample) sink_.sample({us, sample_, isAngles ? kJointAngles : kTemperatures});
+  if (sink_.sample) sink_.sample({us, sample_, isAngles ? kAngleSeries : kTemperatureSeries});
 }
 
 bool ImportRows::examineAll(const TableSource& source, const Pass& pass, const TableRow& row) {

@@ -214,7 +214,7 @@ class ForeignStorage final : public ProfileStorage {
     out.values = values_;
   }
   std::size_t numSamples(std::size_t series) const override {
-    return series == kJointAngles ? angles_.size() : 0;
+    return series == kAngleSeries ? angles_.size() : 0;
   }
   std::int64_t sampleTimeUs(std::size_t, std::size_t sample) const override {
     return places_[angles_[sample]].timeUs;
@@ -915,7 +915,7 @@ class ForeignReader {
     info.warnings = std::move(notes_);
     std::string lost = lostOfTopics(storage->numEarly());
     if (!lost.empty() && !salvage_) info.warnings.push_back(std::string(kLostWarning) + lost);
-    const std::size_t axes = storage->numAngles() > 0 ? numColumns : 0;
+    const std::size_t axes = storage->numSamples(kAngleSeries) > 0 ? numColumns : 0;
     return {.profile = Profile(
                 std::move(info), withSeriesOf(std::move(hand), axes, 0), std::move(storage)),
             .damage = {.text = std::move(damage_), .unused = std::move(lost)}};

@@ -517,7 +517,7 @@ class McapStorage final : public ProfileStorage {
     const McapSeriesIndex& index = of(series);
     const std::size_t piece = index.pieceOf(sample);
     const std::shared_ptr<const McapBlock> block = blockOf(piece);
-    const auto& values = series == kJointAngles ? block->angles : block->temperatures;
+    const auto& values = series == kAngleSeries ? block->angles : block->temperatures;
     return {index.timesUs[sample],
             rowOf(values, index, sample - index.firsts[piece], piece),
             series};
@@ -525,7 +525,7 @@ class McapStorage final : public ProfileStorage {
 
  private:
   const McapSeriesIndex& of(std::size_t series) const {
-    return series == kJointAngles ? angles_ : temperatures_;
+    return series == kAngleSeries ? angles_ : temperatures_;
   }
   McapBlock readBlock(std::size_t piece) const {
     return readMcapBlock(file_, own_, pieces_, piece, salvage_);

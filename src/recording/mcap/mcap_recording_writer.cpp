@@ -251,8 +251,8 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
 }
 
 void McapRecordingWriter::addSample(const Sample& sample) {
-  if (sample.series == kJointAngles) return addAngles(sample);
-  if (sample.series == kTemperatures) return addTemperatures(sample);
+  if (sample.series == kAngleSeries) return addAngles(sample);
+  if (sample.series == kTemperatureSeries) return addTemperatures(sample);
   addRow(samples_.at(sample.series), sample.hostUs, sample.values);
 }
 

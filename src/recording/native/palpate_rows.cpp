@@ -277,8 +277,10 @@ std::vector<SeriesDescription> readSeries(SqliteDatabase& database) {
     if (kHandSeries + all.size() == kMaxSeries) fail("too many");
     SeriesDescription series{rows.text(1), rows.text(2), {}, rows.text(3)};
     try {
-      for (const Json& column : Json::parse(rows.text(4)).elements())
-        series.columns.push_back({column.at("name").asString(), column.at("unit").asString()});
+      const Json columns = Json::parse(rows.text(4));
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        series.columns.push_back(
+            {columns.at(i).at("name").asString(), columns.at(i).at("unit").asString()});
       validate(series);
     } catch (const std::exception& error) {
       fail(error.what());

@@ -539,10 +539,10 @@ void PalpateWriter::finish() {
       insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
       insertMeta(database,
                  "angle_samples",
-                 std::to_string(impl.series[kJointAngles].packer.numItems()));
+                 std::to_string(impl.series[kAngleSeries].packer.numItems()));
       insertMeta(database,
                  "temperature_samples",
-                 std::to_string(impl.series[kTemperatures].packer.numItems()));
+                 std::to_string(impl.series[kTemperatureSeries].packer.numItems()));
       insertMeta(database, "value_type", impl.allCounts ? "counts" : "float");
       insertMeta(database, "finished", "1");
     });

@@ -546,7 +546,7 @@ void HandDock::showSamples() {
   queue_->take(items_);
   const Sample* temperatures = nullptr;
   for (const CaptureItem& item : items_) {
-    if (const Sample* sample = sampleOf(item, kTemperatures)) temperatures = sample;
+    if (const Sample* sample = sampleOf(item, kTemperatureSeries)) temperatures = sample;
     if (const auto* frame = std::get_if<SharedFrame>(&item)) layout_ = (*frame)->layout;
   }
   tactile_->showScanned(layout_);

@@ -238,7 +238,7 @@ void RecogniseFeature::takeItems() {
   for (CaptureItem& item : items_) {
     if (auto* frame = std::get_if<SharedFrame>(&item))
       collector_->addFrame(std::move(*frame));
-    else if (const Sample* angles = sampleOf(item, kJointAngles))
+    else if (const Sample* angles = sampleOf(item, kAngleSeries))
       collector_->addAngles(*angles);
   }
   items_.clear();
