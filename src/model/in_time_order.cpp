@@ -1,14 +1,22 @@
 #include "palpate/model/in_time_order.h"
 
+#include "palpate/core/error.h"
+
 namespace palpate {
 
-std::optional<InTimeOrder::Item> InTimeOrder::next() const {
+std::optional<InTimeOrder::Item> InTimeOrder::next() {
   std::optional<Item> first;
   const auto consider = [&](Kind kind, std::size_t count, auto timeOf) {
-    const std::size_t index = taken_[static_cast<std::size_t>(kind)];
-    if (index == count) return;
-    const std::int64_t timeUs = timeOf(index);
-    if (!first || timeUs < first->timeUs) first = Item{kind, index, timeUs};
+    for (std::size_t& index = taken_[static_cast<std::size_t>(kind)]; index < count; ++index) {
+      try {
+        const std::int64_t timeUs = timeOf(index);
+        if (!first || timeUs < first->timeUs) first = Item{kind, index, timeUs};
+        return;
+      } catch (const Error& error) {
+        if (!unreadable_) throw;
+        unreadable_(kind, error.what());
+      }
+    }
   };
   const Profile& profile = profile_;
   consider(Kind::kEvent, eventTimesUs_.size(), [&](auto i) { return eventTimesUs_[i]; });

@@ -234,7 +234,6 @@ TEST_F(SpectrumPanelTest, SaysWhatCannotBeRead) {
                       .table = {},
                       .whole = {},
                       .timeS = {},
-                      .gapFrames = {},
                       .touched = {},
                       .events = {},
                       .eventsFailure = {},
