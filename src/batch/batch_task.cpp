@@ -14,7 +14,6 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-// The part of the progress between two fractions.
 std::string matrixText(const std::optional<std::int64_t>& matrix) {
   return matrix ? "; matrix " + std::to_string(*matrix) : "";
 }

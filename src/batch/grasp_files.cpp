@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress.h"
 #include "palpate/recognition/grasp_segments.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/label_table.h"
@@ -119,21 +120,19 @@ void saveGrasps(const fs::path& source,
       throw FileError(path, "would be the file of two grasps");
   }
   for (std::size_t i = 0; i < grasps.size(); ++i) {
-    const auto partOf = [&](double begin) -> Progress {
-      return [&progress, begin, i, &grasps](double fraction) {
-        return !progress || progress((static_cast<double>(i) + begin + 0.5 * fraction) /
-                                     static_cast<double>(grasps.size()));
-      };
+    const auto shareOf = [&](double from, double to) {
+      const auto done = static_cast<double>(i), all = static_cast<double>(grasps.size());
+      return partOf(progress, (done + from) / all, (done + to) / all);
     };
     try {
-      const Profile part = cropped(profile, grasps[i].begin, grasps[i].end, partOf(0.0));
+      const Profile part = cropped(profile, grasps[i].begin, grasps[i].end, shareOf(0.0, 0.5));
       std::error_code ignored;
       fs::create_directories(paths[i].parent_path(), ignored);  // saving says what is wrong
       saveRecording(part,
                     eventsWithin(events, part),
                     paths[i],
                     overwriteOf(paths[i]),
-                    partOf(0.5),
+                    shareOf(0.5, 1.0),
                     options.extras ? options.extras(part, paths[i]) : SaveExtras());
     } catch (const Cancelled&) {
       throw;

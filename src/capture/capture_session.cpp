@@ -26,8 +26,8 @@ std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
 }
 
 // Properties of the device as text for a recording's `meta`.
-std::map<std::string, std::string> describe(const Device& device) {
-  std::map<std::string, std::string> meta = handMeta(device.hand());
+RecordingMeta describe(const Device& device) {
+  RecordingMeta meta = handMeta(device.hand());
   meta["program"] = "palpate " PALPATE_VERSION;
   const DeviceInfo info = device.info();
   meta["serial"] = info.serial;

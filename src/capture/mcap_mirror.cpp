@@ -28,7 +28,7 @@ void McapMirror::push(Task task) {
 
 void McapMirror::begin(const std::filesystem::path& path,
                        std::shared_ptr<const SensorLayout> layout,
-                       std::map<std::string, std::string> meta) {
+                       RecordingMeta meta) {
   push(Begin{path, std::move(layout), std::move(meta)});
 }
 

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -34,7 +33,7 @@ class McapMirror {
   // Ends the open file and begins another one; `meta` as for a native recording.
   void begin(const std::filesystem::path& path,
              std::shared_ptr<const SensorLayout> layout,
-             std::map<std::string, std::string> meta);
+             RecordingMeta meta);
   void add(const CaptureItem& item);
   // Writes what waits when the last time was a second ago.
   void flushWhenDue(std::int64_t monoUs);
@@ -50,7 +49,7 @@ class McapMirror {
   struct Begin {
     std::filesystem::path path;
     std::shared_ptr<const SensorLayout> layout;
-    std::map<std::string, std::string> meta;
+    RecordingMeta meta;
   };
   struct Flush {};
   using Task = std::variant<Begin, CaptureItem, Flush>;

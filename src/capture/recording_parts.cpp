@@ -183,7 +183,7 @@ void RecordingParts::hold(const CaptureItem& item) {
 
 std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
     const std::shared_ptr<const SensorLayout>& layout) {
-  std::map<std::string, std::string> meta = options_.meta;
+  RecordingMeta meta = options_.meta;
   if (options_.describe)
     for (const auto& [key, value] : options_.describe())
       if (!isReservedMeta(key)) meta.insert_or_assign(key, value);

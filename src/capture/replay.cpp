@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
@@ -42,8 +43,11 @@ struct Replay::Impl {
   }
 
   void rewind() {
-    order.emplace(profile, events);
+    order.emplace(profile, events, [this](InTimeOrder::Kind kind, const std::string& fault) {
+      countUnreadable(kind == InTimeOrder::Kind::kFrame, fault);
+    });
     warned = false;
+    untold.clear();
     const std::lock_guard lock(mutex);
     status = {};
     status.tactile.port = "replay";
@@ -53,22 +57,22 @@ struct Replay::Impl {
   }
 
   // Stamp of the next item; kNever at the end.
-  std::int64_t nextUs() const {
+  std::int64_t nextUs() {
     const auto item = order->next();
     return item ? item->timeUs : kNever;
   }
 
-  // Counts a sample that can't be read; the first one is reported.
-  void countUnreadable(std::int64_t atUs, bool tactile, const std::string& fault) {
-    {
-      const std::lock_guard lock(mutex);
-      PortStatus& port = tactile ? status.tactile : *status.motion;
-      ++port.lost;
-      port.message = fault;
-    }
-    if (warned) return;
-    warned = true;
-    sink->onEvent({atUs, atUs, "alarm", {}, fault, ""});
+  // Counts a sample that can't be read; the first one is to be reported.
+  void countUnreadable(bool tactile, const std::string& fault) {
+    if (!std::exchange(warned, true)) untold = fault;
+    const std::lock_guard lock(mutex);
+    PortStatus& port = tactile ? status.tactile : *status.motion;
+    ++port.lost;
+    port.message = fault;
+  }
+
+  void tellUnreadable(std::int64_t atUs) {
+    if (!untold.empty()) sink->onEvent({atUs, atUs, "alarm", {}, std::exchange(untold, {}), ""});
   }
 
   void deliver(const InTimeOrder::Item& item) {
@@ -80,7 +84,8 @@ struct Replay::Impl {
       else
         sink->onSample(profile.sample(item.series, item.index));
     } catch (const Error& error) {
-      return countUnreadable(item.timeUs, tactile, error.what());
+      countUnreadable(tactile, error.what());
+      return tellUnreadable(item.timeUs);
     }
     const std::lock_guard lock(mutex);
     PortStatus& port = tactile ? status.tactile : *status.motion;
@@ -127,6 +132,7 @@ struct Replay::Impl {
   // Delivers all items up to and including `untilUs`; returns false at the end.
   bool deliverUntil(std::int64_t untilUs, const std::stop_token& stop) {
     for (std::int64_t at = nextUs(); at <= untilUs && !stop.stop_requested(); at = nextUs()) {
+      tellUnreadable(at == kNever ? lastUs : at);
       if (at == kNever) {
         end();
         return false;
@@ -181,6 +187,7 @@ struct Replay::Impl {
   std::optional<InTimeOrder> order;  // of what comes next
   std::int64_t lastUs = 0;           // stamp of the last item delivered
   bool warned = false;
+  std::string untold;       // why the first sample can't be read, until the sink is told
   std::int64_t handUs = 0;  // kManual: position in the recording's time
   std::int64_t firstUs = 0;
 

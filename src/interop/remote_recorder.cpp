@@ -302,7 +302,7 @@ struct RemoteRecorder::Impl {
   std::deque<Job> jobs;
   State state = State::kIdle;
   std::string nameTemplate;
-  std::map<std::string, std::string> meta;
+  RecordingMeta meta;
   std::jthread thread;
 };
 

@@ -1,19 +1,36 @@
 #include "palpate/model/in_time_order.h"
 
+#include "palpate/core/error.h"
+
 namespace palpate {
 
-std::optional<InTimeOrder::Item> InTimeOrder::next() const {
+std::optional<InTimeOrder::Item> InTimeOrder::next() {
   std::optional<Item> first;
-  const auto consider = [&](const Item& item) {
-    if (!first || item.timeUs < first->timeUs) first = item;
-  };
-  if (eventsTaken_ < eventTimesUs_.size())
-    consider({Kind::kEvent, 0, eventsTaken_, eventTimesUs_[eventsTaken_]});
+  const auto consider =
+      [&](Kind kind, std::size_t series, std::size_t& index, std::size_t count, auto timeOf) {
+        for (; index < count; ++index) {
+          try {
+            const std::int64_t timeUs = timeOf(index);
+            if (!first || timeUs < first->timeUs) first = Item{kind, series, index, timeUs};
+            return;
+          } catch (const Error& error) {
+            if (!unreadable_) throw;
+            unreadable_(kind, error.what());
+          }
+        }
+      };
+  consider(Kind::kEvent, 0, eventsTaken_, eventTimesUs_.size(), [&](std::size_t i) {
+    return eventTimesUs_[i];
+  });
   for (std::size_t series = samplesTaken_.size(); series-- > 0;)
-    if (const std::size_t next = samplesTaken_[series]; next < profile_.numSamples(series))
-      consider({Kind::kSample, series, next, profile_.sampleTimeUs(series, next)});
-  if (framesTaken_ < profile_.numFrames())
-    consider({Kind::kFrame, 0, framesTaken_, profile_.frameTimeUs(framesTaken_)});
+    consider(Kind::kSample,
+             series,
+             samplesTaken_[series],
+             profile_.numSamples(series),
+             [&](std::size_t i) { return profile_.sampleTimeUs(series, i); });
+  consider(Kind::kFrame, 0, framesTaken_, profile_.numFrames(), [&](std::size_t i) {
+    return profile_.frameTimeUs(i);
+  });
   return first;
 }
 

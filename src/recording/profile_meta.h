@@ -3,22 +3,21 @@
 // it, too.
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "palpate/model/hand_file.h"
 #include "palpate/model/profile.h"
+#include "palpate/recording/recording_data.h"
 
 namespace palpate {
 
 // Keys and values to be written: `said`, which was said of the recording before, and what the
 // profile says by itself (`info` and `hand`), which is the newer truth. Left out is what
 // belongs to the file that it was read from: its form, the numbers of its samples.
-inline std::map<std::string, std::string> writtenMeta(
-    const ProfileInfo& info,
-    const HandDescription& hand,
-    const std::map<std::string, std::string>& said) {
-  std::map<std::string, std::string> meta;
+inline RecordingMeta writtenMeta(const ProfileInfo& info,
+                                 const HandDescription& hand,
+                                 const RecordingMeta& said) {
+  RecordingMeta meta;
   if (!info.serial.empty()) meta["serial"] = info.serial;
   if (!info.firmware.empty()) meta["firmware"] = info.firmware;
   if (!info.sensorRevision.empty()) meta["sensor_revision"] = info.sensorRevision;
@@ -39,9 +38,7 @@ inline std::map<std::string, std::string> writtenMeta(
 
 // What `meta`, which writtenMeta() made, says of the profile; empty keys are
 // taken out. `format` as in ProfileInfo.
-inline ProfileInfo readInfo(std::map<std::string, std::string>& meta,
-                            const char* format,
-                            bool counts) {
+inline ProfileInfo readInfo(RecordingMeta& meta, const char* format, bool counts) {
   ProfileInfo info;
   info.format = format;
   info.serial = meta["serial"];

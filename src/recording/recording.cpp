@@ -35,8 +35,7 @@ void requireTopicsOf(const fs::path& path, const FormatReader& reader, const Rea
 // The reader of a file that has to be a recording.
 const FormatReader& requiredReader(const fs::path& path, const ReadOptions& options) {
   const RecordingFormat* format = recognisedFormat(path);
-  if (format) requireTopicsOf(path, *format->reader, options);
-  if (!format && !options.topics.empty()) requireTopicsOf(path, *kDsaFormat.reader, options);
+  requireTopicsOf(path, *(format ? *format : kDsaFormat).reader, options);
   if (!format) throwNoRecording(path);
   return *format->reader;
 }

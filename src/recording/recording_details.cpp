@@ -170,16 +170,11 @@ RecordingDetails readDetails(const fs::path& path, const Progress& progress, std
     if (reader->addDetails) return reader->addDetails(details);
     const Recording recording = reader->open(path, {.threads = threads}, progress);
     takeDetails(recording, details);
-    if (!reader->eventsBeside) addEvents(details, {recording.events});
+    addEvents(details, {recording.events});
+    details.message = recording.damage.eventsFault();
   });
-  if (reader && reader->eventsBeside) {
-    const State state = details.state;
+  if (reader && reader->eventsBeside && details.state != State::kFinished)
     attemptRecordingDetails(details, [&] { addEvents(details, reader->events(path)); });
-    if (state == State::kFinished && details.state != state) {
-      // The recording itself is sound: its notes are not.
-      details.state = State::kFinished;
-    }
-  }
   return details;
 }
 

@@ -1,5 +1,6 @@
 #include "palpate/capture/replay.h"
 
+#include <set>
 #include <thread>
 
 #include "palpate/core/error.h"
@@ -293,6 +294,56 @@ TEST(Replay, whatADamagedBlockHeldIsCountedToldAndPassedOver) {
     EXPECT_EQ(alarms, 1u);
     for (std::size_t i = 1; i < listener.items.size(); ++i)
       EXPECT_LE(listener.items[i - 1].tUs, listener.items[i].tUs);
+  }
+}
+
+// Frames every 10 ms, of which the times of some can't be read, and two temperatures.
+class LostTimes final : public ProfileStorage {
+ public:
+  explicit LostTimes(std::set<std::size_t> lost) : lost_(std::move(lost)) {}
+  std::size_t numFrames() const override { return 6; }
+  std::int64_t frameTimeUs(std::size_t frame) const override {
+    if (lost_.contains(frame)) throw FormatError("a.h5", "libhdf5 could not read it (crashed)");
+    return kWallStartUs + static_cast<std::int64_t>(frame) * 10'000;
+  }
+  void readFrame(std::size_t frame, TactileFrame& out) const override {
+    out = numberedFrame(frame, frameTimeUs(frame));
+  }
+  std::size_t numAngles() const override { return 0; }
+  std::int64_t angleTimeUs(std::size_t) const override { return 0; }
+  JointAngles angles(std::size_t) const override { return {}; }
+  std::size_t numTemperatures() const override { return 2; }
+  std::int64_t temperatureTimeUs(std::size_t sample) const override {
+    return kWallStartUs + 45'000 + static_cast<std::int64_t>(sample) * 10'000;
+  }
+  Temperatures temperatures(std::size_t sample) const override {
+    return {temperatureTimeUs(sample), {33.0}};
+  }
+
+ private:
+  std::set<std::size_t> lost_;
+};
+
+TEST(Replay, aFrameWhoseTimeCanNotBeReadIsCountedToldAndPassedOver) {
+  const auto replayed = [](std::set<std::size_t> lost, ReplayPace pace) {
+    Listener listener;
+    Replay replay(Profile({}, sdh2(), std::make_shared<LostTimes>(lost)), {pace, 16.0});
+    replay.start(listener);
+    if (pace == ReplayPace::kManual) replay.advance(1'000'000);
+    while (!replay.finished()) std::this_thread::yield();
+    EXPECT_EQ(replay.status().tactile.state, PortState::kSilent);
+    EXPECT_EQ(replay.status().tactile.lost, lost.size());
+    EXPECT_EQ(listener.frames.size(), 6 - lost.size());
+    EXPECT_EQ(listener.temperatures.size(), 2u);
+    EXPECT_EQ(listener.events.front().kind, "alarm");
+    EXPECT_NE(listener.events.front().text.find("crashed"), std::string::npos);
+    EXPECT_GE(listener.events.front().tUs, kWallStartUs);
+    return listener.order();
+  };
+  for (const ReplayPace pace : {ReplayPace::kManual, ReplayPace::kUnpaced, ReplayPace::kRecorded}) {
+    EXPECT_EQ(replayed({2, 3}, pace), "ffeftfte");
+    EXPECT_EQ(replayed({0}, pace), "efffftfte");
+    EXPECT_EQ(replayed({5}, pace), "fffffette");
   }
 }
 

@@ -334,6 +334,13 @@ TEST(CalibrateCommand, SettingsThatTheRecordingNotesAreTaken) {
   note(R"({"sensitivity":7})");
   expectOneLineError(palpate(apply), 1, {"sensor_settings"});
   EXPECT_EQ(palpate(told).exitCode, 0);
+  // Notes that can't be read: only who wants the settings or the tare of them fails.
+  testing::writeFile(folder / "step4.dsa.notes.json", "{");
+  expectOneLineError(palpate(apply), 1, {"step4.dsa.notes.json"});
+  expectOneLineError(palpate(told), 1, {"step4.dsa.notes.json"});
+  told.emplace_back("--no-tare");
+  const auto given = palpate(told);
+  EXPECT_EQ(given.exitCode, 0) << given.err;
 }
 
 TEST(CalibrateCommand, PressureSaysWhichRowsAreLeftOut) {

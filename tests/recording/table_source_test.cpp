@@ -9,6 +9,7 @@
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_folder.h"
 
+#include "recording/import/folder_source.h"
 #include "recording/import_samples.h"
 
 namespace palpate::table_source_test {
@@ -237,6 +238,14 @@ TEST(OpenTable, NamesFilesOfOtherProgramsAndSaysWhatToDo) {
     EXPECT_EQ(testing::errorOf([&] { openRecording(folder / name); }), what);
     EXPECT_EQ(testing::errorOf([&] { readableRecording(folder / name); }), what);
   }
+}
+
+// A folder that can't be listed, or is gone by then, has no files; no exception of the standard
+// library is thrown.
+TEST(FolderSource, AFolderThatCanNotBeListedHoldsNothing) {
+  const testing::TemporaryFolder folder;
+  EXPECT_TRUE(filesPerMatrix(folder / "none").empty());
+  EXPECT_THROW(FolderSource(folder / "none", {}), FormatError);
 }
 
 // Every dtype of whole and real numbers, both byte orders, both orders of the array, compressed or

@@ -94,7 +94,7 @@ int calibrateApply(const Arguments& words) {
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Recording recording = openReported(file, progress, given.quiet());
   const Profile& profile = recording.profile;
-  CalibratedFrames frames(*choice, file, recording);
+  CalibratedFrames frames(*choice, file, recording, profile);
   // Without the pressures' forces the result is not whole: that is said with --quiet, too.
   const bool noForces = !frames.areaKnown() && !outPath;
   for (const std::string& sentence : frames.assumptions())

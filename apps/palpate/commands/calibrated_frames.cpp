@@ -11,6 +11,7 @@ namespace {
 
 // The tare of the last event "tare"; nothing when there is none.
 std::optional<Tare> tareIn(const std::filesystem::path& file, const Recording& recording) {
+  recording.requireEvents();
   std::optional<Tare> tare;
   for (const Event& event : recording.events)
     if (event.kind == "tare") try {
@@ -34,6 +35,7 @@ PressureMapOptions withNoted(PressureMapOptions options,
                              const std::filesystem::path& file,
                              const Recording& recording) {
   if (!options.settings.empty()) return options;
+  recording.requireEvents();
   // From the last event.
   std::optional<SensorSettings> noted;
   const std::vector<Event>& events = recording.events;
@@ -109,12 +111,12 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
 
 CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
                                    const std::filesystem::path& file,
-                                   const Recording& recording)
-    : profile_(recording.profile),
+                                   const Recording& recording,
+                                   const Profile& profile)
+    : profile_(profile),
       map_(choice.calibration,
            profile_.hand(),
            withSerial(withNoted(choice.options, file, recording), profile_)) {
-  recording.requireEvents();
   if (profile_.info().valueType != ValueType::kCounts)
     throw FileError(file,
                     "holds filtered values; a calibration needs counts: use the recording before "

@@ -34,11 +34,14 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given);
 // Computes the pressures of one frame after the other.
 class CalibratedFrames {
  public:
-  // Subtracts the tare that the recording's events contain. Throws Error for a sensor that the
-  // calibration cannot be applied to.
+  // `profile`: that of the recording, as it is or filtered; it must outlive this object. Subtracts
+  // the tare that the recording's events contain. Throws Error for a sensor that the calibration
+  // cannot be applied to; FileError or FormatError where the tare or the settings are wanted and
+  // the events can't be read.
   CalibratedFrames(const CalibrationChoice& choice,
                    const std::filesystem::path& file,
-                   const Recording& recording);
+                   const Recording& recording,
+                   const Profile& profile);
   // Call it with the frames in order.
   const PressureFrame& of(const TactileFrame& frame);
   // The assumptions that were made, one sentence each.

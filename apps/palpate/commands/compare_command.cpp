@@ -32,24 +32,31 @@ namespace {
 constexpr double kFurthestS = 1e9;
 constexpr int kMicroseconds = 6;  // decimals: the resolution of time stamps
 
-TimedProfile opened(const std::string& file, bool quiet) {
+struct TimedRecording {
+  Recording recording;
+  TimedProfile timed;
+};
+
+TimedRecording opened(const std::string& file, bool quiet) {
   ProgressLine progress("reading " + file, quiet);
-  Profile profile = openReported(file, progress, quiet).profile;
-  return timedProfile(std::move(profile), {}, progress.callback());
+  Recording recording = openReported(file, progress, quiet);
+  TimedProfile timed = timedProfile(recording.profile, {}, progress.callback());
+  return {std::move(recording), std::move(timed)};
 }
 
 // The grasps of a recording: as a person has corrected them, else those that are found.
-std::vector<GraspFrames> graspsOf(const std::string& file, const Profile& profile, bool quiet) {
+std::vector<GraspFrames> graspsOf(const std::string& file, const Recording& recording, bool quiet) {
+  recording.requireEvents();
   ProgressLine progress("finding grasps in " + file, quiet);
   std::vector<GraspFrames> grasps =
-      graspFrames(profile, readEvents(file).events, progress.callback());
+      graspFrames(recording.profile, recording.events, progress.callback());
   if (grasps.empty()) throw Error(file + ": has no grasp");
   return grasps;
 }
 
 // --grasp I:J, numbers from 1. Says where both grasps last: the rows are those of the whole
 // recordings.
-double offsetOfGrasps(const CommandLine& given, TimedProfile a, TimedProfile b) {
+double offsetOfGrasps(const CommandLine& given, const TimedRecording& a, const TimedRecording& b) {
   const std::string text = *given.text("grasp");
   const auto colon = text.find(':');
   const auto numberOf = [&](const std::string& part) {
@@ -60,18 +67,20 @@ double offsetOfGrasps(const CommandLine& given, TimedProfile a, TimedProfile b) 
   };
   const std::size_t i = numberOf(text.substr(0, colon));
   const std::size_t j = colon == std::string::npos ? i : numberOf(text.substr(colon + 1));
+  TimedProfile timedA = a.timed, timedB = b.timed;
   std::vector<FrameRange> ranges;
-  for (const auto& [side, number, file] :
-       {std::tuple(&a, i, given.words()[0]), std::tuple(&b, j, given.words()[1])}) {
-    const auto grasps = graspsOf(file, side->profile, given.quiet());
+  for (const auto& [side, recording, number, file] :
+       {std::tuple(&timedA, &a.recording, i, given.words()[0]),
+        std::tuple(&timedB, &b.recording, j, given.words()[1])}) {
+    const auto grasps = graspsOf(file, *recording, given.quiet());
     if (number > grasps.size())
       throw Error(file + ": has no grasp " + std::to_string(number) + ", only 1.." +
                   std::to_string(grasps.size()));
     side->grasp = grasps[number - 1].begin;
     ranges.push_back({grasps[number - 1].begin, grasps[number - 1].end});
   }
-  const double offsetS = *offsetBetween(a, b, Alignment::kGrasp);
-  const auto both = graspsInCommon(a, ranges[0], b, ranges[1], offsetS);
+  const double offsetS = *offsetBetween(timedA, timedB, Alignment::kGrasp);
+  const auto both = graspsInCommon(timedA, ranges[0], timedB, ranges[1], offsetS);
   if (both && !given.quiet())
     std::fprintf(stderr,
                  "palpate: both grasps last from time_s %s to %s; the rows are of all frames that "
@@ -81,7 +90,7 @@ double offsetOfGrasps(const CommandLine& given, TimedProfile a, TimedProfile b) 
   return offsetS;
 }
 
-double offsetFor(const CommandLine& given, const TimedProfile& a, const TimedProfile& b) {
+double offsetFor(const CommandLine& given, const TimedRecording& a, const TimedRecording& b) {
   if (given.has("grasp")) {
     for (const char* other : {"align", "offset"})
       if (given.has(other))
@@ -93,9 +102,9 @@ double offsetFor(const CommandLine& given, const TimedProfile& a, const TimedPro
     return *offsetS;
   }
   const std::string word = given.choice("align", {"contact", "start", "clock"}).value_or("contact");
-  if (const auto offsetS = offsetBetween(a, b, *alignmentFrom(word))) return *offsetS;
+  if (const auto offsetS = offsetBetween(a.timed, b.timed, *alignmentFrom(word))) return *offsetS;
   for (std::size_t i = 0; i < 2; ++i) {
-    const TimedProfile& side = i == 0 ? a : b;
+    const TimedProfile& side = (i == 0 ? a : b).timed;
     if (side.profile.numFrames() == 0) throw Error(given.words()[i] + ": has no frames");
     if (!side.contact)
       throw Error(given.words()[i] +
@@ -167,7 +176,8 @@ std::vector<std::string> shownNames(const std::vector<std::string>& files, const
 }
 
 void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves& all) {
-  const TimedProfile timed = opened(file, given.quiet());
+  const TimedRecording whole = opened(file, given.quiet());
+  const TimedProfile& timed = whole.timed;
   if (timed.profile.numFrames() == 0) throw Error(file + ": has no frames");
   const TypedSignal signal =
       typedSignal(*given.text("average"), timed.profile.layout(), file, "--average");
@@ -187,7 +197,7 @@ void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves&
     return;
   }
   std::vector<TimeSpan> spans;
-  for (const GraspFrames& grasp : graspsOf(file, timed.profile, given.quiet())) {
+  for (const GraspFrames& grasp : graspsOf(file, whole.recording, given.quiet())) {
     spans.push_back({timed.timeS(grasp.begin), timed.timeS(grasp.end)});
     all.files.push_back(file);
     all.grasps.push_back(" grasp " + std::to_string(spans.size()));
@@ -279,18 +289,18 @@ int compareCommand(const Arguments& words) {
   for (const char* only : {"of", "band", "percentiles", "margin", "step", "least"})
     if (given.has(only)) throw UsageError(std::string("--") + only + " needs --average");
   if (given.words().size() != 2) throw UsageError("compare needs two recordings, or --average");
-  const TimedProfile a = opened(given.words()[0], given.quiet());
-  const TimedProfile b = opened(given.words()[1], given.quiet());
+  const TimedRecording a = opened(given.words()[0], given.quiet());
+  const TimedRecording b = opened(given.words()[1], given.quiet());
   const double offsetS = offsetFor(given, a, b);
-  const FrameComparison comparison(a.profile.hand().layout, b.profile.hand().layout);
+  const FrameComparison comparison(a.timed.profile.hand().layout, b.timed.profile.hand().layout);
   StandardOutput out;
   out.write("time_s,frame_a,frame_b,matrix,mean_a,mean_b,difference_mean,difference_rms\n");
   ProgressLine progress("comparing", given.quiet());
   std::string line;
   std::size_t pairs = 0;
   visitFramePairs(
-      a,
-      b,
+      a.timed,
+      b.timed,
       offsetS,
       1,
       [&](const FramePair& pair, const TactileFrame& inA, const TactileFrame& inB) {

@@ -200,16 +200,16 @@ class PoseOfFrames {
 AngleProblems writeContact(StandardOutput& out,
                            const std::filesystem::path& file,
                            const Recording& recording,
+                           const Profile& profile,
                            const HandGeometry& geometry,
                            const ContactRequest& request,
                            const std::pair<std::size_t, std::size_t>& range,
                            const std::string& lineEnd,
                            const Progress& progress) {
   const auto [first, last] = range;
-  const Profile& profile = recording.profile;
   PoseOfFrames poses(profile, geometry, request);
   std::optional<CalibratedFrames> calibrated;
-  if (request.calibration) calibrated.emplace(*request.calibration, file, recording);
+  if (request.calibration) calibrated.emplace(*request.calibration, file, recording, profile);
   AngleProblems problems;
   TactileFrame frame;
   HandContact contact;
@@ -326,10 +326,8 @@ int contactCommand(const Arguments& words) {
   const int code = forEachOpened(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Recording& whole, const Progress& progress) {
-        Recording recording = whole;
-        recording.profile = filteredBy(recipe, whole, file, progress);
-        const Profile& profile = recording.profile;
+      [&](const std::filesystem::path& file, const Recording& recording, const Progress& progress) {
+        const Profile profile = filteredBy(recipe, recording, file, progress);
         requireWithinFullScale("threshold", request.options.threshold, profile.hand());
         const HandGeometry geometry(geometryOf(given, file, profile));
         const bool isRigid = profile.hand().axes.empty();
@@ -355,8 +353,8 @@ int contactCommand(const Arguments& words) {
         // is reported.
         AngleProblems problems;
         try {
-          problems =
-              writeContact(out, file, recording, geometry, request, range, lineEnd, progress);
+          problems = writeContact(
+              out, file, recording, profile, geometry, request, range, lineEnd, progress);
         } catch (const Error&) {
           out.finish();
           throw;

@@ -143,13 +143,13 @@ class DemoTour {
     pullS_ = slipping.script.at(1).atS;
     releaseS_ = slipping.script.at(3).atS;
     hands_.push_back(std::make_unique<DemoHand>(slipping, "pen that slips", continue_));
-    std::vector<DeviceInfo> facts(hands_.size());
+    std::vector<DeviceInfo> infos(hands_.size());
     onEachHand([&](std::size_t i) {
-      facts[i] = hands_[i]->record(i < held_.size() ? held_[i].file : folder_ / "slip.palpate");
+      infos[i] = hands_[i]->record(i < held_.size() ? held_[i].file : folder_ / "slip.palpate");
     });
     return std::to_string(hands_.size()) + " hands answer on " + std::to_string(2 * hands_.size()) +
-           " ports, tactile firmware " + facts.front().firmware + ", motion firmware " +
-           facts.front().motionFirmware;
+           " ports, tactile firmware " + infos.front().firmware + ", motion firmware " +
+           infos.front().motionFirmware;
   }
 
   std::string grasp() {
@@ -201,7 +201,9 @@ class DemoTour {
 
   std::string exportBall() {
     const fs::path file = held_.front().file, dsa = folder_ / "grasp.dsa";
-    saveRecording(openRecording(file), readEvents(file).events, dsa);
+    const Recording recording = readRecording(file);
+    recording.requireEvents();
+    saveRecording(recording.profile, recording.events, dsa);
     return std::to_string(openRecording(dsa).numFrames()) + " frames in grasp.dsa";
   }
 

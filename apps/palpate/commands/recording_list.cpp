@@ -179,8 +179,8 @@ std::string damageOf(const Recording& recording, Reading reading) {
                                                     : eventsLeftOutText(damage.events);
 }
 
-// Runs `work` for each file: ahead of its turn for small recordings, whose
-// text is kept until then; otherwise at its turn, straight to standard output.
+// Runs `work` for each file: ahead of its turn for small recordings, whose text is kept until then;
+// otherwise at its turn, straight to standard output.
 int writeTexts(const RecordingList& list,
                bool quiet,
                const TextFrame& frame,

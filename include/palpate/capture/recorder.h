@@ -47,10 +47,10 @@ struct RecorderOptions {
 // Options of one recording. Limits count from the first frame after the start; items kept from
 // before the start are not counted.
 struct RecordingOptions {
-  std::filesystem::path path;               // NAME.palpate; must not exist
-  std::map<std::string, std::string> meta;  // operator, object, run, notes, program, ..
+  std::filesystem::path path;  // NAME.palpate; must not exist
+  RecordingMeta meta;          // operator, object, run, notes, program, ..
   // Returns further meta data when the file is created (serial number, settings); may be empty.
-  std::function<std::map<std::string, std::string>()> describe;
+  std::function<RecordingMeta()> describe;
   // Returns counters of the recording (bad checksums, ..); called with every commit, at least once
   // a second, and at the end; may be empty.
   std::function<std::map<std::string, std::int64_t>()> counters;

@@ -57,7 +57,8 @@ class OrderedWork {
   const std::size_t mostPieces_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::shared_ptr<Piece>> pieces_;  // in order; only the giver adds and takes
+  // In order. Only the giver adds and takes, with the lock; it looks without, the others with it.
+  std::deque<std::shared_ptr<Piece>> pieces_;
   bool stopped_ = false;
   std::vector<std::jthread> threads_;
 };

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,18 +28,25 @@ class InTimeOrder {
     bool operator==(const Item&) const = default;
   };
 
-  // Events keep their order: one that is earlier than that before it comes right after it.
-  InTimeOrder(Profile profile, std::span<const Event> events)
-      : profile_(std::move(profile)), samplesTaken_(profile_.series().size()) {
+  // Told of an item whose time can't be read, and why; it is left out.
+  using Unreadable = std::function<void(Kind kind, const std::string& fault)>;
+
+  // Events keep their order: one that is earlier than that before it comes right after it. Without
+  // `unreadable`, next() and take() throw what reading a time throws.
+  InTimeOrder(Profile profile, std::span<const Event> events, Unreadable unreadable = {})
+      : profile_(std::move(profile)),
+        unreadable_(std::move(unreadable)),
+        samplesTaken_(profile_.series().size()) {
     for (const Event& event : events) eventTimesUs_.push_back(event.tUs);
   }
 
   // The next item; empty after the last one. take() goes on behind it.
-  std::optional<Item> next() const;
+  std::optional<Item> next();
   std::optional<Item> take();
 
  private:
   Profile profile_;
+  Unreadable unreadable_;
   std::vector<std::int64_t> eventTimesUs_;
   std::size_t eventsTaken_ = 0;
   std::size_t framesTaken_ = 0;

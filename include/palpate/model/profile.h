@@ -56,7 +56,8 @@ struct UnreadableSamples {
 //
 // Damage to a part of a file costs the samples in it and nothing else: frames and samples that
 // can't be read throw Error, their times don't. Where a time is lost, too, it is estimated, so that
-// times always ascend.
+// times always ascend. Only of a long .h5, whose times don't all lie in memory, may a time throw
+// Error: when the file can no longer be read.
 class ProfileStorage {
  public:
   virtual ~ProfileStorage() = default;

@@ -52,11 +52,11 @@ void writeHdf5(const RecordingContent& content,
 // Opens what writeHdf5() has made. The whole file is read once for its checksum. A part of the
 // stamps lies in memory; frames, angles and temperatures are read when they are asked for, and the
 // profile is safe from several threads. The process that reads it lives as long as the profile.
-// Throws FileError (also when palpate_hdf5 can't be
-// started); FormatError where it is damaged, cut off or changed, another program's (palpate import
-// reads those), of a newer layout, refers to other files, claims more than it holds, is compressed
-// by a filter that is not there, or libhdf5 could not read it: it crashed, took more than 2 s of a
-// processor for one step, or more than 256 MB of memory.
+// Throws FileError (also when palpate_hdf5 can't be started); FormatError where it is damaged, cut
+// off or changed, another program's (palpate import reads those), of a newer layout, refers to
+// other files, claims more than it holds, is compressed by a filter that is not there, or libhdf5
+// could not read it: it crashed, took more than 2 s of a processor for one step, or more than 256
+// MB of memory.
 Recording readHdf5(const std::filesystem::path& path);
 
 }  // namespace palpate

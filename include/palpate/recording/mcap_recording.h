@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -65,7 +64,7 @@ class McapLiveWriter {
   // native recording. Throws FileError, std::invalid_argument (options).
   McapLiveWriter(const std::filesystem::path& path,
                  const HandDescription& hand,
-                 const std::map<std::string, std::string>& meta,
+                 const RecordingMeta& meta,
                  const McapWriteOptions& options = {});
   // Without finish() the file stays an unfinished one.
   ~McapLiveWriter();

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <palpate/core/progress.h>
 #include <palpate/model/event.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/recording_data.h>
 
 namespace palpate {
 
@@ -20,8 +20,8 @@ struct PalpateRecovery {
   // Those of the recording, and one of kind "gap" for each span of items that is missing (behind
   // the last saved item: a moment at its time). In order of time.
   std::vector<Event> events;
-  std::map<std::string, std::string> meta;  // as readRecordingMeta(), as far as it can be read
-  std::size_t frames = 0;                   // saved
+  RecordingMeta meta;      // as readRecordingMeta(), as far as it can be read
+  std::size_t frames = 0;  // saved
   std::size_t angles = 0;
   std::size_t temperatures = 0;
   // Known to be missing before, between and (where the recording tells how many there were) behind

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,6 +17,7 @@
 #include <palpate/model/series.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/tactile_frame.h>
+#include <palpate/recording/recording_data.h>
 
 namespace palpate {
 
@@ -41,7 +41,7 @@ class PalpateWriter {
   // another program, can't be written.
   PalpateWriter(const std::filesystem::path& path,
                 std::shared_ptr<const SensorLayout> layout,
-                const std::map<std::string, std::string>& meta = {},
+                const RecordingMeta& meta = {},
                 const PalpateWriterOptions& options = {});
   // Commits what is there if it can. Without finish() the file stays an unfinished recording.
   ~PalpateWriter();
@@ -100,7 +100,7 @@ class PalpateWriter {
 // (also when PATH is being written, or a rollback journal of another recording lies beside it).
 void writePalpate(const std::filesystem::path& path,
                   std::shared_ptr<const SensorLayout> layout,
-                  const std::map<std::string, std::string>& meta,
+                  const RecordingMeta& meta,
                   const std::function<void(PalpateWriter&)>& fill,
                   Overwrite overwrite = Overwrite::kRefuse);
 
@@ -112,6 +112,6 @@ void writePalpate(const Profile& profile,
                   const std::filesystem::path& path,
                   Overwrite overwrite = Overwrite::kRefuse,
                   const Progress& progress = {},
-                  const std::map<std::string, std::string>& meta = {});
+                  const RecordingMeta& meta = {});
 
 }  // namespace palpate

@@ -22,7 +22,9 @@ using RecordingMeta = std::map<std::string, std::string>;
 
 // What can't be had of a recording.
 struct Damage {
-  std::string text = {};              // one line: what is missing; empty: nothing
+  // One line: what is missing; empty: nothing. Of readableRecording() only; readRecording() throws
+  // where samples are missing, and eventsError says why events are.
+  std::string text = {};
   std::vector<Event> notInFile = {};  // of the events: what was found to be lost
   std::size_t events = 0;  // that can't be read, or are more than are read (mcap_recording.h)
   std::exception_ptr eventsError = {};  // why no event can be read; null: they were read

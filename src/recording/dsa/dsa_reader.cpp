@@ -7,6 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/xml.h"
 #include "palpate/recording/dsa_recovery.h"
 
@@ -95,12 +96,6 @@ std::string describe(const DsaRecovery& saved) {
   return text;
 }
 
-// Two passes, one bar: each takes half of it.
-Progress half(const Progress& progress, double begin) {
-  if (!progress) return {};
-  return [&progress, begin](double fraction) { return progress(begin + 0.5 * fraction); };
-}
-
 }  // namespace
 
 Profile readDsa(const std::filesystem::path& path,
@@ -122,7 +117,7 @@ DsaVerifyReport verifyDsa(const std::filesystem::path& path,
                           const DsaReadOptions& options) {
   DsaVerifyReport report;
   try {
-    const Profile profile = readDsa(path, half(progress, 0.0), options);
+    const Profile profile = readDsa(path, partOf(progress, 0.0, 0.5), options);
     report.state = DsaVerifyReport::State::kSound;
     report.frames = profile.numFrames();
     report.angles = profile.numAngles();
@@ -145,7 +140,7 @@ DsaVerifyReport verifyDsa(const std::filesystem::path& path,
       report.message += "; " + std::string(nothing);
   };
   try {
-    const DsaRecovery saved = recoverDsaProfile(path, half(progress, 0.5), options);
+    const DsaRecovery saved = recoverDsaProfile(path, partOf(progress, 0.5, 1.0), options);
     report.frames = saved.frames;
     report.angles = saved.angles;
     report.temperatures = saved.temperatures;

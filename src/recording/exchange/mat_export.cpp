@@ -187,7 +187,7 @@ MatValue matEventsOf(std::span<const Event> events) {
                               {"json", MatValue::texts(columns.jsons)}});
 }
 
-MatValue matMetaOf(const Profile& profile, const std::map<std::string, std::string>& said) {
+MatValue matMetaOf(const Profile& profile, const RecordingMeta& said) {
   std::vector<std::string> keys;
   std::vector<std::string> values;
   for (const auto& [key, value] : writtenMeta(profile.info(), profile.hand(), said)) {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -283,14 +282,14 @@ std::vector<Event> hdf5EventsOf(Hdf5Process& file, std::size_t& textBytesLeft) {
   return events;
 }
 
-std::map<std::string, std::string> hdf5MetaOf(Hdf5Process& file, std::size_t& textBytesLeft) {
+RecordingMeta hdf5MetaOf(Hdf5Process& file, std::size_t& textBytesLeft) {
   if (!file.has("meta")) throw FormatError(file.path(), "the group 'meta' is missing");
   const auto keys =
       ReadArray(file, "meta/key").texts(kMostMetaRows, kMostAttributeBytes, textBytesLeft);
   const ReadArray valueArray(file, "meta/value");
   valueArray.requireShape({keys.size()});
   auto values = valueArray.texts(kMostMetaRows, kMostMetaBytes, textBytesLeft);
-  std::map<std::string, std::string> meta;
+  RecordingMeta meta;
   for (std::size_t i = 0; i < keys.size(); ++i) meta[keys[i]] = std::move(values[i]);
   return meta;
 }
@@ -355,7 +354,7 @@ class Hdf5Storage final : public ProfileStorage {
   const SampleSeries& angleSeries() const { return angles_; }
   const SampleSeries& temperatureSeries() const { return temperatures_; }
   const Provenance& provenance() const { return from_; }
-  const std::map<std::string, std::string>& meta() const { return meta_; }
+  const RecordingMeta& meta() const { return meta_; }
   const std::vector<Event>& events() const { return events_; }
 
   std::size_t numFrames() const override { return timesUs_.size(); }
@@ -521,7 +520,7 @@ class Hdf5Storage final : public ProfileStorage {
   std::unique_ptr<Hdf5Process> file_;
   std::size_t textBytesLeft_ = kMostTextBytes;
   Provenance from_;
-  std::map<std::string, std::string> meta_;
+  RecordingMeta meta_;
   std::vector<Event> events_;
   SampleSeries angles_;
   SampleSeries temperatures_;

@@ -134,7 +134,7 @@ ImportReport importRecording(const fs::path& data,
   const auto source = openTable(data, mapping.text);
   const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
   ImportReport report;
-  std::map<std::string, std::string> meta = handMeta(hand);
+  RecordingMeta meta = handMeta(hand);
   meta["imported_from"] = data.filename().string();
   writePalpate(
       out,

@@ -13,6 +13,11 @@ namespace {
 
 using mcap_format::putString;
 
+McapWriteOptions validated(const McapWriteOptions& options) {
+  options.validate();
+  return options;
+}
+
 std::string mcapTextMap(const McapFileWriter::Texts& values) {
   std::string entries;
   for (const auto& [key, value] : values) {
@@ -44,9 +49,8 @@ McapFileWriter::McapFileWriter(Write write,
                                std::string_view library,
                                const McapWriteOptions& options)
     : write_(std::move(write)),
-      options_(options),
+      options_(validated(options)),
       work_(otherThreads(options.threads), 2 * otherThreads(options.threads)) {
-  options.validate();
   put(mcap_format::kMagic);
   std::string header;
   putString(header, profile);

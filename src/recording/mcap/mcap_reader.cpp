@@ -617,8 +617,8 @@ std::map<std::string, std::string> mcapRestored(const std::map<std::string, std:
 }
 
 // With the texts of the hand's files.
-std::map<std::string, std::string> mcapMetaOf(const McapStructure& structure) {
-  std::map<std::string, std::string> meta;
+RecordingMeta mcapMetaOf(const McapStructure& structure) {
+  RecordingMeta meta;
   const auto said = structure.metadata.find(mcap_format::kMetaRecord);
   if (said != structure.metadata.end()) meta = mcapRestored(said->second);
   const auto add = [&](const char* attachment, const char* key) {
@@ -741,7 +741,7 @@ EventsReport readMcapEvents(const fs::path& path) {
   return {events.take(), events.leftOut()};
 }
 
-std::map<std::string, std::string> readMcapMeta(const fs::path& path) {
+RecordingMeta readMcapMeta(const fs::path& path) {
   const McapFile file(path);
   const McapStructure structure = readMcapStructure(file, false);
   if (!structure.damage.empty())

@@ -61,7 +61,7 @@ std::uint8_t mcapLogLevel(const std::string& kind) {
 McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
                                          const HandDescription& hand,
                                          std::optional<bool> counts,
-                                         const std::map<std::string, std::string>& meta,
+                                         const RecordingMeta& meta,
                                          const Provenance& provenance,
                                          const McapWriteOptions& options)
     : hand_(hand),
@@ -81,7 +81,7 @@ McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
   if (counts) about_["value_type"] = *counts ? "counts" : "float";
   addAbout(mcap_format::kUnfilteredLayoutVersion);
 
-  std::map<std::string, std::string> said = writtenMeta({}, hand, meta);
+  RecordingMeta said = writtenMeta({}, hand, meta);
   const std::string json = said["hand_json"];
   const std::string urdf = said["hand_urdf"];
   said.erase("hand_json");

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +21,7 @@ class McapRecordingWriter {
   McapRecordingWriter(McapFileWriter::Write write,
                       const HandDescription& hand,
                       std::optional<bool> counts,
-                      const std::map<std::string, std::string>& meta,
+                      const RecordingMeta& meta,
                       const Provenance& provenance,
                       const McapWriteOptions& options);
 

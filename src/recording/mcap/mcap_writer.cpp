@@ -88,7 +88,7 @@ void writeMcap(const RecordingContent& content,
 struct McapLiveWriter::Impl {
   Impl(const fs::path& givenPath,
        const HandDescription& hand,
-       const std::map<std::string, std::string>& meta,
+       const RecordingMeta& meta,
        McapWriteOptions options)
       : path(givenPath) {
     options.validate();
@@ -148,7 +148,7 @@ struct McapLiveWriter::Impl {
 
 McapLiveWriter::McapLiveWriter(const fs::path& path,
                                const HandDescription& hand,
-                               const std::map<std::string, std::string>& meta,
+                               const RecordingMeta& meta,
                                const McapWriteOptions& options)
     : impl_(std::make_unique<Impl>(path, hand, meta, options)) {}
 

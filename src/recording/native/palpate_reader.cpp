@@ -183,7 +183,7 @@ Recording readPalpate(const fs::path& path, const Progress& progress) {
     try {
       events = readEventRows(database);
       damage.events = events.damaged;
-    } catch (const FormatError&) {
+    } catch (const Error&) {  // damaged, or can't be read
       damage.eventsError = std::current_exception();
     }
   });

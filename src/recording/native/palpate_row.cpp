@@ -91,7 +91,7 @@ Recording openReadablePalpate(const fs::path& path,
       const EventsReport inFile = readPalpateEvents(path);
       recording.damage.events = inFile.damaged;
       recording.damage.notInFile = withoutEvents(recording.events, inFile.events);
-    } catch (const FormatError&) {
+    } catch (const Error&) {
       // What can be had of them is there.
     }
     return recording;

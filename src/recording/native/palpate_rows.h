@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "palpate/model/event.h"
 #include "palpate/model/matrix_layout.h"
 #include "palpate/recording/palpate_schema.h"
+#include "palpate/recording/recording_data.h"
 #include "palpate/recording/second_summary.h"
 
 #include "recording/native/sqlite_database.h"
@@ -55,7 +55,7 @@ Block blockFrom(const SqliteStatement& row, int column, int dataColumn);
 
 // The key-value pairs of the table `meta`; rows with a wrong checksum are left out and counted.
 struct MetaRows {
-  std::map<std::string, std::string> values;
+  RecordingMeta values;
   std::size_t damaged = 0;
   // The value of a key; empty when there is none.
   std::string operator[](const std::string& key) const;

@@ -91,7 +91,7 @@ void setNumCommits(std::string& database, std::uint32_t number) {
 // whatever moment the process is killed.
 PublishedFile publishEmpty(const fs::path& path,
                            const SensorLayout& layout,
-                           const std::map<std::string, std::string>& meta) {
+                           const RecordingMeta& meta) {
   SqliteDatabase database(":memory:", SqliteDatabase::Mode::kCreate);
   database.execute("PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE; PRAGMA application_id=" +
                    std::to_string(kPalpateApplicationId) +
@@ -198,7 +198,7 @@ void settleJournal(const fs::path& path) {
 struct PalpateWriter::Impl {
   Impl(const fs::path& path,
        std::shared_ptr<const SensorLayout> sensorLayout,
-       const std::map<std::string, std::string>& meta,
+       const RecordingMeta& meta,
        PalpateWriterOptions writerOptions)
       : options(std::move(writerOptions)),
         layout(std::move(sensorLayout)),
@@ -447,7 +447,7 @@ struct PalpateWriter::Impl {
 
 PalpateWriter::PalpateWriter(const fs::path& path,
                              std::shared_ptr<const SensorLayout> layout,
-                             const std::map<std::string, std::string>& meta,
+                             const RecordingMeta& meta,
                              const PalpateWriterOptions& options) {
   if (!layout) throw std::invalid_argument("PalpateWriter: no sensor layout");
   requireReadable(*layout);
@@ -579,7 +579,7 @@ std::int64_t PalpateWriter::bytesOnDisk() const { return impl_->file->database.s
 
 void writePalpate(const fs::path& path,
                   std::shared_ptr<const SensorLayout> layout,
-                  const std::map<std::string, std::string>& meta,
+                  const RecordingMeta& meta,
                   const std::function<void(PalpateWriter&)>& fill,
                   Overwrite overwrite) {
   requireWritable(path, overwrite);
@@ -606,7 +606,7 @@ void writePalpate(const Profile& profile,
                   const fs::path& path,
                   Overwrite overwrite,
                   const Progress& progress,
-                  const std::map<std::string, std::string>& meta) {
+                  const RecordingMeta& meta) {
   writePalpate(
       path,
       profile.hand().layout,

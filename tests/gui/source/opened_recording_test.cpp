@@ -122,5 +122,18 @@ TEST(OpenedRecording, GapsOfALongOneAreThoseOfItsTimeStamps) {
   }
 }
 
+// A damaged recording whose notes can't be read, either; said once where that is all of its damage.
+TEST(OpenedRecording, SaysWhyThereAreNoEventsOfADamagedRecording) {
+  const auto failureBeside = [](const std::string& text) {
+    Recording recording{.profile = twentyFrames()};
+    recording.damage.text = text;
+    recording.damage.eventsError = std::make_exception_ptr(Error("a.dsa.notes.json: is damaged"));
+    return makeOpenedRecording("a.dsa", std::move(recording))->eventsFailure;
+  };
+  EXPECT_EQ(failureBeside(""), "a.dsa.notes.json: is damaged");
+  EXPECT_EQ(failureBeside("damaged; readable: 20 frames"), "a.dsa.notes.json: is damaged");
+  EXPECT_EQ(failureBeside("a.dsa.notes.json: is damaged"), "");
+}
+
 }  // namespace
 }  // namespace palpate::gui::opened_recording_test

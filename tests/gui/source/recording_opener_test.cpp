@@ -135,8 +135,8 @@ TEST(RecordingOpener, ReadsARealFile) {
   ASSERT_EQ(heard.opened.size(), 1);
   const auto recording = heard.opened[0][0].value<OpenedRecordingPtr>();
   // Its gap of minutes (reference/dsa_format.md).
-  ASSERT_EQ(recording->gapFrames.size(), 1u);
-  const double begin = recording->timeS[recording->gapFrames[0]];
+  ASSERT_EQ(recording->timing.gaps.size(), 1u);
+  const double begin = recording->timeS[recording->timing.gaps[0].frame];
   EXPECT_NE(recording->gapAt(begin + 1.0), nullptr);
   EXPECT_EQ(recording->gapAt(begin), nullptr);
 }

@@ -231,7 +231,6 @@ TEST_F(SpectrumPanelTest, SaysWhatCannotBeRead) {
                       .table = {},
                       .whole = {},
                       .timeS = {},
-                      .gapFrames = {},
                       .touched = {},
                       .events = {},
                       .eventsFailure = {},

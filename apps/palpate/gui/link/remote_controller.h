@@ -8,7 +8,6 @@
 #include <QTimer>
 #include <chrono>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 
 #include <palpate/interop/remote_fields.h>
 #include <palpate/interop/remote_protocol.h>
+#include <palpate/recording/recording_data.h>
 
 #include "gui/source/live_controller.h"
 #include "gui/source/recording_settings.h"
@@ -62,7 +62,7 @@ class RemoteController : public QObject, public RemoteTarget {
   const std::function<RecordingSettings()> settings_;
   StartLimits limits_;
   // Recording details that were set by remote control.
-  std::map<std::string, std::string> meta_;
+  RecordingMeta meta_;
   // Name template set by remote control; empty: the window's own.
   QString nameTemplate_;
   std::optional<Starting> starting_;

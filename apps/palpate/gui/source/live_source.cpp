@@ -78,7 +78,8 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
 // of the recording that is replayed.
 PressureStage::AskSettings settingsOf(LiveSource& source) {
   if (source.connection.kind == Connection::Kind::kReplay) {
-    return [reportedSettings = source.replayedMeta["settings"]] {
+    const auto found = source.replayedMeta.find("settings");
+    return [reportedSettings = found == source.replayedMeta.end() ? std::string() : found->second] {
       return reportedSettings.empty() ? std::vector<SensorSettings>()
                                       : reportedSettingsFrom(Json::parse(reportedSettings));
     };

@@ -139,8 +139,6 @@ void addGapsOfEvents(OpenedRecording& opened) {
     if (!known) gaps.push_back({*before, seconds});
   }
   std::sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.frame < b.frame; });
-  opened.gapFrames.clear();
-  for (const Gap& gap : gaps) opened.gapFrames.push_back(gap.frame);
 }
 
 }  // namespace
@@ -258,7 +256,6 @@ std::shared_ptr<OpenedRecording> computed(std::filesystem::path path,
                                                                   .table = {},
                                                                   .whole = {},
                                                                   .timeS = {},
-                                                                  .gapFrames = {},
                                                                   .touched = {},
                                                                   .events = {},
                                                                   .eventsFailure = {},
@@ -272,7 +269,6 @@ std::shared_ptr<OpenedRecording> computed(std::filesystem::path path,
     readThrough(*opened, progress);
     if (!opened->damage.empty()) opened->timing.gaps = lostSpans(*opened);
   }
-  for (const Gap& gap : opened->timing.gaps) opened->gapFrames.push_back(gap.frame);
   return opened;
 }
 
@@ -285,7 +281,9 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
   Damage& damage = recording.damage;
   const auto opened = computed(
       std::move(path), std::move(recording.profile), std::move(damage.text), progress, longFrom);
-  if (opened->damage.empty()) opened->eventsFailure = damage.eventsFault();
+  // Of a damaged recording, too, unless this is all of its damage.
+  if (std::string why = damage.eventsFault(); why != opened->damage)
+    opened->eventsFailure = std::move(why);
   opened->events = {std::move(recording.events), damage.events};
   opened->notInFile = std::move(damage.notInFile);
   opened->meta = std::move(recording.meta);

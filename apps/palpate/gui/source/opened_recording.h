@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,8 +40,6 @@ struct OpenedRecording {
   std::vector<CharacteristicSignals> whole;
   // Time of each frame from the first one [s]; empty for a long recording.
   std::vector<double> timeS;
-  // Index of the last frame before each gap.
-  std::vector<std::size_t> gapFrames;
   // Largest value of all frames [counts].
   double maximum = 0.0;
   // False for a long recording without a summary.
@@ -56,7 +53,7 @@ struct OpenedRecording {
   // Of events, those that aren't in the file: what was found to be lost of a damaged recording.
   std::vector<Event> notInFile = {};
   // The meta data, see recording.h; empty for a .dsa.
-  std::map<std::string, std::string> meta = {};
+  RecordingMeta meta = {};
   // Why the events couldn't be read; empty: they were read.
   std::string eventsFailure;
   // What is missing of a damaged recording, of which only the readable part was opened; one line,

@@ -5,7 +5,6 @@
 #include <QToolButton>
 #include <utility>
 
-#include <palpate/batch/export_extras.h>
 #include <palpate/core/error.h>
 #include <palpate/recording/crop.h>
 #include <palpate/recording/recording.h>
@@ -59,14 +58,14 @@ CropJob::CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidg
   });
 }
 
-SaveExtras CropJob::extrasOf(const OpenedRecording& recording,
+SaveExtras CropJob::extrasOf(const ExportSource& source,
                              const Profile& profile,
                              const std::filesystem::path& out,
                              bool isPart) {
   SaveExtras extras;
   // The file of the recording may be damaged, or gone since it was opened.
-  if (formatOf(out).takesSeries) extras = exportExtras({}, recording.path, out, profile, {});
-  extras.meta = recording.meta;
+  if (formatOf(out).takesSeries) extras = exportExtras({}, source, out, profile, {});
+  extras.meta = source.meta();
   if (isPart) extras.meta.erase("settings");
   return extras;
 }
@@ -126,6 +125,7 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
        noted = std::move(noted)](const Progress& progress) {
         const std::filesystem::path out = path.toStdString();
         requireOther(recording->path, out);
+        const ExportSource source(recording->path, recording->meta);
         const auto save =
             [&](const Profile& profile, const std::vector<Event>& events, const Progress& saving) {
               // The dialogue has already asked whether an existing file may be replaced.
@@ -134,14 +134,12 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
                             out,
                             Overwrite::kReplace,
                             saving,
-                            extrasOf(*recording, profile, out, part.has_value()));
+                            extrasOf(source, profile, out, part.has_value()));
             };
         if (!part) return save(recording->profile, noted, progress);
-        const auto half = [&](double from) {
-          return [&progress, from](double fraction) { return progress(from + 0.5 * fraction); };
-        };
-        const Profile selected = cropped(recording->profile, part->first, part->last, half(0.0));
-        save(selected, eventsWithin(noted, selected), half(0.5));
+        const Profile selected =
+            cropped(recording->profile, part->first, part->last, partOf(progress, 0.0, 0.5));
+        save(selected, eventsWithin(noted, selected), partOf(progress, 0.5, 1.0));
       },
       [this,
        path,

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include <palpate/batch/export_extras.h>
 #include <palpate/recording/recording.h>
 
 #include "gui/source/background_job.h"
@@ -36,11 +37,11 @@ class CropJob : public QObject {
   OfferStrip& offer() noexcept { return *offer_; }
   bool busy() const noexcept { return job_.busy(); }
 
-  // What is saved beside `profile`, which is `recording` or a part of it: what was said of the
-  // recording when it was opened (the settings at its start only with the whole), and for formats
-  // of other programs where it comes from; for those the recording's file is read again. Throws as
-  // exportExtras().
-  static SaveExtras extrasOf(const OpenedRecording& recording,
+  // What is saved beside `profile`, which is the recording of `source` or a part of it: what was
+  // said of the recording (the settings at its start only with the whole), and for formats of other
+  // programs where it comes from; for those the recording's file is read again, once per `source`.
+  // Throws as exportExtras().
+  static SaveExtras extrasOf(const ExportSource& source,
                              const Profile& profile,
                              const std::filesystem::path& out,
                              bool isPart);

@@ -88,8 +88,9 @@ void GraspExport::exportEach() {
           throw Error(error.what());
         }
         GraspFilesOptions options;
-        options.extras = [recording](const Profile& grasp, const std::filesystem::path& out) {
-          return CropJob::extrasOf(*recording, grasp, out, true);
+        const ExportSource exported(recording->path, recording->meta);
+        options.extras = [&exported](const Profile& grasp, const std::filesystem::path& out) {
+          return CropJob::extrasOf(exported, grasp, out, true);
         };
         saveGrasps(recording->path, recording->profile, events, grasps, *files, options, progress);
       },
