@@ -3,9 +3,11 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -447,6 +449,7 @@ class McapStorage final : public ProfileStorage {
   // out; their number is returned.
   std::size_t scan(const Progress& progress, std::size_t threads, bool salvage) {
     if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+    looksAhead_ = threads > 1;
     const std::size_t largestBatch = 2 * threads;
     std::size_t damaged = 0;
     salvage_ = salvage;
@@ -588,9 +591,27 @@ class McapStorage final : public ProfileStorage {
     const std::lock_guard lock(mutex_);
     if (const auto* kept = cache_.find(piece)) return *kept;
     cache_.makeRoom(pieces_[piece].rawSize);  // of large chunks one at a time is in memory
-    auto block = std::make_shared<McapBlock>(readBlock(piece));
+    const bool isAhead = ahead_.valid() && aheadPiece_ == piece;
+    auto block = std::make_shared<McapBlock>(isAhead ? ahead_.get() : readBlock(piece));
     block->events = {};
+    lookAhead(piece);
     return cache_.add(piece, pieces_[piece].rawSize, std::move(block));
+  }
+
+  // Where pieces are read in order, begins to read the next one on another thread. What that throws
+  // is thrown when the piece is asked for. The lock is held.
+  void lookAhead(std::size_t piece) const {
+    const std::size_t next = piece + 1;
+    const bool inOrder = piece == std::exchange(nextPiece_, next);
+    if (!looksAhead_ || !inOrder || next == pieces_.size() || cache_.find(next) ||
+        pieces_[piece].rawSize + pieces_[next].rawSize > kSmallMcapPiecesBytes)
+      return;
+    try {
+      ahead_ = std::async(std::launch::async, [this, next] { return readBlock(next); });
+      aheadPiece_ = next;
+    } catch (const std::system_error&) {
+      // No thread: the piece is read when it is asked for.
+    }
   }
 
   McapFile file_;
@@ -608,6 +629,10 @@ class McapStorage final : public ProfileStorage {
   mutable std::mutex mutex_;
   mutable BlockCache<std::shared_ptr<const McapBlock>> cache_{kSmallMcapPiecesBytes,
                                                               kCachedMcapBlocks};
+  bool looksAhead_ = false;
+  mutable std::size_t nextPiece_ = 0;  // behind the one that was read last
+  mutable std::size_t aheadPiece_ = 0;
+  mutable std::future<McapBlock> ahead_;  // last: its end waits for the thread, which uses the rest
 };
 
 std::map<std::string, std::string> mcapRestored(const std::map<std::string, std::string>& texts) {
