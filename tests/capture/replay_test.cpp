@@ -309,15 +309,14 @@ class LostTimes final : public ProfileStorage {
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     out = numberedFrame(frame, frameTimeUs(frame));
   }
-  std::size_t numAngles() const override { return 0; }
-  std::int64_t angleTimeUs(std::size_t) const override { return 0; }
-  JointAngles angles(std::size_t) const override { return {}; }
-  std::size_t numTemperatures() const override { return 2; }
-  std::int64_t temperatureTimeUs(std::size_t sample) const override {
+  std::size_t numSamples(std::size_t series) const override {
+    return series == kTemperatureSeries ? 2 : 0;
+  }
+  std::int64_t sampleTimeUs(std::size_t, std::size_t sample) const override {
     return kWallStartUs + 45'000 + static_cast<std::int64_t>(sample) * 10'000;
   }
-  Temperatures temperatures(std::size_t sample) const override {
-    return {temperatureTimeUs(sample), {33.0}};
+  Sample sample(std::size_t series, std::size_t sample) const override {
+    return {sampleTimeUs(series, sample), {33.0}, series};
   }
 
  private:

@@ -39,22 +39,22 @@ std::vector<InTimeOrder::Item> allOf(InTimeOrder order) {
 
 TEST(InTimeOrder, ofEqualTimesEventsTemperaturesAnglesFrames) {
   EXPECT_EQ(allOf({profileAt({10, 20}, {5, 20}, {20, 30}), eventsAt({20, 40})}),
-            (std::vector<InTimeOrder::Item>{{Kind::kAngles, 0, 5},
-                                            {Kind::kFrame, 0, 10},
-                                            {Kind::kEvent, 0, 20},
-                                            {Kind::kTemperatures, 0, 20},
-                                            {Kind::kAngles, 1, 20},
-                                            {Kind::kFrame, 1, 20},
-                                            {Kind::kTemperatures, 1, 30},
-                                            {Kind::kEvent, 1, 40}}));
+            (std::vector<InTimeOrder::Item>{{Kind::kSample, kAngleSeries, 0, 5},
+                                            {Kind::kFrame, 0, 0, 10},
+                                            {Kind::kEvent, 0, 0, 20},
+                                            {Kind::kSample, kTemperatureSeries, 0, 20},
+                                            {Kind::kSample, kAngleSeries, 1, 20},
+                                            {Kind::kFrame, 0, 1, 20},
+                                            {Kind::kSample, kTemperatureSeries, 1, 30},
+                                            {Kind::kEvent, 0, 1, 40}}));
 }
 
 TEST(InTimeOrder, eventsKeepTheirOrder) {
   EXPECT_EQ(allOf({profileAt({10, 20}, {}, {}), eventsAt({15, 5})}),
-            (std::vector<InTimeOrder::Item>{{Kind::kFrame, 0, 10},
-                                            {Kind::kEvent, 0, 15},
-                                            {Kind::kEvent, 1, 5},
-                                            {Kind::kFrame, 1, 20}}));
+            (std::vector<InTimeOrder::Item>{{Kind::kFrame, 0, 0, 10},
+                                            {Kind::kEvent, 0, 0, 15},
+                                            {Kind::kEvent, 0, 1, 5},
+                                            {Kind::kFrame, 0, 1, 20}}));
 }
 
 TEST(InTimeOrder, mayBeEmptyAndReachTheEndOfTime) {

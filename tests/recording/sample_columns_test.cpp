@@ -36,13 +36,13 @@ TEST(SampleColumns, withoutSamplesTheyAreThoseOfTheHand) {
   builder.addAngles(5, std::vector<double>{1.0, 2.0, 3.0});
   const Profile built = builder.finish({});
   const Profile empty = ProfileBuilder(hand.layout).finish({});
-  const WrittenSamples angles = writtenAngles(built);
+  const WrittenSamples angles = writtenSamples(built, kAngleSeries);
   EXPECT_EQ(angles.count, 1u);
   EXPECT_EQ(angles.timeUs(0), 5);
   EXPECT_EQ(angles.values(0), (std::vector<double>{1.0, 2.0, 3.0}));
   EXPECT_EQ(angles.columns.size(), 3u);
-  EXPECT_EQ(writtenAngles(empty).columns.size(), empty.hand().axes.size());
-  EXPECT_EQ(writtenTemperatures(built).columns.size(), built.hand().temperatureSensors.size());
+  EXPECT_EQ(writtenSamples(empty, kAngleSeries).columns.size(), empty.hand().axes.size());
+  EXPECT_EQ(writtenSamples(built, kTemperatureSeries).columns.size(), built.hand().temperatureSensors.size());
 }
 
 TEST(SampleColumns, anEventOfNoMatrixHasTheGivenNumber) {
