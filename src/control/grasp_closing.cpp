@@ -127,8 +127,12 @@ void GraspStateMachine::onMotionEnd(const std::vector<int>& states, std::int64_t
     return close(monoUs);
   }
   // A slip-aware grasp continues with the object that it touches.
-  if (isSlipAware() && state_ != State::kPreshaping && grip_.touches())
+  if (isSlipAware() && state_ != State::kPreshaping && grip_.touches()) {
+    // It may have been blocked in the fast part of its way: over an object nothing is fast.
+    isNear_ = true;
+    approaching_ = false;
     return pause(State::kSettling, "closed as far as it goes", monoUs);
+  }
   // It closed again because something slipped, and touches nothing now.
   const bool lost = isSlipAware() && held_;
   const bool closes = !isJointMotion(report_.request) && report_.request.closeRatio > 0.0;

@@ -32,6 +32,7 @@ TaxelPeak taxelPeaks(const TactileFrame& frame, std::vector<TaxelPeak>& peaks) {
 // What a state does at a frame under tactile control, when its motion has ended (null exactly where
 // none runs) and in time; null: nothing. And which phases may follow.
 struct GraspStateMachine::StateRow {
+  State state;
   GraspPhase phase;
   std::string_view name;  // of the phase
   struct {
@@ -43,46 +44,54 @@ struct GraspStateMachine::StateRow {
 };
 
 constexpr GraspStateMachine::StateRow GraspStateMachine::kStates[] = {
-    {Phase::kIdle,
+    {State::kIdle, Phase::kIdle,
      "idle",
      {nullptr, nullptr, nullptr},
      setOf(Phase::kPreshaping, Phase::kClosing, Phase::kSettling)},
-    {Phase::kPreshaping,
+    {State::kPreshaping, Phase::kPreshaping,
      "preshaping",
      {&Self::onMovingFrame, &Self::onMotionEnd, &Self::onMovingTime},
      setOf(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
-    {Phase::kClosing,
+    {State::kClosing, Phase::kClosing,
      "closing",
      {&Self::onMovingFrame, &Self::onMotionEnd, &Self::onMovingTime},
      setOf(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
-    {Phase::kStopping,
+    {State::kStopping, Phase::kStopping,
      "stopping",
      {&Self::onStoppingFrame, nullptr, &Self::onStoppingTime},
      setOf(Phase::kSettling, Phase::kEasing, Phase::kClosing, Phase::kStopping, Phase::kIdle)},
-    {Phase::kSettling, "settling", {nullptr, nullptr, &Self::onOvershootTime}, setOf(Phase::kIdle)},
-    {Phase::kSettling,
+    {State::kOvershoot, Phase::kSettling, "settling", {nullptr, nullptr, &Self::onOvershootTime}, setOf(Phase::kIdle)},
+    {State::kSettling, Phase::kSettling,
      "settling",
      {&Self::onSettlingFrame, nullptr, &Self::onHoldingTime},
      setOf(Phase::kHolding, Phase::kStopping, Phase::kIdle)},
-    {Phase::kEasing,
+    {State::kEasing, Phase::kEasing,
      "easing",
      {&Self::onEasingFrame, nullptr, &Self::onEasingTime},
      setOf(Phase::kEasing, Phase::kSettling, Phase::kStopping, Phase::kIdle)},
-    {Phase::kEasing,
+    {State::kEasingStep, Phase::kEasing,
      "easing",
      {&Self::onMovingFrame, &Self::onStepEnd, &Self::onMovingTime},
      setOf(Phase::kEasing, Phase::kStopping, Phase::kIdle)},
-    {Phase::kHolding,
+    {State::kHolding, Phase::kHolding,
      "holding",
      {&Self::onHoldingFrame, nullptr, &Self::onHoldingTime},
      setOf(Phase::kClosing, Phase::kLoosening, Phase::kStopping, Phase::kIdle)},
-    {Phase::kLoosening,
+    {State::kLoosening, Phase::kLoosening,
      "loosening",
      {&Self::onLooseningFrame, &Self::onMotionEnd, &Self::onMovingTime},
      setOf(Phase::kClosing, Phase::kStopping, Phase::kIdle)},
 };
 
+// row() finds a row by its number.
+constexpr bool GraspStateMachine::eachRowHasItsState() {
+  for (std::size_t i = 0; i < std::size(kStates); ++i)
+    if (kStates[i].state != static_cast<State>(i)) return false;
+  return std::size(kStates) == static_cast<std::size_t>(State::kLoosening) + 1;
+}
+
 const GraspStateMachine::StateRow& GraspStateMachine::row() const noexcept {
+  static_assert(eachRowHasItsState());
   return kStates[static_cast<std::size_t>(state_)];
 }
 

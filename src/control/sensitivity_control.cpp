@@ -23,7 +23,7 @@ constexpr double kTemperaturesWithinS = 3.0;
 constexpr std::int64_t kStaleUs = 1'000'000;  // without a frame for this time no rate is known
 
 // Frames of one or two seconds: if step() is called less often, frames are skipped without harm.
-constexpr CaptureQueueOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
+const CaptureQueueOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
 
 TactileThresholds resetOf(const HandDescription& hand) {
   TactileThresholds reset;

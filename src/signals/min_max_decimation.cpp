@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t kMostColumns = 1'000'000;
 
 // The samples of one column that are kept.
-class Column {
+class PixelColumn {
  public:
-  explicit Column(std::span<const double> y) : y_(y) {}
+  explicit PixelColumn(std::span<const double> y) : y_(y) {}
 
   void add(std::size_t i) {
     if (empty_) {
@@ -47,7 +47,7 @@ class Column {
   std::size_t last_ = 0;
 };
 
-// Column of a position: -1 before the visible range, `columns` after it.
+// PixelColumn of a position: -1 before the visible range, `columns` after it.
 std::ptrdiff_t columnOf(double x, const DecimationOptions& options) {
   if (x < options.from) return -1;
   const auto columns = static_cast<std::ptrdiff_t>(options.columns);
@@ -83,7 +83,7 @@ std::vector<SeriesPoint> minMaxDecimated(std::span<const double> x,
   if (end < x.size()) ++end;
 
   std::vector<SeriesPoint> points;
-  Column column(y);
+  PixelColumn column(y);
   std::ptrdiff_t current = -1;
   auto nextBreak = std::lower_bound(options.breaks.begin(), options.breaks.end(), begin);
   for (std::size_t i = begin; i < end; ++i) {

@@ -9,6 +9,7 @@
 #include "palpate/model/preshape.h"
 
 #include "control/held_object.h"
+#include "control/machine_bench.h"
 #include "testing/sdh2.h"
 #include "testing/testing.h"
 
@@ -214,6 +215,46 @@ TEST(GraspEasing, NothingIsFastAfterTheLimit) {
   const MoveJoints& answer = held.moves()[before];
   EXPECT_LE(*std::max_element(answer.velocityDegPerS.begin(), answer.velocityDegPerS.end()), 5.0)
       << "not at the 100 deg/s of the fast part";
+}
+
+// A joint is blocked by a touch that is too light to end the fast part. When the hand closes again,
+// it does so slowly, though it is still before the expected touch.
+TEST(GraspEasing, NothingIsFastAfterAJointWasBlocked) {
+  testing::MachineBench bench;
+  bench.machine.onAngles(sdh2Preshape("centrical").anglesDeg(0.0), bench.us);
+  GraspRequest request = keeping(GraspMode::kSlip);
+  request.preshape = "centrical";
+  request.velocityDegPerS = 100.0;
+  request.holding.weightN = 1.0;
+  request.holding.newtonsPerCount = 0.001;
+  bench.machine.begin(request, bench.us, 42, touchOfBall());
+  std::optional<MoveJoints> last;
+  double fastest = 0.0;
+  for (int i = 0; i < 800 && !(fastest > 50.0 && last && bench.machine.phase() == GraspPhase::kIdle);
+       ++i) {
+    bench.frames(1, 3.0F);
+    bench.machine.onTime(bench.us);
+    while (const auto command = bench.machine.takeCommand()) {
+      if (std::holds_alternative<StopMotion>(*command)) {
+        bench.machine.onStopAcknowledged(bench.us);
+        continue;
+      }
+      const auto& move = std::get<MoveJoints>(*command);
+      const double velocity =
+          *std::max_element(move.velocityDegPerS.begin(), move.velocityDegPerS.end());
+      if (fastest > 50.0) last = move;
+      fastest = std::max(fastest, velocity);
+      bench.machine.onMoveAcknowledged(2.0, bench.us);
+      if (bench.machine.phase() == GraspPhase::kClosing && velocity > 50.0) {
+        ASSERT_FALSE(last) << "the fast part again";
+        bench.frames(2, 3.0F);
+        bench.machine.onAxisStates(testing::kMoving, bench.us);
+        bench.machine.onAxisStates(testing::kHeld, bench.us);
+      }
+    }
+  }
+  EXPECT_GT(fastest, 50.0);
+  ASSERT_TRUE(last) << "the friction test closes again";
 }
 
 // Smaller than the rise that counts as a touch.

@@ -130,6 +130,7 @@ int calibrateApply(const Arguments& words) {
         beyond,
         touched);
   if (outPath) {
+    recording.requireEvents();
     copyState(profile, builder);
     ProfileInfo info = profile.info();
     info.valueType = ValueType::kFloat;

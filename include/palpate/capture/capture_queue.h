@@ -76,7 +76,7 @@ struct CaptureQueueOptions {
   // A waiting consumer wakes when a queue contains this number of items; the recorder checks every
   // 80 ms in any case, every 100 ms without a recording.
   std::size_t wakeAtItems = 1;
-  std::vector<std::string> series;  // the names of all series, for gaps; may be empty
+  std::vector<std::string> series = {};  // the names of all series, for gaps; may be empty
 };
 
 struct CaptureQueueStats {

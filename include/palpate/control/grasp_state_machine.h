@@ -177,6 +177,7 @@ class GraspStateMachine {
   // What a state does, and what may follow (grasp_state_machine.cpp).
   struct StateRow;
   static const StateRow kStates[];  // in the order of State
+  static constexpr bool eachRowHasItsState();
   const StateRow& row() const noexcept;
   friend std::string_view nameOf(GraspPhase phase);
   friend bool mayFollow(GraspPhase phase, GraspPhase next);

@@ -519,8 +519,8 @@ void buildProfile(const fs::path& path,
   recovery.lostAngles = lost[1];
   recovery.lostTemperatures = lost[2];
   recovery.frames = storage->numFrames();
-  recovery.angles = storage->numAngles();
-  recovery.temperatures = storage->numTemperatures();
+  recovery.angles = storage->numSamples(kAngleSeries);
+  recovery.temperatures = storage->numSamples(kTemperatureSeries);
   const bool empty = recovery.frames + recovery.angles + recovery.temperatures == 0;
   // A recording may have no sample yet, whatever is damaged beside.
   const bool lostAny = lost[0] + lost[1] + lost[2] + recovery.damagedBlocks > 0;
