@@ -17,10 +17,9 @@
 #include "palpate/core/json.h"
 #include "palpate/core/output_file.h"
 #include "palpate/core/text_file.h"
+#include "palpate/recording/event_store.h"
 #include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording_folder.h"
-
-#include "recording/event_sidecar.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

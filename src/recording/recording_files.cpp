@@ -8,8 +8,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_name.h"
 #include "palpate/core/output_file.h"
-
-#include "recording/native/palpate_connection.h"
+#include "palpate/recording/recording_lock.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

@@ -11,8 +11,7 @@
 #include "palpate/core/file_id.h"
 #include "palpate/core/file_name.h"
 #include "palpate/core/text_file.h"
-
-#include "recording/foreign_file.h"
+#include "palpate/recording/foreign_file.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

@@ -4,22 +4,18 @@
 #include <cstdint>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include <sys/stat.h>
 
-#include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_name.h"
 #include "palpate/core/progress.h"
-#include "palpate/core/text_file.h"
-#include "palpate/recording/palpate_schema.h"
-
-#include "recording/native/palpate_connection.h"
+#include "palpate/recording/palpate_recovery.h"
+#include "palpate/recording/recording_lock.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -61,53 +57,6 @@ std::optional<struct stat> regularFile(const fs::path& path) {
   return facts;
 }
 
-// Something else than a file under the name of a side file could keep whoever opens it waiting.
-bool sideFilesAreFiles(const fs::path& recording) {
-  std::error_code ignored;
-  for (const fs::path& side : {lockPathOf(recording), journalPathOf(recording)})
-    if (fs::exists(fs::symlink_status(side, ignored)) && !regularFile(side)) return false;
-  return true;
-}
-
-std::uint64_t numberAt(std::string_view bytes, std::size_t at) {
-  return bigEndian(std::as_bytes(std::span(bytes.substr(at, 4))));
-}
-
-// A journal that has to be played back: its writer died inside a commit (the database file format
-// of SQLite, section 3). Of an empty database it would leave nothing.
-bool diedInCommit(const fs::path& recording) {
-  constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
-  constexpr std::size_t kPagesAt = 16;  // pages of the database before
-  const std::string journal = beginningOfFile(journalPathOf(recording), kPagesAt + 4);
-  return journal.size() == kPagesAt + 4 && journal.starts_with(kMagic) &&
-         numberAt(journal, kPagesAt) > 0;
-}
-
-// By its header alone, which is the same at any moment of its life (section 1.3).
-bool looksLikeRecording(const fs::path& path) {
-  constexpr std::size_t kApplicationIdAt = 68;
-  const std::string header = beginningOfFile(path, kApplicationIdAt + 4);
-  return header.size() == kApplicationIdAt + 4 && header.starts_with("SQLite format 3") &&
-         numberAt(header, kApplicationIdAt) == std::uint64_t{kPalpateApplicationId};
-}
-
-// The lock comes first: a recording whose lock is free is never written again, so that nothing here
-// gets into the way of a writer, be it in this very process (where closing a file that SQLite has
-// open would drop SQLite's own locks on it).
-bool isUnfinished(const fs::path& path) {
-  if (!sideFilesAreFiles(path) || RecordingLock::isHeld(path)) return false;
-  // A copy, as the reader makes one, would take long for a long recording.
-  if (diedInCommit(path)) return looksLikeRecording(path);
-  try {
-    PalpateConnection access(path);
-    return access.unfinished() &&
-           access.database().integerOf(
-               "SELECT EXISTS(SELECT 1 FROM block) OR EXISTS(SELECT 1 FROM event)") != 0;
-  } catch (const Error&) {
-    return false;  // no recording, damaged, no permission
-  }
-}
-
 // Names of all that lies in a folder.
 std::set<std::string> listed(const fs::path& folder) {
   std::set<std::string> names;
@@ -131,7 +80,7 @@ std::vector<UnfinishedRecording> findUnfinished(const fs::path& folder, const Pr
     if (!isRecordingName(name) || wasRecovered(name, names)) continue;
     const fs::path path = folder / name;
     const auto facts = regularFile(path);
-    if (!facts || !isUnfinished(path)) continue;
+    if (!facts || !isUnfinishedRecording(path)) continue;
     found.push_back(
         {path,
          std::int64_t{facts->st_mtim.tv_sec} * 1'000'000 + facts->st_mtim.tv_nsec / 1000,

@@ -15,11 +15,11 @@
 #include "palpate/core/error.h"
 #include "palpate/core/file_descriptor.h"
 #include "palpate/core/hash.h"
+#include "palpate/recording/hdf5_process.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_import.h"
 #include "palpate/recording/table_source.h"
 
-#include "recording/hdf5_process.h"
 #include "recording/import_samples.h"
 #include "recording/palpate_samples.h"
 #include "testing/process_facts.h"

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "recording/hdf5_process.h"
+#include "palpate/recording/hdf5_process.h"
+
 #include "recording/import/array_source.h"
 
 namespace palpate {

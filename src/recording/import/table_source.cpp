@@ -7,9 +7,9 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/text_file.h"
+#include "palpate/recording/foreign_file.h"
 #include "palpate/recording/hdf5_recording.h"
 
-#include "recording/foreign_file.h"
 #include "recording/import/csv_source.h"
 #include "recording/import/folder_source.h"
 #include "recording/import/hdf5_source.h"

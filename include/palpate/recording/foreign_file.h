@@ -1,4 +1,4 @@
-// What a file or folder of another program is, and what to do with it. Private to this module.
+// What a file or folder of another program is, and what to do with it.
 #pragma once
 
 #include <filesystem>

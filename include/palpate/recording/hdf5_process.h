@@ -1,9 +1,9 @@
 // An HDF5 file that the program palpate_hdf5 reads for this process, which links no libhdf5 for
 // reading: a file on which the library crashes, hangs or takes too much memory costs one line.
-// Safe from several threads. Private to this module.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -13,20 +13,42 @@
 #include <string_view>
 #include <vector>
 
-#include "palpate/core/child_program.h"
-#include "palpate/core/file_descriptor.h"
-
-#include "recording/hdf5_request.h"
+#include <palpate/core/child_program.h>
+#include <palpate/core/file_descriptor.h>
 
 namespace palpate {
+
+enum class Hdf5Request : std::uint8_t;  // private to the module
+
+// The types as which numbers are read.
+enum class Hdf5Number : std::uint8_t { kU8, kI32, kI64, kF32, kF64 };
+constexpr std::size_t sizeOf(Hdf5Number type) noexcept {
+  constexpr std::size_t kBytes[] = {1, 4, 8, 4, 8};
+  return kBytes[static_cast<std::size_t>(type)];
+}
+
+// The axis of an array on which a part of it is read.
+enum class Hdf5Axis : std::uint8_t { kFirst, kLast };
+
+enum class Hdf5Kind : std::uint8_t { kInteger, kFloat, kText, kOther };
+
+// What is known of a data set without reading it.
+struct Hdf5Facts {
+  Hdf5Kind kind = Hdf5Kind::kOther;
+  std::string typeName;  // "uint16", "float64", "text", ..
+  std::vector<std::uint64_t> shape;
+  std::uint64_t chunkLength = 0;  // along the first axis; 0: not chunked
+  std::string fault;              // why its values can't be read; empty: nothing is known
+};
 
 // What a file is read for, and with that how long a request may take: the window waits for the
 // values of a recording, 2 s at most (10 s for what else is asked while it is opened); an import
 // waits 60 s.
 enum class Hdf5Use { kRecording, kImport };
 
-// All functions throw FormatError: the file is damaged, refers to other files, or the library could
-// not read it in time. Once it has failed on the file, every later call says so.
+// Safe from several threads. All functions throw FormatError: the file is damaged, refers to other
+// files, or the library could not read it in time. Once it has failed on the file, every later call
+// says so.
 class Hdf5Process {
  public:
   // Starts the program. `path` is for messages; `descriptor`: of the file, open for reading. Throws
