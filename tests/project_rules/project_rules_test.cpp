@@ -89,7 +89,7 @@ TEST(ProjectRules, EveryPublicHeaderHasATestOfItsName) {
       {"recording/palpate_writer", "recording/palpate_recording"},
       {"recording/recording_lock", "recording/palpate_files"},
       {"recording/hdf5_process", "recording/hdf5_program"},
-      {"recording/foreign_file", "recording/table_source"},
+      {"recording/foreign_file", "imports/table_source"},
       {"model/event", "recording/palpate_recording"},
       {"recording/recording_data", "recording/recording_format"},
       {"recording/second_summary", "recording/palpate_recording"},
