@@ -10,8 +10,8 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/parallel.h"
 #include "palpate/core/time.h"
+#include "palpate/library/recording_folder.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_folder.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

@@ -9,11 +9,11 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/parallel.h"
 #include "palpate/core/text_table.h"
+#include "palpate/library/recording_folder.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recognition/filtered_recording.h"
 #include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_folder.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

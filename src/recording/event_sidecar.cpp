@@ -7,6 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/text_file.h"
+#include "palpate/recording/event_store.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -71,12 +72,6 @@ void removeSidecar(const fs::path& path) {
 }
 
 }  // namespace
-
-fs::path sidecarPathOf(const fs::path& recording) {
-  fs::path path = recording;
-  path += ".notes.json";
-  return path;
-}
 
 Json eventsToJson(std::span<const Event> events) {
   return jsonList(events, [](const Event& event) {

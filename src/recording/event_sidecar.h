@@ -12,9 +12,6 @@
 
 namespace palpate {
 
-// The path of the sidecar: NAME.dsa.notes.json beside NAME.dsa.
-std::filesystem::path sidecarPathOf(const std::filesystem::path& recording);
-
 Json eventsToJson(std::span<const Event> events);
 
 // The events in the sidecar of a recording; none where there is no sidecar. Throws FileError,

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/recording/recording_lock.h"
 
 #include "recording/event_sidecar.h"
 #include "recording/format_reader.h"
@@ -189,6 +190,12 @@ void saveEventSidecar(const fs::path& path,
   const auto lock = locked(path, sidecar);
   const EventsReport now = readEventSidecar(path);
   if (needsSaving(path, now.events, asRead, events)) replaceEventSidecar(path, events);
+}
+
+fs::path sidecarPathOf(const fs::path& recording) {
+  fs::path path = recording;
+  path += ".notes.json";
+  return path;
 }
 
 bool isUserEvent(const Event& event) {

@@ -1,4 +1,4 @@
-#include "recording/foreign_file.h"
+#include "palpate/recording/foreign_file.h"
 
 #include <algorithm>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "recording/hdf5_process.h"
+#include "palpate/recording/hdf5_process.h"
 
 #include <array>
 #include <bit>
@@ -15,6 +15,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/recording/hdf5_program.h"
+
+#include "recording/hdf5_request.h"
 
 namespace palpate {
 namespace {

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
@@ -22,7 +21,7 @@ enum class Hdf5Request : std::uint8_t {
   kOpen,        // -> nothing. The first request
   kArrayNames,  // -> u32 count, texts: all data sets that are in this file
   kHas,         // -> u8: whether there is an object of this name
-  kFacts,       // -> see Hdf5Facts
+  kFacts,       // -> the members of Hdf5Facts in their order; a shape is u8 rank, u64 each
   kRead,  // first u64, count u64 [places on an axis], Hdf5Number u8, Hdf5Axis u8 -> the numbers, in
           // C order
   kTexts,             // first u64, count u64, longest u64 [bytes] -> u32 number, texts: one or more
@@ -33,28 +32,6 @@ enum class Hdf5Request : std::uint8_t {
 };
 // kFault: a text that follows the name of the object in a message.
 enum class Hdf5Answer : std::uint8_t { kValue, kFault };
-
-// The types of numbers that are answered.
-enum class Hdf5Number : std::uint8_t { kU8, kI32, kI64, kF32, kF64 };
-constexpr std::size_t sizeOf(Hdf5Number type) noexcept {
-  constexpr std::size_t kBytes[] = {1, 4, 8, 4, 8};
-  return kBytes[static_cast<std::size_t>(type)];
-}
-
-// The axis of an array on which a part of it is read.
-enum class Hdf5Axis : std::uint8_t { kFirst, kLast };
-
-enum class Hdf5Kind : std::uint8_t { kInteger, kFloat, kText, kOther };
-
-// What is known of a data set without reading it. In an answer: the members in this order; a shape
-// is u8 rank, u64 each.
-struct Hdf5Facts {
-  Hdf5Kind kind = Hdf5Kind::kOther;
-  std::string typeName;  // "uint16", "float64", "text", ..
-  std::vector<std::uint64_t> shape;
-  std::uint64_t chunkLength = 0;  // along the first axis; 0: not chunked
-  std::string fault;              // why its values can't be read; empty: nothing is known
-};
 
 // The most bytes of numbers in an answer; a block of frames has 16 MB.
 constexpr std::size_t kMaxHdf5ReadBytes = 32u << 20;

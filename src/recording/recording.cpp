@@ -8,11 +8,11 @@
 #include "palpate/core/error.h"
 #include "palpate/core/file_name.h"
 #include "palpate/core/number_text.h"
+#include "palpate/recording/foreign_file.h"
+#include "palpate/recording/recording_lock.h"
 
 #include "recording/dsa/dsa_xml_stream.h"
-#include "recording/foreign_file.h"
 #include "recording/format_reader.h"
-#include "recording/native/palpate_connection.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

@@ -19,8 +19,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "palpate/library/recording_catalog.h"
 #include "palpate/recording/dsa_reader.h"
-#include "palpate/recording/recording_catalog.h"
 
 #include "testing/testing.h"
 

@@ -11,13 +11,13 @@
 
 #include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
+#include "palpate/library/recording_catalog.h"
 #include "palpate/recognition/grasp_features.h"
 #include "palpate/recognition/sample_set.h"
 #include "palpate/recognition/session_offset.h"
 #include "palpate/recognition/trained_model.h"
 #include "palpate/recording/dsa_writer.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_catalog.h"
 #include "palpate/signals/characteristic_signals.h"
 
 #include "growth_bench.h"

@@ -1,5 +1,5 @@
+#include "palpate/imports/import_mapping.h"
 #include "palpate/model/hand_file.h"
-#include "palpate/recording/import_mapping.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"

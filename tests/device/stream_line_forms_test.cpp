@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/device/stream_lines.h"
-#include "palpate/recording/label_places.h"
+#include "palpate/imports/label_places.h"
 
 #include "device/stream_hands.h"
 

@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/imports/recording_import.h"
 #include "palpate/model/hand_description.h"
-#include "palpate/recording/recording_import.h"
 
 namespace {
 

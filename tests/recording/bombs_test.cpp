@@ -1,15 +1,15 @@
 // Small MCAP and NumPy files that claim or unpack to too much: little memory and work, and one line
 // that says what was not read.
 #include "palpate/core/error.h"
+#include "palpate/imports/recording_import.h"
+#include "palpate/imports/table_source.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/mcap_recording.h"
 #include "palpate/recording/palpate_reader.h"
 #include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_import.h"
-#include "palpate/recording/table_source.h"
 
-#include "recording/import_samples.h"
+#include "imports/import_samples.h"
 #include "testing/process_facts.h"
 #include "testing/testing.h"
 

@@ -10,7 +10,7 @@
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
-#include "recording/import_samples.h"
+#include "imports/import_samples.h"
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 

@@ -8,7 +8,7 @@
 #include "palpate/recording/mcap_recording.h"
 #include "palpate/recording/recording.h"
 
-#include "recording/import_samples.h"
+#include "imports/import_samples.h"
 #include "testing/testing.h"
 
 namespace palpate::mcap_foreign_test {

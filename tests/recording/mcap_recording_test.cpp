@@ -14,7 +14,7 @@
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/recording.h"
 
-#include "recording/import_samples.h"
+#include "imports/import_samples.h"
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 

@@ -4,8 +4,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/recording/import_time.h"
-#include "palpate/recording/recording_import.h"
+#include "palpate/imports/import_time.h"
+#include "palpate/imports/recording_import.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"

@@ -15,9 +15,9 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
+#include "palpate/library/recording_folder.h"
 #include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_folder.h"
 
 #include "commands/command_line.h"
 

@@ -7,7 +7,7 @@
 
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/recording/label_places.h"
+#include "palpate/imports/label_places.h"
 
 #include "commands/hand_options.h"
 

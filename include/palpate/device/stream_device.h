@@ -40,7 +40,7 @@ struct StreamDeviceOptions {
   StreamFormat format = StreamFormat::kAuto;
   StreamTime time = StreamTime::kAuto;  // of lines of numbers
   int baud = 115'200;                   // of a serial port, 50..10,000,000 [baud]
-  // Which taxel each label of a line stands for (recording/label_places.h).
+  // Which taxel each label of a line stands for (imports/label_places.h).
   PlacesOfLabels placesOfLabels = {};
   // Opens the source; empty means that `source` is opened. Tests pass their own channel. Called
   // from the port's thread.

@@ -15,6 +15,9 @@
 
 namespace palpate {
 
+// The sidecar of a .dsa: NAME.dsa.notes.json beside NAME.dsa.
+std::filesystem::path sidecarPathOf(const std::filesystem::path& recording);
+
 // Whether a person may add, change and remove an event: kinds "label" and "mark" (as the recorder
 // writes them), "note", "recipe" (filters to look through, JSON: filter/recipe.h), "segment" (a
 // grasp or another part, as a person sees it), "sensor_settings" (what a person says that the

@@ -52,4 +52,9 @@ struct PalpateRecovery {
 PalpateRecovery recoverPalpateProfile(const std::filesystem::path& path,
                                       const Progress& progress = {});
 
+// Whether a native recording was never finished, no process is writing it, and it holds something
+// to recover (samples, events). One whose writer died inside a commit is recognised by its journal
+// and its header alone, even if it holds nothing. False for what can't be read or is no recording.
+bool isUnfinishedRecording(const std::filesystem::path& path);
+
 }  // namespace palpate

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "palpate/core/byte_reader.h"
+#include "palpate/recording/hdf5_process.h"
 
 #include "recording/hdf5_library.h"
 #include "recording/hdf5_request.h"

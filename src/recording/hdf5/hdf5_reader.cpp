@@ -21,12 +21,12 @@
 #include "palpate/core/hash.h"
 #include "palpate/core/time.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/recording/hdf5_process.h"
 #include "palpate/recording/hdf5_recording.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/block_cache.h"
 #include "recording/hdf5/hdf5_layout.h"
-#include "recording/hdf5_process.h"
 #include "recording/profile_meta.h"
 
 namespace palpate {

@@ -1,6 +1,5 @@
-// Access to the file of a native recording: the lock that its writer holds, the rollback journal
-// that may lie beside it, and the opening for reading, whatever state the file is in. Private to
-// this module.
+// Access to the file of a native recording: the rollback journal that may lie beside it, and the
+// opening for reading, whatever state the file is in. Private to this module.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +7,12 @@
 #include <memory>
 #include <optional>
 
-#include "palpate/core/file_descriptor.h"
 #include "palpate/core/file_id.h"
 
 #include "recording/native/palpate_rows.h"
 #include "recording/native/sqlite_database.h"
 
 namespace palpate {
-
-// The files that lie beside a recording while it is being written: NAME.palpate.lock
-// (RecordingLock) and NAME.palpate-journal, SQLite's rollback journal.
-std::filesystem::path lockPathOf(const std::filesystem::path& recording);
-std::filesystem::path journalPathOf(const std::filesystem::path& recording);
 
 // Whether a rollback journal has to be played back: its header's magic is there. The journal of a
 // finished commit has zeros instead, or is empty. Throws FileError when something else than a file
@@ -28,25 +21,6 @@ bool hasHotJournal(const std::filesystem::path& recording);
 // Throws FileError when such a journal lies beside PATH, which isn't there itself (or is about
 // to be replaced): SQLite would play it back into whatever gets that name.
 void refuseForeignJournal(const std::filesystem::path& recording);
-
-// The lock of a native recording: flock on NAME.palpate.lock, held by whoever writes the recording.
-class RecordingLock {
- public:
-  // Takes the lock; makes the lock file. Throws FileError: another program holds it, no permission.
-  explicit RecordingLock(const std::filesystem::path& recording);
-  ~RecordingLock();  // gives it back and removes the lock file
-  RecordingLock(const RecordingLock&) = delete;
-  RecordingLock& operator=(const RecordingLock&) = delete;
-
-  // Whether the lock file is still found under its name.
-  bool isThere() const noexcept;
-  // Whether another program (or another RecordingLock) holds it. Makes nothing.
-  static bool isHeld(const std::filesystem::path& recording);
-
- private:
-  std::filesystem::path path_;
-  FileDescriptor descriptor_;
-};
 
 // A native recording opened for reading. One whose writer died within a commit is opened as a
 // temporary copy, into which SQLite plays the journal back: the file itself is never changed.

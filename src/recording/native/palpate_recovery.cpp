@@ -21,9 +21,11 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/text_file.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
+#include "palpate/recording/recording_lock.h"
 #include "palpate/recording/second_summary.h"
 
 #include "recording/native/palpate_connection.h"
@@ -544,6 +546,38 @@ void buildProfile(const fs::path& path,
     recovery.damagedRows += found.damagedSeconds;
 }
 
+// Something else than a file under the name of a side file could keep whoever opens it waiting.
+bool sideFilesAreFiles(const fs::path& recording) {
+  std::error_code ignored;
+  for (const fs::path& side : {lockPathOf(recording), journalPathOf(recording)})
+    if (const auto status = fs::symlink_status(side, ignored);
+        fs::exists(status) && !fs::is_regular_file(status))
+      return false;
+  return true;
+}
+
+std::uint64_t numberAt(std::string_view bytes, std::size_t at) {
+  return bigEndian(std::as_bytes(std::span(bytes.substr(at, 4))));
+}
+
+// A journal that has to be played back: its writer died inside a commit (the database file format
+// of SQLite, section 3). Of an empty database it would leave nothing.
+bool diedInCommit(const fs::path& recording) {
+  constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  constexpr std::size_t kPagesAt = 16;  // pages of the database before
+  const std::string journal = beginningOfFile(journalPathOf(recording), kPagesAt + 4);
+  return journal.size() == kPagesAt + 4 && journal.starts_with(kMagic) &&
+         numberAt(journal, kPagesAt) > 0;
+}
+
+// By its header alone, which is the same at any moment of its life (section 1.3).
+bool looksLikeRecording(const fs::path& path) {
+  constexpr std::size_t kApplicationIdAt = 68;
+  const std::string header = beginningOfFile(path, kApplicationIdAt + 4);
+  return header.size() == kApplicationIdAt + 4 && header.starts_with("SQLite format 3") &&
+         numberAt(header, kApplicationIdAt) == std::uint64_t{kPalpateApplicationId};
+}
+
 }  // namespace
 
 PalpateRecovery recoverPalpateProfile(const fs::path& path, const Progress& progress) {
@@ -565,6 +599,23 @@ PalpateRecovery recoverPalpateProfile(const fs::path& path, const Progress& prog
   buildProfile(path, found, recovery, progress);
   recovery.meta = std::move(found.meta.values);
   return recovery;
+}
+
+// The lock comes first: a recording whose lock is free is never written again, so that nothing here
+// gets into the way of a writer, be it in this very process (where closing a file that SQLite has
+// open would drop SQLite's own locks on it).
+bool isUnfinishedRecording(const fs::path& path) {
+  if (!sideFilesAreFiles(path) || RecordingLock::isHeld(path)) return false;
+  // A copy, as the reader makes one, would take long for a long recording.
+  if (diedInCommit(path)) return looksLikeRecording(path);
+  try {
+    PalpateConnection access(path);
+    return access.unfinished() &&
+           access.database().integerOf(
+               "SELECT EXISTS(SELECT 1 FROM block) OR EXISTS(SELECT 1 FROM event)") != 0;
+  } catch (const Error&) {
+    return false;  // no recording, damaged, no permission
+  }
 }
 
 }  // namespace palpate

@@ -17,6 +17,7 @@
 #include "palpate/core/text_file.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
+#include "palpate/recording/recording_lock.h"
 
 #include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_rows.h"

@@ -14,7 +14,7 @@
 #include "gui/batch/batch_pictures.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/opening_strip.h"
-#include "recording/import_samples.h"
+#include "imports/import_samples.h"
 #include "testing/program.h"
 
 namespace palpate::gui::batch_window_test {

@@ -4,8 +4,8 @@
 
 #include <QTableWidget>
 
+#include <palpate/imports/import_mapping.h>
 #include <palpate/model/hand_description.h>
-#include <palpate/recording/import_mapping.h>
 
 namespace palpate::gui {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include <palpate/recording/recording_import.h>
+#include <palpate/imports/recording_import.h>
 
 #include "gui/appearance/named_items.h"
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include <palpate/recording/recording_catalog.h>
-#include <palpate/recording/recording_search.h>
+#include <palpate/library/recording_catalog.h>
+#include <palpate/library/recording_search.h>
 
 #include "gui/source/abandonable.h"
 

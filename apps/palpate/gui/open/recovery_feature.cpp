@@ -7,8 +7,8 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
+#include <palpate/library/unfinished_recordings.h>
 #include <palpate/recording/recording.h>
-#include <palpate/recording/unfinished_recordings.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/widgets/offer_strip.h"

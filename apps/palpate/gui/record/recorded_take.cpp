@@ -7,7 +7,7 @@
 #include <palpate/capture/recording_name.h>
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
-#include <palpate/recording/recording_files.h>
+#include <palpate/library/recording_files.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/trash.h"

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/library/unfinished_recordings.h>
 #include <palpate/recording/recording.h>
-#include <palpate/recording/unfinished_recordings.h>
 
 #include "gui/source/background_job.h"
 

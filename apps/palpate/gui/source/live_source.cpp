@@ -8,9 +8,9 @@
 #include <palpate/device/live_hand.h>
 #include <palpate/emulator/physical_hand.h>
 #include <palpate/emulator/scene.h>
+#include <palpate/imports/label_places.h>
 #include <palpate/live/signals_stage.h>
 #include <palpate/model/hand_file.h>
-#include <palpate/recording/label_places.h>
 #include <palpate/recording/recording.h>
 
 #include "gui/source/recording_opener.h"
