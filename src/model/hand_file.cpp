@@ -126,6 +126,24 @@ MatrixSurface surfaceOf(const JsonField& field, const MatrixLayout& layout) {
   return surface;
 }
 
+// Keys that a matrix doesn't have are those of the hand.
+TouchRule touchRuleOf(const JsonField& root, const JsonField& matrix) {
+  const auto of = [&](const char* key) -> const JsonField& {
+    return matrix.has(key) ? matrix : root;
+  };
+  const auto flag = [&](const char* key, bool otherwise) {
+    return of(key).has(key) ? of(key).at(key).flag() : otherwise;
+  };
+  TouchRule rule;
+  rule.components = static_cast<int>(of("components").integer("components", 1, 1, 3));
+  if (rule.components == 2) of("components").at("components").fail("is neither 1 nor 3");
+  rule.isSigned = flag("signed", rule.components == 3);
+  rule.threshold =
+      static_cast<float>(of("touch_threshold").number("touch_threshold", 0.0, 0.0, kMostCounts));
+  rule.sigmas = static_cast<float>(of("touch_sigma").number("touch_sigma", 0.0, 0.0, 1000.0));
+  return rule;
+}
+
 // The full scale of a matrix is at most that of the hand, its saturation at most its full scale.
 void readScale(const JsonField& item, const HandDescription& hand, MatrixDescription& matrix) {
   const auto most = static_cast<double>(hand.maximumCounts);
@@ -156,6 +174,10 @@ void readMatrices(const JsonField& root, HandDescription& hand, HandFile& file) 
                "mask",
                "full_scale",
                "saturation",
+               "components",
+               "signed",
+               "touch_threshold",
+               "touch_sigma",
                "picture",
                "temperature_sensor",
                "surface"});
@@ -168,6 +190,7 @@ void readMatrices(const JsonField& root, HandDescription& hand, HandFile& file) 
     matrix.segment = textAt(item, "segment");
     layouts.push_back(layoutOf(item));
     readScale(item, hand, matrix);
+    layouts.back().touch = touchRuleOf(root, item);
     if (item.has("picture")) {
       const JsonField picture = item.at("picture");
       picture.only({"column", "row"});
@@ -378,6 +401,10 @@ HandDescription parseHand(const std::string& json,
              "unit",
              "full_scale",
              "saturation",
+             "components",
+             "signed",
+             "touch_threshold",
+             "touch_sigma",
              "matrices",
              "axes",
              "temperature_sensors",

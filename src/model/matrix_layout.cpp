@@ -13,7 +13,7 @@ constexpr int kMaxSide = 256;
 }
 
 MatrixLayout MatrixLayout::full(int rows, int columns, double pitchMm) {
-  MatrixLayout layout{rows, columns, pitchMm, {}, {}};
+  MatrixLayout layout{rows, columns, pitchMm, {}, {}, {}, {}};
   if (rows >= 1 && rows <= kMaxSide && columns >= 1 && columns <= kMaxSide) {
     layout.staticMask.assign(layout.numCells(), 1);
     layout.dynamicMask = layout.staticMask;
@@ -59,6 +59,12 @@ void MatrixLayout::validate() const {
                                 std::to_string(pitchMm));
   if (staticMask.size() != numCells() || dynamicMask.size() != numCells())
     throw std::invalid_argument("MatrixLayout: a mask has not rows * columns places");
+  if (touch.components != 1 && touch.components != 3)
+    throw std::invalid_argument("MatrixLayout: components must be 1 or 3, is " +
+                                std::to_string(touch.components));
+  for (const float limit : {touch.threshold, touch.sigmas})
+    if (!std::isfinite(limit) || limit < 0.0F)
+      throw std::invalid_argument("MatrixLayout: a limit of touch is below 0");
 }
 
 SensorLayout::SensorLayout(std::vector<MatrixLayout> matrices) : matrices_(std::move(matrices)) {
@@ -67,6 +73,9 @@ SensorLayout::SensorLayout(std::vector<MatrixLayout> matrices) : matrices_(std::
     matrix.validate();
     offsets_.push_back(numPlaces_);
     numPlaces_ += matrix.numCells();
+    readingOffsets_.push_back(numReadings_);
+    numReadings_ += matrix.numReadings();
+    decidesTouch_ = decidesTouch_ || matrix.touch.decides();
   }
 }
 

@@ -61,7 +61,15 @@ Profile::Profile(ProfileInfo info,
     series.push_back(std::move(each));
   }
   data_ = std::make_shared<Data>(
-      Data{std::move(info), std::move(hand), std::move(storage), std::move(series)});
+      Data{std::move(info), std::move(hand), std::move(storage), std::move(series), {}});
+}
+
+Profile Profile::withBaselines(Baselines baselines) const {
+  Profile other = *this;
+  auto data = std::make_shared<Data>(*data_);
+  data->baselines = std::move(baselines);
+  other.data_ = std::move(data);
+  return other;
 }
 
 std::int64_t Profile::frameTimeUs(std::size_t frame) const {
@@ -79,7 +87,9 @@ void Profile::readFrame(std::size_t frame, TactileFrame& out) const {
   check("frame", frame, numFrames());
   TactileFrame read(data_->hand.layout);
   read.hostUs = data_->storage->frameTimeUs(frame);
+  if (!givesReadings()) read.readings.clear();
   data_->storage->readFrame(frame, read);
+  decideTouch(read, baselineAt(data_->baselines, read.hostUs));
   out = std::move(read);
 }
 

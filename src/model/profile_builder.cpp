@@ -91,7 +91,10 @@ class Series {
 
 class ProfileBuilder::Storage final : public ProfileStorage {
  public:
+  explicit Storage(bool readings) : readings_(readings) {}
+
   std::size_t numFrames() const override { return numFrames_; }
+  bool givesReadings() const override { return readings_; }
   std::int64_t frameTimeUs(std::size_t frame) const override {
     return chunks_[frame / kFramesPerChunk].hostUs[frame % kFramesPerChunk];
   }
@@ -99,7 +102,11 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     const FrameChunk& chunk = chunks_[frame / kFramesPerChunk];
     const std::size_t i = frame % kFramesPerChunk;
     out.deviceUs = i < chunk.deviceUs.size() ? chunk.deviceUs[i] : std::nullopt;
-    decodeFrame(std::span(chunk.bytes).subspan(chunk.begin[i]), chunk.coding[i], out);
+    const auto bytes = std::span(chunk.bytes).subspan(chunk.begin[i]);
+    if (readings_)
+      decodeFrame(bytes, chunk.coding[i], std::span(out.readings));
+    else
+      decodeFrame(bytes, chunk.coding[i], out);
   }
   std::size_t numSamples(std::size_t index) const override { return series[index].size(); }
   std::int64_t sampleTimeUs(std::size_t index, std::size_t sample) const override {
@@ -136,13 +143,15 @@ class ProfileBuilder::Storage final : public ProfileStorage {
   bool allCounts = true;
 
  private:
+  const bool readings_;
   std::deque<FrameChunk> chunks_;
   std::size_t numFrames_ = 0;
 };
 
 ProfileBuilder::ProfileBuilder(std::shared_ptr<const SensorLayout> layout)
-    : layout_(std::move(layout)), storage_(std::make_shared<Storage>()) {
+    : layout_(std::move(layout)) {
   if (!layout_) throw std::invalid_argument("ProfileBuilder: no sensor layout");
+  storage_ = std::make_shared<Storage>(layout_->decidesTouch());
 }
 ProfileBuilder::ProfileBuilder(HandDescription hand) : ProfileBuilder(hand.layout) {
   hand_ = std::move(hand);
@@ -151,8 +160,8 @@ ProfileBuilder::~ProfileBuilder() = default;
 ProfileBuilder::ProfileBuilder(ProfileBuilder&&) noexcept = default;
 
 void ProfileBuilder::require(std::int64_t hostUs, std::span<const float> values) const {
-  if (values.size() != layout_->numCells())
-    throw std::invalid_argument("frame: expected " + std::to_string(layout_->numCells()) +
+  if (values.size() != layout_->numReadings())
+    throw std::invalid_argument("frame: expected " + std::to_string(layout_->numReadings()) +
                                 " values, got " + std::to_string(values.size()));
   const auto last = storage_->lastFrameUs();
   if (last && hostUs <= *last)
@@ -168,6 +177,7 @@ void ProfileBuilder::addFrame(std::int64_t hostUs,
 }
 
 void ProfileBuilder::addFrame(const TactileFrame& frame) {
+  if (layout_->decidesTouch()) return addFrame(frame.hostUs, frame.readings, frame.deviceUs);
   require(frame.hostUs, frame.values);
   if (!frame.filtered.empty()) require(frame.hostUs, frame.filtered);
   storage_->addFrame(frame.hostUs, frame, frame.deviceUs);
@@ -201,7 +211,8 @@ std::optional<std::int64_t> ProfileBuilder::lastSampleUs(std::size_t series) con
 }
 
 Profile ProfileBuilder::finish(ProfileInfo info) {
-  const std::shared_ptr<Storage> storage = std::exchange(storage_, std::make_shared<Storage>());
+  const std::shared_ptr<Storage> storage = std::exchange(
+      storage_, std::make_shared<Storage>(layout_->decidesTouch()));
   info.valueType = storage->allCounts ? ValueType::kCounts : ValueType::kFloat;
   const std::size_t axes = storage->series[kAngleSeries].width();
   const std::size_t sensors = storage->series[kTemperatureSeries].width();
@@ -210,7 +221,8 @@ Profile ProfileBuilder::finish(ProfileInfo info) {
     further.push_back(storage->series[i].description);
   HandDescription hand =
       hand_ ? withSeriesOf(*hand_, axes, sensors) : describeHand(*layout_, axes, sensors);
-  return {std::move(info), std::move(hand), storage, std::move(further)};
+  return Profile(std::move(info), std::move(hand), storage, std::move(further))
+      .withBaselines(std::exchange(baselines_, {}));
 }
 
 }  // namespace palpate

@@ -6,7 +6,9 @@
 namespace palpate {
 
 TactileFrame::TactileFrame(std::shared_ptr<const SensorLayout> sensorLayout)
-    : layout(std::move(sensorLayout)), values(layout->numCells(), 0.0F) {}
+    : layout(std::move(sensorLayout)), values(layout->numCells(), 0.0F) {
+  if (layout->decidesTouch()) readings.resize(layout->numReadings());
+}
 
 ConstMatrixMap TactileFrame::matrix(std::size_t index) const {
   const MatrixLayout& shape = layout->matrix(index);

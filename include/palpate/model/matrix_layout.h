@@ -4,6 +4,9 @@
 // A matrix has rows x columns places, stored row by row; row 0 is at the fingertip. Not every place
 // holds a taxel: the static mask (hardware) says which taxels exist, the dynamic mask (a setting)
 // which are scanned. A frame stores a value for every place; places without a taxel hold 0.
+//
+// A sensor may send readings with a sign, three components per taxel, or noise at rest. Then
+// whether a taxel is touched is decided from its readings, see model/touch.h.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +21,21 @@ namespace palpate {
 // One flag per place, row by row: 1 = on, 0 = off.
 using Mask = std::vector<std::uint8_t>;
 
+// How readings of a matrix say that a taxel is touched.
+struct TouchRule {
+  int components = 1;     // per taxel: 1, or 3: x (along columns), y (along rows), z into the surface
+  bool isSigned = false;  // readings may be below 0
+  // A taxel is touched when its reading differs from its baseline by more than `threshold`, and by
+  // more than `sigmas` standard deviations of its noise at rest [unit of the hand].
+  float threshold = 0.0F;
+  float sigmas = 0.0F;
+  // Whether readings have to be looked at. If not, a taxel is touched when its reading is above 0.
+  bool decides() const noexcept {
+    return components != 1 || isSigned || threshold > 0.0F || sigmas > 0.0F;
+  }
+  bool operator==(const TouchRule&) const = default;
+};
+
 // The layout of one sensor matrix.
 struct MatrixLayout {
   int rows = 0;     // y, 1..256
@@ -29,12 +47,17 @@ struct MatrixLayout {
   // The unique id that is burnt into the sensor, as the controller reports it, in capital
   // hexadecimal digits ("28FF00AB0C11"); empty when it is not known.
   std::string uniqueId = {};
+  TouchRule touch = {};
 
   // Returns a matrix without masked places. Throws as validate() does.
   static MatrixLayout full(int rows, int columns, double pitchMm);
 
   // Number of all places: rows * columns.
   std::size_t numCells() const noexcept;
+  // Number of readings: components of all places.
+  std::size_t numReadings() const noexcept {
+    return numCells() * static_cast<std::size_t>(touch.components);
+  }
   // Number of taxels that exist (static mask).
   std::size_t numTaxels() const noexcept;
   // Number of taxels that exist and are scanned.
@@ -50,7 +73,8 @@ struct MatrixLayout {
   // kind are equal.
   bool operator==(const MatrixLayout& other) const {
     return rows == other.rows && columns == other.columns && pitchMm == other.pitchMm &&
-           staticMask == other.staticMask && dynamicMask == other.dynamicMask;
+           staticMask == other.staticMask && dynamicMask == other.dynamicMask &&
+           touch == other.touch;
   }
 };
 
@@ -66,16 +90,25 @@ class SensorLayout {
   const std::vector<MatrixLayout>& matrices() const noexcept { return matrices_; }
   // Number of places of all matrices (SDH-2: 486).
   std::size_t numCells() const noexcept { return numPlaces_; }
+  // Number of readings of all matrices; those of one taxel stand together.
+  std::size_t numReadings() const noexcept { return numReadings_; }
+  // Whether one of the matrices has a rule that decides (TouchRule::decides).
+  bool decidesTouch() const noexcept { return decidesTouch_; }
   // Number of taxels of all matrices that exist (SDH-2: 456).
   std::size_t numTaxels() const noexcept;
   // Index of the first place of a matrix in the sequence.
   std::size_t offset(std::size_t matrix) const { return offsets_.at(matrix); }
+  // Index of its first reading.
+  std::size_t readingOffset(std::size_t matrix) const { return readingOffsets_.at(matrix); }
   bool operator==(const SensorLayout& other) const { return matrices_ == other.matrices_; }
 
  private:
   std::vector<MatrixLayout> matrices_;
   std::vector<std::size_t> offsets_;
+  std::vector<std::size_t> readingOffsets_;
   std::size_t numPlaces_ = 0;
+  std::size_t numReadings_ = 0;
+  bool decidesTouch_ = false;
 };
 // Throws Error, which names the file, when its sensor hasn't the matrix; nothing: all matrices.
 void requireMatrix(const std::filesystem::path& file,

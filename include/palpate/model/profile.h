@@ -16,6 +16,7 @@
 #include <palpate/model/hand_description.h>
 #include <palpate/model/series.h>
 #include <palpate/model/tactile_frame.h>
+#include <palpate/model/touch.h>
 
 namespace palpate {
 
@@ -63,7 +64,9 @@ class ProfileStorage {
   virtual ~ProfileStorage() = default;
   virtual std::size_t numFrames() const = 0;
   virtual std::int64_t frameTimeUs(std::size_t frame) const = 0;
-  // Writes layout.numCells() values and the device time into `out`.
+  // Whether readFrame() gives readings whose touch is still to be decided.
+  virtual bool givesReadings() const { return false; }
+  // Writes the device time into `out`, and its readings (givesReadings) or `values` and `filtered`.
   virtual void readFrame(std::size_t frame, TactileFrame& out) const = 0;
   // Of a series: the index is one of Profile::series().
   virtual std::size_t numSamples(std::size_t series) const = 0;
@@ -92,6 +95,11 @@ class Profile {
   const ProfileInfo& info() const noexcept { return data_->info; }
   const HandDescription& hand() const noexcept { return data_->hand; }
   const SensorLayout& layout() const noexcept { return *data_->hand.layout; }
+  // Whether frames have readings (TactileFrame::readings).
+  bool givesReadings() const { return data_->storage->givesReadings(); }
+  const Baselines& baselines() const noexcept { return data_->baselines; }
+  // The same recording seen over other baselines.
+  Profile withBaselines(Baselines baselines) const;
 
   std::size_t numFrames() const { return data_->storage->numFrames(); }
   std::int64_t frameTimeUs(std::size_t frame) const;  // [us since 1970], strictly increasing
@@ -147,6 +155,7 @@ class Profile {
     HandDescription hand;
     std::shared_ptr<const ProfileStorage> storage;
     std::vector<SeriesDescription> series;
+    Baselines baselines;
   };
   std::shared_ptr<const Data> data_;
 };

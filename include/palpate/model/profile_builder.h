@@ -26,14 +26,14 @@ class ProfileBuilder {
   std::size_t addSeries(SeriesDescription description);
 
   // The functions below append one sample. Its time [us since 1970] must be later than that of the
-  // previous one. The number of values must be that of the layout (frames), of the series'
+  // previous one. The number of values must be that of the layout (of its readings, where it decides touch), of the series'
   // description, or of its first sample (angles, temperatures). Values must be finite; those of a
   // series beside the hand's may be NaN. They throw std::invalid_argument that names the violated
   // rule.
   void addFrame(std::int64_t hostUs,
                 std::span<const float> values,
                 std::optional<std::int64_t> deviceUs = {});
-  // Appends a frame of another profile with its filtered values, if any.
+  // Appends a frame of another profile with its readings, or its filtered values, if any.
   void addFrame(const TactileFrame& frame);
   void addSample(std::size_t series,
                  std::int64_t hostUs,
@@ -60,6 +60,9 @@ class ProfileBuilder {
   std::optional<std::int64_t> lastAngleUs() const { return lastSampleUs(kAngleSeries); }
   std::optional<std::int64_t> lastTemperatureUs() const { return lastSampleUs(kTemperatureSeries); }
 
+  // Those of the finished profile.
+  void setBaselines(Baselines baselines) { baselines_ = std::move(baselines); }
+
   // Returns the profile and leaves the builder empty. Sets info.valueType from the data.
   Profile finish(ProfileInfo info);
 
@@ -69,6 +72,7 @@ class ProfileBuilder {
   std::shared_ptr<const SensorLayout> layout_;
   std::optional<HandDescription> hand_;
   std::shared_ptr<Storage> storage_;
+  Baselines baselines_;
 };
 
 }  // namespace palpate

@@ -14,6 +14,8 @@
 
 namespace palpate {
 
+struct Baseline;  // model/touch.h
+
 // Values of one matrix: rows x columns, stored row by row as the sensor sends them. Row 0 is the
 // fingertip.
 using MatrixValues = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -30,14 +32,25 @@ struct TactileFrame {
   // layout->numCells() values: counts as recorded, or values that filters computed from them. A
   // taxel is active (touched) exactly when its value is above 0. Filtered values are 0 where the
   // taxel was not active in the recording, because the tail of a filter over time, and what a
-  // filter over space gives to neighbours, is no contact.
+  // filter over space gives to neighbours, is no contact. Where the layout decides touch, they are
+  // what presses: the difference to the baseline, of three components the one into the surface.
   std::vector<float> values;
   // The output of the filters for every taxel, also for those that were not active in the
   // recording; for drawing, storing and further filtering. Empty when `values` holds everything.
   std::vector<float> filtered;
+  // What the sensor sent, layout->numReadings() numbers, where the layout decides touch; then
+  // decideTouch() (model/touch.h) gives `values` and `filtered`. Empty where what the sensor sent
+  // are the `values`, and in filtered frames.
+  std::vector<float> readings;
+  // The baseline that was used; null: 0.
+  std::shared_ptr<const Baseline> baseline;
+
+  // What a recording stores: `readings`, or `values` when there are none.
+  const std::vector<float>& stored() const noexcept { return readings.empty() ? values : readings; }
+  std::vector<float>& stored() noexcept { return readings.empty() ? values : readings; }
 
   TactileFrame() = default;
-  // Makes a frame of zeros.
+  // Makes a frame of zeros, with readings where the layout decides touch.
   explicit TactileFrame(std::shared_ptr<const SensorLayout> sensorLayout);
 
   // Views of one matrix; valid as long as `values`. They throw std::out_of_range for a matrix that

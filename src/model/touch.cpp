@@ -1,0 +1,207 @@
+#include "palpate/model/touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+// Of the readings of one matrix.
+struct MatrixReadings {
+  const MatrixLayout& layout;
+  std::span<const float> readings;
+  const Baseline* baseline;
+  std::size_t first;  // of the matrix among all readings
+
+  float difference(std::size_t i) const {
+    return readings[first + i] - (baseline ? baseline->rest[first + i] : 0.0F);
+  }
+  float limit(std::size_t i) const {
+    const float noise =
+        baseline && !baseline->noise.empty() ? baseline->noise[first + i] : 0.0F;
+    return std::max(layout.touch.threshold, layout.touch.sigmas * noise);
+  }
+};
+
+void requireSize(std::size_t size, std::size_t wanted, const char* what) {
+  if (size != wanted)
+    throw std::invalid_argument(std::string(what) + ": expected " + std::to_string(wanted) +
+                                " readings, got " + std::to_string(size));
+}
+
+}  // namespace
+
+std::shared_ptr<const Baseline> baselineAt(const Baselines& baselines, std::int64_t timeUs) {
+  if (baselines.empty()) return nullptr;
+  const auto later =
+      std::upper_bound(baselines.begin(),
+                       baselines.end(),
+                       timeUs,
+                       [](std::int64_t us, const auto& each) { return us < each.first; });
+  return (later == baselines.begin() ? later : std::prev(later))->second;
+}
+
+void decideTouch(TactileFrame& frame, std::shared_ptr<const Baseline> baseline) {
+  if (frame.readings.empty()) return;
+  const SensorLayout& layout = *frame.layout;
+  requireSize(frame.readings.size(), layout.numReadings(), "frame");
+  if (baseline) requireSize(baseline->rest.size(), layout.numReadings(), "baseline");
+  if (baseline && !baseline->noise.empty())
+    requireSize(baseline->noise.size(), layout.numReadings(), "noise of the baseline");
+  frame.values.assign(layout.numCells(), 0.0F);
+  frame.filtered.assign(layout.numCells(), 0.0F);
+  bool same = true;
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    const MatrixReadings of{
+        layout.matrix(m), frame.readings, baseline.get(), layout.readingOffset(m)};
+    const TouchRule& rule = of.layout.touch;
+    const auto step = static_cast<std::size_t>(rule.components);
+    float* const values = frame.values.data() + layout.offset(m);
+    float* const shown = frame.filtered.data() + layout.offset(m);
+    for (std::size_t place = 0; place < of.layout.numCells(); ++place) {
+      if (of.layout.staticMask[place] == 0) continue;
+      const std::size_t z = place * step + step - 1;
+      shown[place] = of.difference(z);
+      float length = rule.isSigned ? std::abs(shown[place]) : shown[place];
+      if (step == 3)
+        length = std::hypot(of.difference(z - 2), of.difference(z - 1), shown[place]);
+      float limit = of.limit(z);
+      for (std::size_t k = place * step; k < z; ++k) limit = std::max(limit, of.limit(k));
+      // Something that only shears is touched, too.
+      if (length > limit)
+        values[place] = std::max(std::abs(shown[place]), std::numeric_limits<float>::min());
+      same = same && values[place] == shown[place];
+    }
+  }
+  if (same) frame.filtered.clear();
+  frame.baseline = std::move(baseline);
+}
+
+std::array<float, 3> forceAt(const TactileFrame& frame, const TaxelPlace& place) {
+  const MatrixLayout& layout = frame.layout->matrix(place.matrix);
+  const auto cell = static_cast<std::size_t>(place.y * layout.columns + place.x);
+  if (frame.readings.empty())
+    return {0.0F, 0.0F, frame.allValues().at(frame.layout->offset(place.matrix) + cell)};
+  const MatrixReadings of{
+      layout, frame.readings, frame.baseline.get(), frame.layout->readingOffset(place.matrix)};
+  if (layout.touch.components == 1) return {0.0F, 0.0F, of.difference(cell)};
+  return {of.difference(3 * cell), of.difference(3 * cell + 1), of.difference(3 * cell + 2)};
+}
+
+Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames) {
+  if (frames.size() < 2) throw std::invalid_argument("a baseline needs at least two frames");
+  const std::size_t count = frames.front()->stored().size();
+  std::vector<double> sums(count), squares(count);
+  for (const auto& frame : frames) {
+    requireSize(frame->stored().size(), count, "frame of a baseline");
+    for (std::size_t i = 0; i < count; ++i) sums[i] += static_cast<double>(frame->stored()[i]);
+  }
+  const auto n = static_cast<double>(frames.size());
+  Baseline baseline;
+  for (const double sum : sums) baseline.rest.push_back(static_cast<float>(sum / n));
+  for (const auto& frame : frames)
+    for (std::size_t i = 0; i < count; ++i) {
+      const double off = static_cast<double>(frame->stored()[i]) - sums[i] / n;
+      squares[i] += off * off;
+    }
+  for (const double square : squares)
+    baseline.noise.push_back(static_cast<float>(std::sqrt(square / (n - 1.0))));
+  return baseline;
+}
+
+namespace {
+
+// Numbers as short as they say the same float.
+Json numbersOf(const std::vector<float>& values) {
+  return jsonList(values, [](float value) { return Json(parseDouble(numberText(value)).value()); });
+}
+
+std::vector<float> floatsOf(const Json& list) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    values.push_back(static_cast<float>(list.at(i).asDouble()));
+    if (!std::isfinite(values.back())) throw Error("a reading is not a number");
+  }
+  return values;
+}
+
+}  // namespace
+
+Event baselineEvent(const Baseline& baseline, std::int64_t timeUs) {
+  Event event{timeUs, timeUs, "baseline", {}, "the readings at rest", ""};
+  Json json = Json::object().set("rest", numbersOf(baseline.rest));
+  if (!baseline.noise.empty()) json.set("noise", numbersOf(baseline.noise));
+  event.json = json.text(-1);
+  if (event.kind.size() + event.text.size() + event.json.size() > kMaxEventBytes)
+    throw Error("a baseline of " + std::to_string(baseline.rest.size()) +
+                " readings is longer than an event may be");
+  return event;
+}
+
+Baselines baselinesOf(std::span<const Event> events,
+                      const SensorLayout& layout,
+                      std::size_t* wrong) {
+  Baselines baselines;
+  for (const Event& event : events) {
+    if (event.kind != "baseline") continue;
+    try {
+      const Json json = Json::parse(event.json);
+      Baseline read{floatsOf(json.at("rest")), floatsOf(json.at("noise"))};
+      requireSize(read.rest.size(), layout.numReadings(), "baseline");
+      if (!read.noise.empty()) requireSize(read.noise.size(), layout.numReadings(), "noise");
+      baselines.emplace_back(event.tUs, std::make_shared<const Baseline>(std::move(read)));
+    } catch (const std::exception&) {
+      if (wrong) ++*wrong;
+    }
+  }
+  std::stable_sort(baselines.begin(), baselines.end(), [](const auto& a, const auto& b) {
+    return a.first < b.first;
+  });
+  return baselines;
+}
+
+SensorLayout withoutTouchRules(const SensorLayout& layout) {
+  std::vector<MatrixLayout> matrices = layout.matrices();
+  for (MatrixLayout& matrix : matrices) matrix.touch = {};
+  return SensorLayout(std::move(matrices));
+}
+
+std::string touchRulesText(const SensorLayout& layout) {
+  return jsonList(layout.matrices(),
+                  [](const MatrixLayout& matrix) {
+                    const TouchRule& rule = matrix.touch;
+                    return Json::object()
+                        .set("components", rule.components)
+                        .set("signed", rule.isSigned)
+                        .set("threshold", static_cast<double>(rule.threshold))
+                        .set("sigmas", static_cast<double>(rule.sigmas));
+                  })
+      .text(-1);
+}
+
+SensorLayout withTouchRules(const SensorLayout& layout, std::string_view text) {
+  const Json rules = Json::parse(text);
+  std::vector<MatrixLayout> matrices = layout.matrices();
+  if (rules.size() != matrices.size()) throw Error("the rules of touch are not one per matrix");
+  for (std::size_t m = 0; m < matrices.size(); ++m) {
+    const Json rule = rules.at(m);
+    const std::int64_t components = rule.at("components").asInteger();
+    matrices[m].touch = {components == 3 ? 3 : components == 1 ? 1 : 0,
+                         rule.at("signed").asBool(),
+                         static_cast<float>(rule.at("threshold").asDouble()),
+                         static_cast<float>(rule.at("sigmas").asDouble())};
+  }
+  try {
+    return SensorLayout(std::move(matrices));
+  } catch (const std::invalid_argument& error) {
+    throw Error(std::string("the rules of touch are invalid: ") + error.what());
+  }
+}
+
+}  // namespace palpate
