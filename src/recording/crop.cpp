@@ -45,8 +45,7 @@ Profile cropped(const Profile& profile,
     builder.addFrame(frame);
   }
   const std::int64_t beginUs = profile.frameTimeUs(begin), endUs = profile.frameTimeUs(end);
-  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
-    builder.addSeries(profile.series()[i]);
+  for (SeriesDescription& each : profile.furtherSeries()) builder.addSeries(std::move(each));
   for (std::size_t series = 0; series < profile.series().size(); ++series) {
     const auto [first, behind] =
         samplesAround(profile.numSamples(series), beginUs, endUs, [&](std::size_t i) {

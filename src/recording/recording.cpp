@@ -238,6 +238,8 @@ RecoverReport recoverRecording(const fs::path& in,
   if (!salvage.missing.empty()) addOrigin(recording, in, salvage.missing);
   SaveExtras extras;
   extras.meta = recording.meta;
+  const std::string leftOut = leftOutText(recording.profile, out);
+  if (!leftOut.empty()) salvage.message += "; " + leftOut;
   saveRecording(recording.profile, recording.events, out, overwrite, progress, extras);
   return {salvage.isWhole ? RecoverReport::State::kWhole : RecoverReport::State::kPart,
           salvage.message};

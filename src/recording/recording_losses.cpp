@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/recording/recording_format.h"
 
 namespace palpate {
 namespace {
@@ -75,6 +76,34 @@ std::vector<RecordingLoss> lossesOf(std::span<const Event> events) {
   }
   std::erase_if(all, [](const RecordingLoss& loss) { return loss.spans == 0; });
   return all;
+}
+
+std::string seriesText(const Profile& profile, std::size_t series) {
+  const SeriesDescription& description = profile.series().at(series);
+  std::string text = counted(profile.numSamples(series), "sample");
+  if (const double rateHz = profile.meanSampleRateHz(series); rateHz > 0.0)
+    text += ", " + fixedText(rateHz, 1) + " Hz (mean)";
+  for (std::size_t i = 0; i < description.columns.size(); ++i) {
+    const Column& column = description.columns[i];
+    text += (i == 0 ? "; " : ", ") + column.name;
+    if (!column.unit.empty()) text += " [" + column.unit + "]";
+  }
+  if (!description.source.empty()) text += "; from " + description.source;
+  return text;
+}
+
+std::string leftOutText(const Profile& profile, const std::filesystem::path& path) {
+  const RecordingFormat& format = formatOf(path);
+  if (format.holdsFurther) return "";
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
+    if (profile.numSamples(i) == 0) continue;
+    names += (count++ == 0 ? "" : ", ") + profile.series()[i].name;
+  }
+  if (count == 0) return "";
+  return std::string("a ") + format.endings.front() + " has no place for the series " + names +
+         (count == 1 ? ": it is left out" : ": they are left out");
 }
 
 }  // namespace palpate

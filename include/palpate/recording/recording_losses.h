@@ -6,12 +6,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <palpate/model/event.h>
+#include <palpate/model/profile.h>
 
 namespace palpate {
 
@@ -34,5 +36,12 @@ std::string itemOf(std::string_view stream);
 // that names no stream is about the frames. An event that tells of no lost item is a silence and no
 // loss.
 std::vector<RecordingLoss> lossesOf(std::span<const Event> events);
+
+// A series for people: "1200 samples, 100.0 Hz (mean); fx [N], fy [N]; from tcp:localhost:9871".
+std::string seriesText(const Profile& profile, std::size_t series);
+
+// What a profile saved as PATH will lack: "a .dsa has no place for the series wrist, imu: they are
+// left out"; empty: nothing. Throws FileError as formatOf().
+std::string leftOutText(const Profile& profile, const std::filesystem::path& path);
 
 }  // namespace palpate

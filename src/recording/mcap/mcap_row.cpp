@@ -83,6 +83,7 @@ constinit const RecordingFormat kMcapFormat{.name = "mcap",
                                             .endings = kMcapEndings,
                                             .isExport = true,
                                             .takesSeries = true,
+                                            .holdsFurther = true,
                                             .takesMcap = true,
                                             .reader = &kMcapReader,
                                             .save = &saveMcap};

@@ -157,6 +157,7 @@ constexpr FormatReader kPalpateReader{// A bag of ROS 2 is a database of SQLite,
 constinit const RecordingFormat kPalpateFormat{.name = "palpate",
                                                .purpose = "Palpate recording",
                                                .endings = kPalpateEndings,
+                                               .holdsFurther = true,
                                                .reader = &kPalpateReader,
                                                .save = &savePalpate};
 

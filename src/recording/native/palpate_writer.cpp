@@ -139,8 +139,7 @@ void writeAll(const Profile& profile,
               PalpateWriter& writer,
               const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 256;
-  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
-    writer.addSeries(profile.series()[i]);
+  for (const SeriesDescription& each : profile.furtherSeries()) writer.addSeries(each);
   std::vector<std::size_t> next(profile.series().size());
   // One series after the other: which samples a block has depends on this order.
   const auto addBefore = [&](std::int64_t untilUs) {
