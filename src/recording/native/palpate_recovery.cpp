@@ -289,11 +289,13 @@ struct Findings {
   bool hasOverview = false;
   std::size_t damagedSeconds = 0;
 
-  // Behind the last series of which there is a description or a block.
+  // Behind the last series of which there is a description, a block or a number of samples.
   std::size_t seriesEnd() const {
     std::size_t end = series.end();
     for (std::size_t i = end; i < kMaxSeries; ++i)
-      if (!blocks->stream(streamOfSeries(i)).empty()) end = i + 1;
+      if (!blocks->stream(streamOfSeries(i)).empty() ||
+          meta.integer(samplesKey(streamOfSeries(i))).value_or(0) > 0)
+        end = i + 1;
     return end;
   }
 };
