@@ -6,6 +6,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/recognition/filtered_recording.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/recording_losses.h"
 #include "palpate/signals/signal_filter.h"
 #include "palpate/signals/signal_rows.h"
 #include "palpate/slip/slip_rows.h"
@@ -113,6 +114,8 @@ BatchTask convertTask(const ConvertOptions& options) {
         const SaveReport saved = saveRecording(
             profile, recording.events, item.target, overwrite, partOf(progress, 0.5, 1.0), extras);
         BatchAnswer answer{.said = counted(profile.numFrames(), "frame")};
+        if (const std::string leftOut = leftOutText(profile, item.target); !leftOut.empty())
+          answer.said += "; " + leftOut;
         if (saved.movedStamps > 0)
           answer.said += "; " + std::to_string(saved.movedStamps) +
                          " time stamps moved behind the one before: whole milliseconds must "
@@ -144,6 +147,9 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
             BatchAnswer answer{.said = counted(grasps.size(), "grasp")};
             for (std::size_t i = 0; i < grasps.size(); ++i)
               answer.results.push_back(names.pathFor(fields, i + 1, grasps.size()));
+            if (const std::string leftOut = leftOutText(profile, answer.results.front());
+                !leftOut.empty())
+              answer.said += "; " + leftOut;
             GraspFilesOptions files{.overwrite = overwrite, .replaceable = item.earlier};
             const ExportSource source(item.source, whole.meta);
             files.extras = [&](const Profile& part, const fs::path& out) {

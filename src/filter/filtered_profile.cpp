@@ -215,11 +215,13 @@ Profile filteredProfile(const Profile& source,
     return Profile(
         info,
         source.hand(),
-        std::make_shared<FilteredFrames>(source, recipe, std::move(options.restartsUs), *memory));
+        std::make_shared<FilteredFrames>(source, recipe, std::move(options.restartsUs), *memory),
+        source.furtherSeries());
   return Profile(info,
                  source.hand(),
                  std::make_shared<ComputedFrames>(
-                     source, computedWhole(source, recipe, options.restartsUs, progress)));
+                     source, computedWhole(source, recipe, options.restartsUs, progress)),
+                 source.furtherSeries());
 }
 
 }  // namespace palpate

@@ -56,7 +56,8 @@ Profile::Profile(ProfileInfo info,
   std::vector<SeriesDescription> series = seriesOf(hand);
   for (SeriesDescription& each : further) {
     validate(each);
-    if (std::any_of(series.begin(), series.end(), [&](const auto& s) { return s.name == each.name; }))
+    if (std::any_of(
+            series.begin(), series.end(), [&](const auto& s) { return s.name == each.name; }))
       throw std::invalid_argument("two series have the name " + each.name);
     series.push_back(std::move(each));
   }
@@ -103,6 +104,14 @@ bool Profile::readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples*
     out.hostUs = frameTimeUs(frame);
     return false;
   }
+}
+
+double Profile::meanSampleRateHz(std::size_t series) const {
+  const std::size_t count = numSamples(series);
+  if (count < 2) return 0.0;
+  const double spanUs =
+      static_cast<double>(sampleTimeUs(series, count - 1) - sampleTimeUs(series, 0));
+  return spanUs > 0.0 ? static_cast<double>(count - 1) * 1e6 / spanUs : 0.0;
 }
 
 std::optional<std::size_t> Profile::seriesNamed(std::string_view name) const {

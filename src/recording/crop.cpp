@@ -45,16 +45,14 @@ Profile cropped(const Profile& profile,
     builder.addFrame(frame);
   }
   const std::int64_t beginUs = profile.frameTimeUs(begin), endUs = profile.frameTimeUs(end);
-  const auto [firstAngle, endAngle] = samplesAround(
-      profile.numAngles(), beginUs, endUs, [&](std::size_t i) { return profile.angleTimeUs(i); });
-  for (std::size_t i = firstAngle; i < endAngle; ++i)
-    builder.addAngles(profile.angleTimeUs(i), profile.angles(i).values);
-  const auto [firstTemperature, endTemperature] =
-      samplesAround(profile.numTemperatures(), beginUs, endUs, [&](std::size_t i) {
-        return profile.temperatureTimeUs(i);
-      });
-  for (std::size_t i = firstTemperature; i < endTemperature; ++i)
-    builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).values);
+  for (SeriesDescription& each : profile.furtherSeries()) builder.addSeries(std::move(each));
+  for (std::size_t series = 0; series < profile.series().size(); ++series) {
+    const auto [first, behind] =
+        samplesAround(profile.numSamples(series), beginUs, endUs, [&](std::size_t i) {
+          return profile.sampleTimeUs(series, i);
+        });
+    for (std::size_t i = first; i < behind; ++i) builder.addSample(profile.sample(series, i));
+  }
   return builder.finish(profile.info());
 }
 

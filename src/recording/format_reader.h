@@ -66,7 +66,8 @@ const FormatReader& readerOf(const std::filesystem::path& path);
 
 constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
 
-// "12 frames, 3 angle samples, 0 temperature samples".
+// "12 frames, 3 angle samples, 0 temperature samples"; of a profile with further series also
+// ", 40 wrist samples".
 std::string countsText(std::size_t frames, std::size_t angles, std::size_t temperatures);
 std::string countsText(const Profile& profile);
 // Opens every block once: the samples of a recording may be read when they are asked for.

@@ -33,6 +33,8 @@ inline RecordingMeta writtenMeta(const ProfileInfo& info,
                           "temperature_samples",
                           "seconds"})
     meta.erase(key);
+  for (std::size_t stream = 1 + kHandSeries; stream <= kMaxSeries; ++stream)
+    meta.erase("samples_" + std::to_string(stream));
   return meta;
 }
 

@@ -10,6 +10,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/recording/foreign_file.h"
 #include "palpate/recording/recording_lock.h"
+#include "palpate/recording/recording_losses.h"
 
 #include "recording/dsa/dsa_xml_stream.h"
 #include "recording/format_reader.h"
@@ -49,8 +50,8 @@ void addOrigin(Recording& recording, const fs::path& in, const std::string& miss
   if (profile.numFrames() > 0) {
     take(profile.frameTimeUs(0));
   } else {
-    if (profile.numAngles() > 0) take(profile.angleTimeUs(0));
-    if (profile.numTemperatures() > 0) take(profile.temperatureTimeUs(0));
+    for (std::size_t i = 0; i < profile.series().size(); ++i)
+      if (profile.numSamples(i) > 0) take(profile.sampleTimeUs(i, 0));
   }
   if (!firstUs) return;
   Event note;
@@ -130,7 +131,11 @@ std::string countsText(std::size_t frames, std::size_t angles, std::size_t tempe
 }
 
 std::string countsText(const Profile& profile) {
-  return countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
+  std::string text =
+      countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    text += ", " + counted(profile.numSamples(i), itemOf(profile.series()[i].name));
+  return text;
 }
 
 std::string withoutName(const fs::path& path, const std::string& message) {
@@ -140,13 +145,16 @@ std::string withoutName(const fs::path& path, const std::string& message) {
 
 void readThrough(const Profile& profile, const Progress& progress) {
   constexpr std::size_t kSamplesPerReport = 4096;
-  const std::size_t all = profile.numFrames() + profile.numAngles() + profile.numTemperatures();
+  const std::size_t numSeries = profile.series().size();
+  std::size_t all = profile.numFrames();
+  for (std::size_t series = 0; series < numSeries; ++series) all += profile.numSamples(series);
   std::size_t read = 0;
   const auto report = [&] { reportProgress(progress, read++, all + 1, kSamplesPerReport); };
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i, report()) profile.readFrame(i, frame);
-  for (std::size_t i = 0; i < profile.numAngles(); ++i, report()) profile.angles(i);
-  for (std::size_t i = 0; i < profile.numTemperatures(); ++i, report()) profile.temperatures(i);
+  for (std::size_t series = 0; series < numSeries; ++series)
+    for (std::size_t i = 0; i < profile.numSamples(series); ++i, report())
+      profile.sample(series, i);
 }
 
 Recording withEventDamage(Recording recording) {
@@ -230,6 +238,8 @@ RecoverReport recoverRecording(const fs::path& in,
   if (!salvage.missing.empty()) addOrigin(recording, in, salvage.missing);
   SaveExtras extras;
   extras.meta = recording.meta;
+  const std::string leftOut = leftOutText(recording.profile, out);
+  if (!leftOut.empty()) salvage.message += "; " + leftOut;
   saveRecording(recording.profile, recording.events, out, overwrite, progress, extras);
   return {salvage.isWhole ? RecoverReport::State::kWhole : RecoverReport::State::kPart,
           salvage.message};

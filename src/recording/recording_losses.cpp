@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string_view>
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/recording/recording_format.h"
 
 namespace palpate {
 namespace {
@@ -28,19 +30,21 @@ Json detailsOf(const Event& event) {
   }
 }
 
-std::size_t streamOf(const Json& details) {
+std::string streamOf(const Json& details) {
   const Json named = details.at("stream");
-  if (!named.isString()) return 0;
-  const auto at =
-      std::ranges::find(kLossStreams, std::string_view(named.asString()), &LossStream::name);
-  return at == kLossStreams.end() ? 0 : static_cast<std::size_t>(at - kLossStreams.begin());
+  return named.isString() && !named.asString().empty() ? named.asString()
+                                                       : std::string(kLossStreams[0].name);
 }
 
 }  // namespace
 
+std::string itemOf(std::string_view stream) {
+  const auto at = std::ranges::find(kLossStreams, stream, &LossStream::name);
+  return at == kLossStreams.end() ? std::string(stream) + " sample" : std::string(at->item);
+}
+
 std::string RecordingLoss::text() const {
-  const auto at = std::ranges::find(kLossStreams, std::string_view(stream), &LossStream::name);
-  const std::string item(at == kLossStreams.end() ? std::string_view("item") : at->item);
+  const std::string item = itemOf(stream);
   const std::string what = lost == 0 && !counted
                                ? item + "s, how many is not known,"
                                : (counted ? "" : "at least ") + palpate::counted(lost, item);
@@ -50,13 +54,19 @@ std::string RecordingLoss::text() const {
 }
 
 std::vector<RecordingLoss> lossesOf(std::span<const Event> events) {
-  std::array<RecordingLoss, kLossStreams.size()> all;
+  std::vector<RecordingLoss> all(kLossStreams.size());
+  std::map<std::string, std::size_t, std::less<>> indices;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    indices.emplace(all[i].stream = kLossStreams[i].name, i);
   for (const Event& event : events) {
     if (event.kind != "gap") continue;
     const Json details = detailsOf(event);
     const Json lost = details.at("lost");
     if (lost.isNumber() && lost.asDouble() == 0.0) continue;  // a silence without a loss
-    RecordingLoss& loss = all.at(streamOf(details));
+    const std::string stream = streamOf(details);
+    const auto [at, isNew] = indices.try_emplace(stream, all.size());
+    if (isNew) all.push_back({.stream = stream});
+    RecordingLoss& loss = all[at->second];
     ++loss.spans;
     loss.seconds += static_cast<double>(std::max<std::int64_t>(0, event.t1Us - event.tUs)) / 1e6;
     if (lost.isNumber() && lost.asDouble() >= 0.0)
@@ -64,13 +74,36 @@ std::vector<RecordingLoss> lossesOf(std::span<const Event> events) {
     else
       loss.counted = false;
   }
-  std::vector<RecordingLoss> losses;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].spans == 0) continue;
-    all[i].stream = kLossStreams[i].name;
-    losses.push_back(all[i]);
+  std::erase_if(all, [](const RecordingLoss& loss) { return loss.spans == 0; });
+  return all;
+}
+
+std::string seriesText(const Profile& profile, std::size_t series) {
+  const SeriesDescription& description = profile.series().at(series);
+  std::string text = counted(profile.numSamples(series), "sample");
+  if (const double rateHz = profile.meanSampleRateHz(series); rateHz > 0.0)
+    text += ", " + fixedText(rateHz, 1) + " Hz (mean)";
+  for (std::size_t i = 0; i < description.columns.size(); ++i) {
+    const Column& column = description.columns[i];
+    text += (i == 0 ? "; " : ", ") + column.name;
+    if (!column.unit.empty()) text += " [" + column.unit + "]";
   }
-  return losses;
+  if (!description.source.empty()) text += "; from " + description.source;
+  return text;
+}
+
+std::string leftOutText(const Profile& profile, const std::filesystem::path& path) {
+  const RecordingFormat& format = formatOf(path);
+  if (format.holdsFurther) return "";
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
+    if (profile.numSamples(i) == 0) continue;
+    names += (count++ == 0 ? "" : ", ") + profile.series()[i].name;
+  }
+  if (count == 0) return "";
+  return std::string("a ") + format.endings.front() + " has no place for the series " + names +
+         (count == 1 ? ": it is left out" : ": they are left out");
 }
 
 }  // namespace palpate

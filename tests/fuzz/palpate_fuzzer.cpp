@@ -29,10 +29,13 @@ void requireSane(const Profile& profile) {
     for (const float value : frame.values) require(std::isfinite(value));
     require(i == 0 || profile.frameTimeUs(i) > profile.frameTimeUs(i - 1));
   }
-  for (std::size_t i = 0; i < profile.numAngles(); ++i)
-    for (const double deg : profile.angles(i).values) require(std::isfinite(deg));
-  for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
-    for (const double degC : profile.temperatures(i).values) require(std::isfinite(degC));
+  for (std::size_t series = 0; series < profile.series().size(); ++series)
+    for (std::size_t i = 0; i < profile.numSamples(series); ++i) {
+      // Only in series beside those of the hand may a value be missing.
+      for (const double value : profile.sample(series, i).values)
+        require(std::isfinite(value) || (series >= palpate::kHandSeries && std::isnan(value)));
+      require(i == 0 || profile.sampleTimeUs(series, i) > profile.sampleTimeUs(series, i - 1));
+    }
 }
 
 // A file of this process, in memory where the system has such a folder.

@@ -292,7 +292,7 @@ INSTANTIATE_TEST_SUITE_P(
                 " (zeroblob(1000000000)))"},
         Hostile{"indexOnExpression", "CREATE INDEX i ON block(length(zeroblob(id)))"},
         Hostile{"missingTable", "DROP TABLE counter"},
-        Hostile{"otherVersion", "PRAGMA user_version=3"},
+        Hostile{"otherVersion", "PRAGMA user_version=4"},
         Hostile{"otherProgram", "PRAGMA application_id=7"},
         Hostile{"manyFrames",
                 "UPDATE meta SET value='9223372036854775807' WHERE key='frames';"

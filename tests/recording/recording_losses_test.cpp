@@ -26,6 +26,16 @@ TEST(RecordingLosses, AreCountedForEachStream) {
   EXPECT_EQ(losses[1].text(), "12 angle samples in 2 spans, 0.35 s");
 }
 
+TEST(RecordingLosses, OfSeriesStandBehindTheOthersByTheirNames) {
+  const auto losses =
+      lossesOf(std::vector{gap(0, 500'000, R"({"stream":"wrist","lost":1})"),
+                           gap(0, 500'000, R"({"stream":"events","lost":2})"),
+                           gap(500'000, 600'000, R"({"stream":"wrist","lost":4})")});
+  ASSERT_EQ(losses.size(), 2u);
+  EXPECT_EQ(losses[0].stream, "events");
+  EXPECT_EQ(losses[1].text(), "5 wrist samples in 2 spans, 0.60 s");
+}
+
 TEST(RecordingLosses, ASilenceWithoutALossIsNone) {
   EXPECT_TRUE(
       lossesOf(std::vector{gap(0, 700'000, R"({"seconds":0.7,"lost":0,"estimated":false})")})

@@ -52,14 +52,10 @@ void calibrateApplyAppendRow(std::string& line,
 
 // Copies joint angles and temperatures, so that the new recording is complete.
 void copyState(const Profile& profile, ProfileBuilder& builder) {
-  for (std::size_t i = 0; i < profile.numAngles(); ++i) {
-    const Sample angles = profile.angles(i);
-    builder.addAngles(angles.hostUs, angles.values);
-  }
-  for (std::size_t i = 0; i < profile.numTemperatures(); ++i) {
-    const Sample temperatures = profile.temperatures(i);
-    builder.addTemperatures(temperatures.hostUs, temperatures.values);
-  }
+  for (SeriesDescription& each : profile.furtherSeries()) builder.addSeries(std::move(each));
+  for (std::size_t series = 0; series < profile.series().size(); ++series)
+    for (std::size_t i = 0; i < profile.numSamples(series); ++i)
+      builder.addSample(profile.sample(series, i));
 }
 
 }  // namespace
@@ -134,6 +130,7 @@ int calibrateApply(const Arguments& words) {
     copyState(profile, builder);
     ProfileInfo info = profile.info();
     info.valueType = ValueType::kFloat;
+    reportLeftOut(profile, *outPath);
     saveRecording(builder.finish(info),
                   recording.events,
                   *outPath,

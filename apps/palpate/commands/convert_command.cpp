@@ -63,6 +63,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   profile = filteredBy(recipe, recording, in);
   SaveExtras extras = exportExtras(choices, {in, recording.meta}, out, profile, recipe);
   if (from || to) extras.meta.erase("settings");  // those at the start of the whole recording
+  reportLeftOut(profile, out);
   const SaveReport saved = [&] {
     ProgressLine progress("writing " + out, given.quiet());
     return saveRecording(profile, recording.events, out, overwrite, progress.callback(), extras);

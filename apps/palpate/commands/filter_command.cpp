@@ -82,6 +82,7 @@ int filterCommand(const Arguments& words) {
   const Profile filtered = filteredBy(recipe, recording, in, line.callback());
   std::vector<Event> events = recording.events;
   events.push_back(filteredEvent(recipe, profile));
+  reportLeftOut(filtered, out);
   line.setLabel("writing " + out);
   saveRecording(filtered, events, out, overwrite, line.callback());
   line.wipe();

@@ -133,6 +133,27 @@ std::vector<std::string> lossTexts(const std::vector<Event>& events) {
   return texts;
 }
 
+// The series beside those of the hand.
+Json furtherSeriesJson(const Profile& profile) {
+  Json all = Json::array();
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
+    const SeriesDescription& series = profile.series()[i];
+    all.push(
+        Json::object()
+            .set("name", series.name)
+            .set("role", series.role)
+            .set("columns",
+                 jsonList(series.columns,
+                          [](const Column& column) {
+                            return Json::object().set("name", column.name).set("unit", column.unit);
+                          }))
+            .set("source", series.source)
+            .set("samples", profile.numSamples(i))
+            .set("mean_rate_hz", infoRateJson(profile.meanSampleRateHz(i))));
+  }
+  return all;
+}
+
 // `report` contains the members that come first.
 Json infoJsonOf(Json report,
                 const Recording& recording,
@@ -156,6 +177,7 @@ Json infoJsonOf(Json report,
       .set("matrices", matricesJson(profile.layout()))
       .set("temperatures", profile.numTemperatures())
       .set("joint_angles", profile.numAngles())
+      .set("series", furtherSeriesJson(profile))
       .set("max_value", values.maximum)
       .set("saturated_frames", values.saturatedFrames)
       .set("serial", info.serial)
@@ -252,6 +274,8 @@ std::string plainText(const std::string& file,
   for (const std::string& loss : lossTexts(recording.events)) text += row("lost", loss);
   text += row("joint angles", counted(profile.numAngles(), "sample"));
   text += row("temperatures", counted(profile.numTemperatures(), "sample"));
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    text += row("series", profile.series()[i].name + ": " + seriesText(profile, i));
   text += row("largest value",
               numberText(values.maximum) + ", " + counted(values.saturatedFrames, "frame") +
                   " with a saturated taxel (>= " + profile.hand().saturationText() + ")");

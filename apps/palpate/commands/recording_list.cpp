@@ -18,6 +18,7 @@
 #include "palpate/library/recording_folder.h"
 #include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/recording_losses.h"
 
 #include "commands/command_line.h"
 
@@ -367,6 +368,11 @@ int writeReadableTexts(const RecordingList& list,
                        const OpenedText& work,
                        const std::vector<std::string>& topics) {
   return writeTexts(list, quiet, frame, Reading::kAsFarAsReadable, topics, work);
+}
+
+void reportLeftOut(const Profile& profile, const std::filesystem::path& out) {
+  const std::string text = leftOutText(profile, out);
+  if (!text.empty()) sayRecordingList(out.string() + ": " + text);
 }
 
 }  // namespace palpate::commands

@@ -102,4 +102,7 @@ int writeReadableTexts(const RecordingList& list,
                        const OpenedText& work,
                        const std::vector<std::string>& topics = {});
 
+// Says on standard error, before a profile is saved as `out`, what will be missing there.
+void reportLeftOut(const Profile& profile, const std::filesystem::path& out);
+
 }  // namespace palpate::commands

@@ -110,9 +110,15 @@ class Profile {
   // be read is added to it, and false returned; only the time in `out` is valid then.
   bool readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples* unreadable) const;
 
-  // All series: first those of the hand (kAngleSeries, kTemperatureSeries), whose columns are its axes
-  // and sensors.
+  // All series: first those of the hand (kAngleSeries, kTemperatureSeries), whose columns are its
+  // axes and sensors.
   const std::vector<SeriesDescription>& series() const noexcept { return data_->series; }
+  // Those that follow the hand's, as the constructor takes them.
+  std::vector<SeriesDescription> furtherSeries() const {
+    return {series().begin() + kHandSeries, series().end()};
+  }
+  // Samples per second from the first to the last one; 0 with fewer than two.
+  double meanSampleRateHz(std::size_t series) const;
   // The series with samples of a name; empty if there is none.
   std::optional<std::size_t> seriesNamed(std::string_view name) const;
   std::size_t numSamples(std::size_t series) const;
@@ -123,7 +129,9 @@ class Profile {
   std::int64_t angleTimeUs(std::size_t i) const { return sampleTimeUs(kAngleSeries, i); }
   Sample angles(std::size_t i) const { return sample(kAngleSeries, i); }
   std::size_t numTemperatures() const { return numSamples(kTemperatureSeries); }
-  std::int64_t temperatureTimeUs(std::size_t i) const { return sampleTimeUs(kTemperatureSeries, i); }
+  std::int64_t temperatureTimeUs(std::size_t i) const {
+    return sampleTimeUs(kTemperatureSeries, i);
+  }
   Sample temperatures(std::size_t i) const { return sample(kTemperatureSeries, i); }
 
   // Index of the last frame at or before a time, clamped to the first and the last frame; empty

@@ -12,9 +12,9 @@
 
 namespace palpate {
 
-// The frames from `begin` to `end`, both inclusive, and the angles and temperatures within their
-// time. Of angles and temperatures the last sample before the first frame is taken, too, so that
-// every frame keeps those that belong to it, and the first one after the last frame, so that a
+// The frames from `begin` to `end`, both inclusive, and the samples of all series within their
+// time. Of each series the last sample before the first frame is taken, too, so that every frame
+// keeps those that belong to it, and the first one after the last frame, so that a
 // value interpolated at a frame stays the same. Throws std::out_of_range (which names the frames
 // that there are), Cancelled.
 Profile cropped(const Profile& profile,

@@ -2,6 +2,7 @@
 // right, also where SQLite can't reach it any more (its own integrity check misses flipped values).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -14,6 +15,14 @@
 #include <palpate/recording/recording_data.h>
 
 namespace palpate {
+
+// What was saved of a series beside those of the hand.
+struct RecoveredSeries {
+  std::string name;
+  std::size_t samples = 0;
+  std::size_t lost = 0;
+  bool renamed = false;  // its description was lost: the name is "series_2", the columns "1", ..
+};
 
 struct PalpateRecovery {
   std::optional<Profile> profile;  // made of the intact blocks; none when no block is intact
@@ -29,6 +38,7 @@ struct PalpateRecovery {
   std::size_t lostFrames = 0;
   std::size_t lostAngles = 0;
   std::size_t lostTemperatures = 0;
+  std::vector<RecoveredSeries> further = {};  // in order of their index, from kHandSeries on
   std::size_t damagedBlocks = 0;    // rows that SQLite gave, with a wrong checksum or content
   std::size_t blocksFromPages = 0;  // found by reading pages only
   std::size_t damagedRows = 0;  // of meta, matrix, second, event; summaries that don't fit the data
@@ -37,12 +47,23 @@ struct PalpateRecovery {
   bool layoutAssumed = false;   // the layout was lost, but that of the SDH-2 fits every saved frame
   bool layoutLost = false;      // no layout fits: no frame can be read
   std::string sqliteError;      // what SQLite said, when it gave up
+  std::size_t savedItems() const noexcept {
+    std::size_t items = frames + angles + temperatures;
+    for (const RecoveredSeries& series : further) items += series.samples;
+    return items;
+  }
+  std::size_t lostItems() const noexcept {
+    std::size_t items = lostFrames + lostAngles + lostTemperatures;
+    for (const RecoveredSeries& series : further) items += series.lost;
+    return items;
+  }
+  bool anyRenamed() const noexcept {
+    return std::any_of(further.begin(), further.end(), [](const auto& s) { return s.renamed; });
+  }
   // Whether nothing is missing and nothing is wrong.
   bool whole() const noexcept {
-    return lostFrames + lostAngles + lostTemperatures + damagedBlocks + blocksFromPages +
-                   damagedRows ==
-               0 &&
-           !layoutAssumed && !layoutLost && sqliteError.empty();
+    return lostItems() + damagedBlocks + blocksFromPages + damagedRows == 0 && !layoutAssumed &&
+           !layoutLost && !anyRenamed() && sqliteError.empty();
   }
 };
 

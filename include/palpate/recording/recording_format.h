@@ -47,6 +47,7 @@ struct RecordingFormat {
   // Made for other programs: filtered if asked for, and none that filters are applied to again.
   bool isExport = false;
   bool takesSeries = false;              // ExportExtras
+  bool holdsFurther = false;             // series beside those of the hand
   bool takesUnitsRow = false;            // SaveExtras::unitsRow
   bool takesMcap = false;                // SaveExtras::mcap
   const FormatReader* reader = nullptr;  // null: such files are written, not read

@@ -44,9 +44,9 @@ Salvage salvageMcap(const fs::path& path, const ReadOptions& options, const Prog
   Recording recording = recoverMcap(path, progress, 0, options.topics);
   const Profile& profile = recording.profile;
   const Damage& damage = recording.damage;
-  if (profile.numFrames() + profile.numAngles() + profile.numTemperatures() == 0 &&
-      !damage.text.empty())
-    return {.message = damage.text};
+  std::size_t items = profile.numFrames();
+  for (std::size_t i = 0; i < profile.series().size(); ++i) items += profile.numSamples(i);
+  if (items == 0 && !damage.text.empty()) return {.message = damage.text};
   Salvage salvage;
   std::string& missing = salvage.missing = mcapDamageText(damage);
   if (damage.events > 0)
@@ -83,6 +83,7 @@ constinit const RecordingFormat kMcapFormat{.name = "mcap",
                                             .endings = kMcapEndings,
                                             .isExport = true,
                                             .takesSeries = true,
+                                            .holdsFurther = true,
                                             .takesMcap = true,
                                             .reader = &kMcapReader,
                                             .save = &saveMcap};

@@ -1,5 +1,6 @@
 #include "palpate/recording/palpate_reader.h"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,7 +30,7 @@ class PalpateStorage final : public BlockStorage {
         path_(path),
         access_(path),
         layout_(readLayout(access_.database())),
-        series_(readSeries(access_.database())) {
+        seriesRows_(readSeries(access_.database())) {
     if (access_.beingWritten())
       indexGrowing(progress);
     else
@@ -39,21 +40,30 @@ class PalpateStorage final : public BlockStorage {
     readBlock_.emplace(access_.database().prepare(
         "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?"));
     setWidth(Stream::kTactile, layout_.numCells());
-    for (std::size_t i = 0; i < series_.size(); ++i)
-      setWidth(streamOfSeries(kHandSeries + i), series_[i].columns.size());
-    for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) {
-      if (places(stream).empty()) continue;
+    std::size_t end = seriesRows_.end();
+    for (std::size_t series = 0; series < kMaxSeries; ++series) {
+      const Stream stream = streamOfSeries(series);
+      const auto described = seriesRows_.sound.find(series);
+      if (described != seriesRows_.sound.end()) setWidth(stream, described->second.columns.size());
+      if (described != seriesRows_.sound.end() || places(stream).empty()) continue;
       setWidth(stream, widthOf(places(stream)));
-      if (width(stream) > 0) continue;
+      if (width(stream) > 0) {
+        end = std::max(end, series + 1);
+        continue;
+      }
       // Costs its own samples, and nothing else.
       drop(stream);
       dropped_.push_back(stream);
     }
+    series_ =
+        seriesRows_.all(end, [&](std::size_t series) { return width(streamOfSeries(series)); });
   }
 
   const SensorLayout& layout() const { return layout_; }
   // Those beside the hand's.
   const std::vector<SeriesDescription>& series() const { return series_; }
+  // Whether the file says what a series is; otherwise it has a name and columns made up for it.
+  bool isDescribed(std::size_t series) const { return seriesRows_.sound.contains(series); }
   PalpateConnection& access() { return access_; }
   // Streams that are left out because no block of theirs can be read.
   const std::vector<Stream>& dropped() const { return dropped_; }
@@ -79,7 +89,9 @@ class PalpateStorage final : public BlockStorage {
     const std::int64_t stream = row.integer(0);
     const BlockEntry place{
         row.integer(1), row.integer(2), row.integer(3), row.integer(4), row.integer(5)};
-    if (stream < 0 || stream > static_cast<std::int64_t>(kHandSeries + series_.size()) || !add(static_cast<Stream>(stream), place)) throwMissing();
+    if (stream < 0 || stream >= std::int64_t{kMaxStreams} ||
+        !add(static_cast<Stream>(stream), place))
+      throwMissing();
   }
 
   void indexBlocks(const Progress& progress) {
@@ -133,6 +145,7 @@ class PalpateStorage final : public BlockStorage {
   fs::path path_;
   PalpateConnection access_;
   SensorLayout layout_;
+  SeriesRows seriesRows_;
   std::vector<SeriesDescription> series_;
   std::optional<SqliteStatement> readBlock_;
   std::vector<Stream> dropped_;
@@ -163,14 +176,22 @@ Profile profileOf(std::shared_ptr<PalpateStorage> storage) {
   if (access.beingWritten())
     info.warnings.emplace_back("still being written: shown as far as it was when opened");
   for (const Stream stream : storage->dropped())
-    info.warnings.emplace_back(std::string("all ") +
-                               (stream == Stream::kAngles ? "joint angles" : "temperatures") +
-                               " are damaged and left out");
+    info.warnings.emplace_back(
+        "all " +
+        (stream == Stream::kAngles ? std::string("joint angles")
+         : stream == Stream::kTemperatures
+             ? "temperatures"
+             : "samples of series " + std::to_string(seriesOfStream(stream))) +
+        " are damaged and left out");
   HandDescription hand = recordedHand(access.meta().values,
                                       storage->layout(),
                                       storage->width(Stream::kAngles),
                                       storage->width(Stream::kTemperatures));
   std::vector<SeriesDescription> series = storage->series();
+  for (std::size_t i = 0; i < series.size(); ++i)
+    if (!storage->isDescribed(kHandSeries + i))
+      info.warnings.push_back("the description of a series is damaged: it is called " +
+                              series[i].name + ", its columns 1, 2, ..");
   return {std::move(info), std::move(hand), std::move(storage), std::move(series)};
 }
 

@@ -26,6 +26,7 @@
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
 #include "palpate/recording/recording_lock.h"
+#include "palpate/recording/recording_losses.h"
 #include "palpate/recording/second_summary.h"
 
 #include "recording/native/palpate_connection.h"
@@ -106,8 +107,8 @@ std::optional<Block> blockAt(std::span<const std::byte> page, std::size_t at) {
   }
   const std::size_t size = (blobType - 12) / 2;
   const auto data = body.take(size);
-  if (data.size() != size || value[1] < 0 || value[1] > 2 || value[6] < 0 ||
-      value[6] > static_cast<int>(withDeviceUs(BlockCoding::kFilteredRuns)))
+  if (data.size() != size || value[1] < 0 || value[1] >= static_cast<int>(kMaxStreams) ||
+      value[6] < 0 || value[6] > static_cast<int>(withDeviceUs(BlockCoding::kFilteredRuns)))
     return std::nullopt;
   Block block{static_cast<Stream>(value[1]),
               value[2],
@@ -121,34 +122,74 @@ std::optional<Block> blockAt(std::span<const std::byte> page, std::size_t at) {
   return block;
 }
 
+// A row of `kTexts` texts and their checksum, on a page. `hasId`: a rowid, which isn't in the row,
+// stands before them.
+template <std::size_t kTexts>
+struct TextRow {
+  std::array<std::string, kTexts> texts;
+  std::int64_t crc = 0;
+};
+template <std::size_t kTexts>
+std::optional<TextRow<kTexts>> textRowAt(std::span<const std::byte> page,
+                                         std::size_t at,
+                                         bool hasId,
+                                         const std::array<std::size_t, kTexts>& longest) {
+  const std::size_t begin = 1 + (hasId ? 1 : 0);          // its size, and the type of the rowid
+  const std::size_t leastHeader = begin + kTexts + 1;     // a type per column
+  const std::size_t mostHeader = begin + 2 * kTexts + 2;  // of two bytes
+  constexpr std::size_t kFirstTextType = 13;              // of an empty text; odd
+  const auto headerSize = std::to_integer<std::size_t>(page[at]);
+  if (headerSize < leastHeader || headerSize > mostHeader || headerSize > page.size() - at ||
+      (hasId && page[at + 1] != std::byte{0}))
+    return std::nullopt;
+  Cursor types(page, at + begin);
+  std::array<std::size_t, kTexts> sizes{};
+  for (std::size_t i = 0; i < kTexts; ++i) {
+    const auto type = types.varint();
+    // Without limits, damaged bytes would cost long copies.
+    if (!type || *type % 2 == 0 || *type < kFirstTextType ||
+        (*type - kFirstTextType) / 2 > longest[i])
+      return std::nullopt;
+    sizes[i] = (*type - kFirstTextType) / 2;
+  }
+  const auto crcType = types.varint();
+  if (!crcType || types.at() != at + headerSize) return std::nullopt;
+  Cursor body(page, at + headerSize);
+  TextRow<kTexts> row;
+  for (std::size_t i = 0; i < kTexts; ++i) {
+    const auto bytes = body.take(sizes[i]);
+    row.texts[i].assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  const auto crc = body.integer(*crcType);
+  if (!crc) return std::nullopt;
+  row.crc = *crc;
+  return row;
+}
+
 // A row of the table of meta data: key, value and their checksum.
 std::optional<std::pair<std::string, std::string>> metaRowAt(std::span<const std::byte> page,
                                                              std::size_t at) {
-  constexpr std::size_t kLeastHeader = 4, kMostHeader = 8;  // its size, and a type per column
-  constexpr std::size_t kFirstTextType = 13;                // of an empty text; odd
-  const auto headerSize = std::to_integer<std::size_t>(page[at]);
-  if (headerSize < kLeastHeader || headerSize > kMostHeader || headerSize > page.size() - at)
-    return std::nullopt;
-  Cursor types(page, at + 1);
-  const auto key = types.varint(), value = types.varint(), crc = types.varint();
-  // Longer ones don't fit into a page; without the limits, damaged bytes would cost long copies.
   constexpr std::size_t kMostKey = 256, kMostValue = 8192;  // [bytes]
-  const auto isText = [](const std::optional<std::uint64_t>& type, std::size_t most) {
-    return type && *type % 2 == 1 && *type >= kFirstTextType &&
-           (*type - kFirstTextType) / 2 <= most;
-  };
-  if (!isText(key, kMostKey) || !isText(value, kMostValue) || !crc || types.at() != at + headerSize)
+  auto row = textRowAt<2>(page, at, false, {kMostKey, kMostValue});
+  if (!row || row->texts[0].empty() ||
+      row->crc != static_cast<std::int64_t>(metaCrc(row->texts[0], row->texts[1])))
     return std::nullopt;
-  Cursor body(page, at + headerSize);
-  const auto text = [&body](std::uint64_t type) {
-    const auto bytes = body.take((type - kFirstTextType) / 2);
-    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  };
-  std::string keyText = text(*key), valueText = text(*value);
-  const auto stored = body.integer(*crc);
-  if (keyText.empty() || stored != static_cast<std::int64_t>(metaCrc(keyText, valueText)))
-    return std::nullopt;
-  return std::pair(std::move(keyText), std::move(valueText));
+  return std::pair(std::move(row->texts[0]), std::move(row->texts[1]));
+}
+
+// Adds what a row of the table of series describes, if it is one that isn't there yet: true then.
+// Which series it is of, only its checksum tells.
+bool addSeriesRowAt(std::span<const std::byte> page, std::size_t at, SeriesRows& series) {
+  constexpr std::size_t kMost = 4096;  // longer ones don't fit into a page
+  const auto row = textRowAt<4>(page, at, true, {kMaxSeriesName, kMost, kMost, kMost});
+  if (!row || row->texts[0].empty()) return false;
+  const auto found = seriesFrom(row->texts[0], row->texts[1], row->texts[2], row->texts[3]);
+  if (!found) return false;
+  for (std::size_t index = kHandSeries; index < kMaxSeries; ++index)
+    if (row->crc == static_cast<std::int64_t>(
+                        seriesCrc(static_cast<std::int64_t>(streamOfSeries(index)), *found)))
+      return series.add(index, *found);
+  return false;
 }
 
 // Finds rows of the block table in the raw bytes of an SQLite file, without SQLite: on pages that
@@ -192,7 +233,7 @@ class BlockStore {
     std::int64_t begin;  // in memory_, or behind kMemoryBytes: in the file
   };
 
-  std::array<std::map<std::int64_t, StoredBlock>, 3> streams_;
+  std::array<std::map<std::int64_t, StoredBlock>, kMaxStreams> streams_;
   std::vector<Data> data_;  // by id
   std::vector<std::byte> memory_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
@@ -239,17 +280,26 @@ Block BlockStore::load(std::int64_t id) const {
   return block;
 }
 
-constexpr std::array kStreams{Stream::kTactile, Stream::kAngles, Stream::kTemperatures};
-
 // All that was found, before it is put together.
 struct Findings {
   std::shared_ptr<BlockStore> blocks = std::make_shared<BlockStore>();
   std::shared_ptr<const SensorLayout> layout;
   MetaRows meta;
+  SeriesRows series;
   std::vector<SecondSummary> seconds;
   std::optional<std::vector<SecondSummary>> overview;
   bool hasOverview = false;
   std::size_t damagedSeconds = 0;
+
+  // Behind the last series of which there is a description, a block or a number of samples.
+  std::size_t seriesEnd() const {
+    std::size_t end = series.end();
+    for (std::size_t i = end; i < kMaxSeries; ++i)
+      if (!blocks->stream(streamOfSeries(i)).empty() ||
+          meta.integer(samplesKey(streamOfSeries(i))).value_or(0) > 0)
+        end = i + 1;
+    return end;
+  }
 };
 
 // Runs a piece of reading; what SQLite refuses is remembered, not thrown.
@@ -308,6 +358,10 @@ void readBySql(const fs::path& path,
   attemptRecovery(recovery,
                   [&] { found.layout = std::make_shared<SensorLayout>(readLayout(database)); });
   attemptRecovery(recovery, [&] {
+    found.series = readSeries(database);
+    recovery.damagedRows += found.series.damaged;
+  });
+  attemptRecovery(recovery, [&] {
     EventsReport events = readEventRows(database);
     recovery.events = std::move(events.events);
     recovery.damagedRows += events.damaged;
@@ -349,9 +403,13 @@ void scanFile(const fs::path& path,
     scanPage(std::span(window).first(filled), [&](const Block& block) {
       if (found.blocks->add(block)) ++recovery.blocksFromPages;
     });
-    for (std::size_t at = 0; needsMeta && at < filled; ++at)
-      if (auto row = metaRowAt(std::span(window).first(filled), at))
-        found.meta.values.insert(std::move(*row));
+    const auto page = std::span<const std::byte>(window).first(filled);
+    for (std::size_t at = 0; at < filled; ++at) {
+      if (needsMeta)
+        if (auto row = metaRowAt(page, at)) found.meta.values.insert(std::move(*row));
+      // SQLite didn't give it.
+      if (addSeriesRowAt(page, at, found.series)) ++recovery.damagedRows;
+    }
     kept = std::min(kOverlap, filled);
     std::copy(window.begin() + static_cast<std::ptrdiff_t>(filled - kept),
               window.begin() + static_cast<std::ptrdiff_t>(filled),
@@ -386,9 +444,8 @@ bool everyFrameHas(const BlockStore& blocks, std::size_t numValues) {
 
 // Items that the recording once had, as far as it tells.
 std::int64_t expectedItems(const Findings& found, Stream stream) {
-  constexpr std::array kKeys{"frames", "angle_samples", "temperature_samples"};
   constexpr std::int64_t kMost = std::int64_t{1} << 40;
-  std::int64_t expected = found.meta.integer(kKeys[static_cast<std::size_t>(stream)]).value_or(0);
+  std::int64_t expected = found.meta.integer(samplesKey(stream)).value_or(0);
   if (stream == Stream::kTactile) {
     std::int64_t inSeconds = 0;
     for (const SecondSummary& row : found.seconds)
@@ -404,18 +461,18 @@ std::int64_t expectedItems(const Findings& found, Stream stream) {
 
 // An event for items that are missing between two times: without it, a reader of the saved
 // recording could not tell a loss shorter than a gap.
-Event lossEvent(Stream stream, std::int64_t count, std::int64_t fromUs, std::int64_t toUs) {
-  constexpr std::array<std::string_view, 3> kNames{"tactile", "angles", "temperatures"};
-  constexpr std::array<std::string_view, 3> kItems{"frame", "angle sample", "temperature sample"};
-  const auto index = static_cast<std::size_t>(stream);
+Event lossEvent(const std::string& stream,
+                std::int64_t count,
+                std::int64_t fromUs,
+                std::int64_t toUs) {
   Event event;
   event.tUs = fromUs;
   event.t1Us = toUs;
   event.kind = "gap";
   event.text =
-      counted(static_cast<std::size_t>(count), kItems.at(index)) + " lost: the file was damaged";
+      counted(static_cast<std::size_t>(count), itemOf(stream)) + " lost: the file was damaged";
   event.json = Json::object()
-                   .set("stream", kNames.at(index))
+                   .set("stream", stream)
                    .set("lost", count)
                    .set("reason", "the file was damaged")
                    .text(-1);
@@ -426,6 +483,7 @@ Event lossEvent(Stream stream, std::int64_t count, std::int64_t fromUs, std::int
 // Returns the number of items that are missing.
 std::size_t assemble(const Findings& found,
                      Stream stream,
+                     const std::string& name,
                      BlockStorage& storage,
                      PalpateRecovery& recovery) {
   BlockIndex index;
@@ -442,14 +500,14 @@ std::size_t assemble(const Findings& found,
     }
     if (first > next)
       recovery.events.push_back(
-          lossEvent(stream, first - next, lastUs.value_or(place.t0Us), place.t0Us));
+          lossEvent(name, first - next, lastUs.value_or(place.t0Us), place.t0Us));
     items += place.n;
     next = first + place.n;
     lastUs = place.t1Us;
   }
   const std::int64_t expected = expectedItems(found, stream);
   if (lastUs && expected > next)
-    recovery.events.push_back(lossEvent(stream, expected - next, *lastUs, *lastUs));
+    recovery.events.push_back(lossEvent(name, expected - next, *lastUs, *lastUs));
   return static_cast<std::size_t>(std::max<std::int64_t>(0, expected - items));
 }
 
@@ -504,29 +562,37 @@ void buildProfile(const fs::path& path,
   const std::shared_ptr<const SensorLayout> layout =
       found.layout ? found.layout : defaultHand().layout;
   storage->setWidth(Stream::kTactile, layout->numCells());
-  for (Stream stream : {Stream::kAngles, Stream::kTemperatures})
-    storage->setWidth(stream, widthOf(*found.blocks, stream));
-  std::array<std::size_t, 3> lost{};
-  for (Stream stream : kStreams) {
-    std::size_t& missing = lost[static_cast<std::size_t>(stream)];
-    if (stream == Stream::kTactile && recovery.layoutLost)
-      missing = static_cast<std::size_t>(expectedItems(found, stream));
-    else
-      missing = assemble(found, stream, *storage, recovery);
+  const std::size_t numSeries = found.seriesEnd();
+  for (std::size_t i = 0; i < numSeries; ++i) {
+    const auto described = found.series.sound.find(i);
+    const Stream stream = streamOfSeries(i);
+    storage->setWidth(stream,
+                      described != found.series.sound.end() ? described->second.columns.size()
+                                                            : widthOf(*found.blocks, stream));
+  }
+  std::vector<SeriesDescription> further = found.series.all(
+      numSeries, [&](std::size_t series) { return storage->width(streamOfSeries(series)); });
+  recovery.lostFrames = recovery.layoutLost
+                            ? static_cast<std::size_t>(expectedItems(found, Stream::kTactile))
+                            : assemble(found, Stream::kTactile, "tactile", *storage, recovery);
+  recovery.lostAngles = assemble(found, Stream::kAngles, "angles", *storage, recovery);
+  recovery.lostTemperatures =
+      assemble(found, Stream::kTemperatures, "temperatures", *storage, recovery);
+  for (std::size_t i = kHandSeries; i < numSeries; ++i) {
+    const std::string& name = further[i - kHandSeries].name;
+    const std::size_t lost = assemble(found, streamOfSeries(i), name, *storage, recovery);
+    recovery.further.push_back(
+        {name, storage->numSamples(i), lost, !found.series.sound.contains(i)});
   }
   std::stable_sort(recovery.events.begin(),
                    recovery.events.end(),
                    [](const Event& a, const Event& b) { return a.tUs < b.tUs; });
-  recovery.lostFrames = lost[0];
-  recovery.lostAngles = lost[1];
-  recovery.lostTemperatures = lost[2];
   recovery.frames = storage->numFrames();
   recovery.angles = storage->numSamples(kAngleSeries);
   recovery.temperatures = storage->numSamples(kTemperatureSeries);
-  const bool empty = recovery.frames + recovery.angles + recovery.temperatures == 0;
   // A recording may have no sample yet, whatever is damaged beside.
-  const bool lostAny = lost[0] + lost[1] + lost[2] + recovery.damagedBlocks > 0;
-  if (empty && (!found.layout || lostAny)) return;
+  const bool lostAny = recovery.lostItems() + recovery.damagedBlocks > 0;
+  if (recovery.savedItems() == 0 && (!found.layout || lostAny)) return;
   ProfileInfo info;
   info.format = "palpate";
   info.serial = found.meta["serial"];
@@ -539,7 +605,8 @@ void buildProfile(const fs::path& path,
                                       *layout,
                                       storage->width(Stream::kAngles),
                                       storage->width(Stream::kTemperatures));
-  recovery.profile.emplace(std::move(info), std::move(hand), std::move(storage));
+  recovery.profile.emplace(
+      std::move(info), std::move(hand), std::move(storage), std::move(further));
   if (recovery.whole() && !recovery.beingWritten)
     recovery.damagedRows += damagedSeconds(found, *recovery.profile, recovery.unfinished, progress);
   else
@@ -584,13 +651,16 @@ PalpateRecovery recoverPalpateProfile(const fs::path& path, const Progress& prog
   PalpateRecovery recovery;
   Findings found;
   attemptRecovery(recovery, [&] { readBySql(path, found, recovery, progress); });
-  bool doubtful =
-      !recovery.sqliteError.empty() || recovery.damagedBlocks > 0 || found.meta.damaged > 0;
-  for (Stream stream : kStreams) {
+  bool doubtful = !recovery.sqliteError.empty() || recovery.damagedBlocks > 0 ||
+                  found.meta.damaged > 0 || found.series.damaged > 0;
+  const std::size_t numStreams = 1 + found.seriesEnd();
+  for (std::size_t i = 0; i < numStreams; ++i) {
+    const auto stream = static_cast<Stream>(i);
     const auto& blocks = found.blocks->stream(stream);
     const std::int64_t end =
         blocks.empty() ? 0 : blocks.rbegin()->first + blocks.rbegin()->second.n;
-    doubtful = doubtful || hasHoles(blocks) || end < expectedItems(found, stream);
+    doubtful = doubtful || hasHoles(blocks) || end < expectedItems(found, stream) ||
+               (i > kHandSeries && !found.series.sound.contains(seriesOfStream(stream)));
   }
   // Never while it is being written: a rollback journal is at work, and closing a file that this
   // process also writes would drop SQLite's locks on it.

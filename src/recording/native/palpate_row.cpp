@@ -8,6 +8,7 @@
 #include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/recording_format.h"
+#include "palpate/recording/recording_losses.h"
 
 #include "recording/format_reader.h"
 #include "recording/native/palpate_connection.h"
@@ -27,18 +28,27 @@ std::string palpateDamageText(const PalpateRecovery& recovery) {
   addCount(recovery.lostFrames, "lost frame");
   addCount(recovery.lostAngles, "lost angle sample");
   addCount(recovery.lostTemperatures, "lost temperature sample");
+  for (const RecoveredSeries& series : recovery.further)
+    if (series.lost > 0) add("lost " + counted(series.lost, itemOf(series.name)));
   addCount(recovery.damagedBlocks, "damaged block");
   if (recovery.blocksFromPages > 0)
     add(counted(recovery.blocksFromPages, "block") + " found outside of the damaged tables");
   addCount(recovery.damagedRows, "damaged row");
   if (recovery.layoutLost) add("the sensor's layout is lost");
   if (recovery.layoutAssumed) add("the sensor's layout is lost: that of the SDH-2 is assumed");
+  std::string renamed;
+  for (const RecoveredSeries& series : recovery.further)
+    if (series.renamed) renamed += (renamed.empty() ? "" : ", ") + series.name;
+  if (!renamed.empty()) add("names and columns of series are lost: they are called " + renamed);
   if (!recovery.sqliteError.empty()) add("the tables of the file are damaged");
   return text;
 }
 
 std::string palpateCountsText(const PalpateRecovery& recovery) {
-  return countsText(recovery.frames, recovery.angles, recovery.temperatures);
+  std::string text = countsText(recovery.frames, recovery.angles, recovery.temperatures);
+  for (const RecoveredSeries& series : recovery.further)
+    text += ", " + counted(series.samples, itemOf(series.name));
+  return text;
 }
 
 // A recovery would take what lies beside a recording under the name of its journal for damage of
@@ -147,6 +157,7 @@ constexpr FormatReader kPalpateReader{// A bag of ROS 2 is a database of SQLite,
 constinit const RecordingFormat kPalpateFormat{.name = "palpate",
                                                .purpose = "Palpate recording",
                                                .endings = kPalpateEndings,
+                                               .holdsFurther = true,
                                                .reader = &kPalpateReader,
                                                .save = &savePalpate};
 

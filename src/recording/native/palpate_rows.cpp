@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <stdexcept>
+#include <string_view>
 
 #include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
@@ -237,16 +238,6 @@ std::string columnsText(const std::vector<Column>& columns) {
       .text(-1);
 }
 
-std::uint32_t seriesCrc(std::int64_t stream, const SeriesDescription& series) {
-  return RowCrc()
-      .integer(stream)
-      .text(series.name)
-      .text(series.role)
-      .text(series.source)
-      .text(columnsText(series.columns))
-      .value();
-}
-
 }  // namespace
 
 void insertSeries(SqliteDatabase& database, std::size_t index, const SeriesDescription& series) {
@@ -263,34 +254,84 @@ void insertSeries(SqliteDatabase& database, std::size_t index, const SeriesDescr
       .run();
 }
 
-std::vector<SeriesDescription> readSeries(SqliteDatabase& database) {
+std::uint32_t seriesCrc(std::int64_t stream, const SeriesDescription& series) {
+  return RowCrc()
+      .integer(stream)
+      .text(series.name)
+      .text(series.role)
+      .text(series.source)
+      .text(columnsText(series.columns))
+      .value();
+}
+
+std::optional<SeriesDescription> seriesFrom(std::string name,
+                                            std::string role,
+                                            std::string source,
+                                            const std::string& columnsJson) {
+  SeriesDescription series{std::move(name), std::move(role), {}, std::move(source)};
+  try {
+    const Json columns = Json::parse(columnsJson);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      series.columns.push_back(
+          {columns.at(i).at("name").asString(), columns.at(i).at("unit").asString()});
+    validate(series);
+  } catch (const std::exception&) {  // no JSON, another shape, or not valid
+    return std::nullopt;
+  }
+  return series;
+}
+
+bool SeriesRows::add(std::size_t index, SeriesDescription series) {
+  constexpr std::array<std::string_view, kHandSeries> kOwn{"angles", "temperatures"};
+  const auto hasName = [&](const auto& other) { return other.second.name == series.name; };
+  if (index < kHandSeries || index >= kMaxSeries ||
+      std::find(kOwn.begin(), kOwn.end(), series.name) != kOwn.end() ||
+      std::any_of(sound.begin(), sound.end(), hasName))
+    return false;
+  return sound.try_emplace(index, std::move(series)).second;
+}
+
+std::size_t SeriesRows::end() const {
+  return sound.empty() ? kHandSeries : sound.rbegin()->first + 1;
+}
+
+std::vector<SeriesDescription> SeriesRows::all(std::size_t end, const WidthOf& widthOf) const {
   std::vector<SeriesDescription> all;
-  if (database.integerOf("SELECT count(*) FROM sqlite_schema WHERE name='series'") == 0) return all;
-  SqliteStatement rows =
-      database.prepare("SELECT idx, name, role, source, columns, crc32 FROM series ORDER BY idx");
-  while (rows.next()) {
-    const auto fail = [&](const std::string& fault) {
-      throw FormatError(database.path(),
-                        "its series are damaged (" + fault + "); try 'palpate recover'");
-    };
-    const auto stream = static_cast<std::int64_t>(streamOfSeries(kHandSeries + all.size()));
-    if (kHandSeries + all.size() == kMaxSeries) fail("too many");
-    SeriesDescription series{rows.text(1), rows.text(2), {}, rows.text(3)};
-    try {
-      const Json columns = Json::parse(rows.text(4));
-      for (std::size_t i = 0; i < columns.size(); ++i)
-        series.columns.push_back(
-            {columns.at(i).at("name").asString(), columns.at(i).at("unit").asString()});
-      validate(series);
-    } catch (const std::exception& error) {
-      fail(error.what());
+  for (std::size_t index = kHandSeries; index < end; ++index) {
+    const auto found = sound.find(index);
+    if (found != sound.end()) {
+      all.push_back(found->second);
+      continue;
     }
-    if (rows.integer(0) != stream ||
-        rows.integer(5) != static_cast<std::int64_t>(seriesCrc(stream, series)))
-      fail("a checksum is wrong");
+    SeriesDescription series;
+    series.name = "series_" + std::to_string(index);
+    while (std::any_of(sound.begin(), sound.end(), [&](const auto& other) {
+      return other.second.name == series.name;
+    }))
+      series.name += '_';
+    for (std::size_t i = 1; i <= std::max<std::size_t>(1, widthOf(index)); ++i)
+      series.columns.push_back({std::to_string(i), ""});
     all.push_back(std::move(series));
   }
   return all;
+}
+
+SeriesRows readSeries(SqliteDatabase& database) {
+  SeriesRows read;
+  if (database.integerOf("SELECT count(*) FROM sqlite_schema WHERE name='series'") == 0)
+    return read;
+  SqliteStatement rows =
+      database.prepare("SELECT idx, name, role, source, columns, crc32 FROM series ORDER BY idx");
+  while (rows.next()) {
+    const std::int64_t stream = rows.integer(0);
+    auto series = seriesFrom(rows.text(1), rows.text(2), rows.text(3), rows.text(4));
+    const bool isSound = series && stream > 0 && stream < std::int64_t{kMaxStreams} &&
+                         rows.integer(5) == static_cast<std::int64_t>(seriesCrc(stream, *series));
+    if (!isSound || !read.add(seriesOfStream(static_cast<Stream>(stream)), std::move(*series)))
+      ++read.damaged;
+    if (read.damaged > kMaxSeries) throw FormatError(database.path(), "has too many series");
+  }
+  return read;
 }
 
 Block blockFrom(const SqliteStatement& row, int column, int dataColumn) {
@@ -303,6 +344,12 @@ Block blockFrom(const SqliteStatement& row, int column, int dataColumn) {
           row.integer(column + 4),
           static_cast<BlockCoding>(small(column + 5)),
           {data.begin(), data.end()}};
+}
+
+std::string samplesKey(Stream stream) {
+  constexpr std::array<const char*, 3> kKeys{"frames", "angle_samples", "temperature_samples"};
+  const auto number = static_cast<std::size_t>(stream);
+  return number < kKeys.size() ? kKeys[number] : "samples_" + std::to_string(number);
 }
 
 std::string MetaRows::operator[](const std::string& key) const {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,12 +47,33 @@ SensorLayout readLayout(SqliteDatabase& database);
 
 // The description of a series beside those of the hand. The first one makes the table.
 void insertSeries(SqliteDatabase& database, std::size_t index, const SeriesDescription& series);
-// Those of the file, none if it has no such table. Throws FormatError where one is damaged.
-std::vector<SeriesDescription> readSeries(SqliteDatabase& database);
+std::uint32_t seriesCrc(std::int64_t stream, const SeriesDescription& series);
+// The description in a row; none where it isn't valid.
+std::optional<SeriesDescription> seriesFrom(std::string name,
+                                            std::string role,
+                                            std::string source,
+                                            const std::string& columnsJson);
+struct SeriesRows {
+  using WidthOf = std::function<std::size_t(std::size_t series)>;
+  std::map<std::size_t, SeriesDescription> sound;  // by the index of the series
+  std::size_t damaged = 0;
+  // False: there is one with its index or its name, or no series of such a file has them.
+  bool add(std::size_t index, SeriesDescription series);
+  // Behind the last series that is described.
+  std::size_t end() const;
+  // Those from kHandSeries up to `end`. One that isn't described is "series_2", .. by its index,
+  // with as many columns "1", "2", .. as `widthOf` says, at least one.
+  std::vector<SeriesDescription> all(std::size_t end, const WidthOf& widthOf) const;
+};
+// Those of the file, none if it has no such table.
+SeriesRows readSeries(SqliteDatabase& database);
 
 // The block of a row in which stream, first, n, t0_us, t1_us and coding stand from `column` on and
 // the data in `dataColumn`. Nothing is checked.
 Block blockFrom(const SqliteStatement& row, int column, int dataColumn);
+
+// The key of the table `meta` under which a finished recording says how many items a stream has.
+std::string samplesKey(Stream stream);
 
 // The key-value pairs of the table `meta`; rows with a wrong checksum are left out and counted.
 struct MetaRows {

@@ -140,8 +140,7 @@ void writeAll(const Profile& profile,
               PalpateWriter& writer,
               const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 256;
-  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
-    writer.addSeries(profile.series()[i]);
+  for (const SeriesDescription& each : profile.furtherSeries()) writer.addSeries(each);
   std::vector<std::size_t> next(profile.series().size());
   // One series after the other: which samples a block has depends on this order.
   const auto addBefore = [&](std::int64_t untilUs) {
@@ -405,7 +404,8 @@ struct PalpateWriter::Impl {
     std::map<std::string, std::int64_t> counters;
     std::size_t bytes = 0;
     bool empty() const {
-      return series.empty() && blocks.empty() && seconds.empty() && events.empty() && counters.empty();
+      return series.empty() && blocks.empty() && seconds.empty() && events.empty() &&
+             counters.empty();
     }
   };
 
@@ -506,9 +506,8 @@ void PalpateWriter::addSample(const Sample& sample) {
   series.width = sample.values.size();
   series.lastUs = sample.hostUs;
   // The hand's own have never had them: its files stay as they are.
-  series.packer.addSample(sample.hostUs,
-                          sample.values,
-                          sample.series < kHandSeries ? std::nullopt : sample.deviceUs);
+  series.packer.addSample(
+      sample.hostUs, sample.values, sample.series < kHandSeries ? std::nullopt : sample.deviceUs);
   impl_->commitWhenDue(sample.hostUs);
 }
 
@@ -538,12 +537,10 @@ void PalpateWriter::finish() {
       insertMeta(
           database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
       insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
-      insertMeta(database,
-                 "angle_samples",
-                 std::to_string(impl.series[kAngleSeries].packer.numItems()));
-      insertMeta(database,
-                 "temperature_samples",
-                 std::to_string(impl.series[kTemperatureSeries].packer.numItems()));
+      for (std::size_t i = 0; i < impl.series.size(); ++i)
+        insertMeta(database,
+                   samplesKey(streamOfSeries(i)),
+                   std::to_string(impl.series[i].packer.numItems()));
       insertMeta(database, "value_type", impl.allCounts ? "counts" : "float");
       insertMeta(database, "finished", "1");
     });

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <palpate/core/time.h>
+#include <palpate/recording/recording_losses.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
@@ -76,6 +77,9 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
   facts.push_back({"saturated frames",
                    saturated ? QString::number(*saturated) : QString("being counted"),
                    saturated.value_or(0) > 0});
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    facts.push_back({"series " + QString::fromStdString(profile.series()[i].name),
+                     QString::fromStdString(seriesText(profile, i))});
   facts.push_back({"calibration", calibration});
   for (const char* key : {"operator", "object", "run", "notes"})
     if (const auto said = recording.meta.find(key);

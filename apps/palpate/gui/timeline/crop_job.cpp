@@ -8,6 +8,7 @@
 #include <palpate/core/error.h>
 #include <palpate/recording/crop.h>
 #include <palpate/recording/recording.h>
+#include <palpate/recording/recording_losses.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/widgets/offer_strip.h"
@@ -111,7 +112,11 @@ void CropJob::saveAs() {
 
 void CropJob::start(const QString& path, const std::optional<Frames>& part) {
   try {
-    formatOf(path.toStdString());
+    const std::string leftOut =
+        leftOutText(windowState_.displayed.unfilteredRecording()->profile, path.toStdString());
+    if (!leftOut.empty() &&
+        !windowState_.ask.confirmed(QString::fromStdString(leftOut) + ".", "Save without them"))
+      return;
   } catch (const Error& error) {
     return windowState_.messages.fail(QString::fromUtf8(error.what()));
   }
