@@ -140,13 +140,14 @@ std::string withoutName(const fs::path& path, const std::string& message) {
 
 void readThrough(const Profile& profile, const Progress& progress) {
   constexpr std::size_t kSamplesPerReport = 4096;
-  const std::size_t all = profile.numFrames() + profile.numAngles() + profile.numTemperatures();
+  std::size_t all = profile.numFrames();
+  for (std::size_t s = 0; s < profile.series().size(); ++s) all += profile.numSamples(s);
   std::size_t read = 0;
   const auto report = [&] { reportProgress(progress, read++, all + 1, kSamplesPerReport); };
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i, report()) profile.readFrame(i, frame);
-  for (std::size_t i = 0; i < profile.numAngles(); ++i, report()) profile.angles(i);
-  for (std::size_t i = 0; i < profile.numTemperatures(); ++i, report()) profile.temperatures(i);
+  for (std::size_t s = 0; s < profile.series().size(); ++s)
+    for (std::size_t i = 0; i < profile.numSamples(s); ++i, report()) profile.sample(s, i);
 }
 
 Recording withEventDamage(Recording recording) {
