@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -76,6 +77,13 @@ inline WrittenSamples writtenSamples(const Profile& profile, std::size_t series)
         return profile.sample(series, sample).deviceUs.value_or(kNoSampleDeviceTime);
       };
   return written;
+}
+
+// Whether values may be those of a sample: finite, or of a further series not known (NaN).
+inline bool areSampleValues(std::size_t series, std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [&](double value) {
+    return std::isfinite(value) || (series >= kHandSeries && std::isnan(value));
+  });
 }
 
 // Event; `matrices` has the value `noMatrix` where an event belongs to no single one.

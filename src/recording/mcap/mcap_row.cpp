@@ -44,9 +44,9 @@ Salvage salvageMcap(const fs::path& path, const ReadOptions& options, const Prog
   Recording recording = recoverMcap(path, progress, 0, options.topics);
   const Profile& profile = recording.profile;
   const Damage& damage = recording.damage;
-  if (profile.numFrames() + profile.numAngles() + profile.numTemperatures() == 0 &&
-      !damage.text.empty())
-    return {.message = damage.text};
+  std::size_t samples = profile.numFrames();
+  for (std::size_t s = 0; s < profile.series().size(); ++s) samples += profile.numSamples(s);
+  if (samples == 0 && !damage.text.empty()) return {.message = damage.text};
   Salvage salvage;
   std::string& missing = salvage.missing = mcapDamageText(damage);
   if (damage.events > 0)
