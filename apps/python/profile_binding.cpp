@@ -1,7 +1,9 @@
 // Binds palpate.Profile: the data of a recording as arrays.
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -110,27 +112,60 @@ DoubleArray samples(std::size_t count, std::size_t width, const ValuesOf& values
   return array;
 }
 
-std::size_t angleWidth(const Profile& profile) {
-  return profile.numAngles() > 0 ? profile.angles(0).values.size() : profile.hand().axes.size();
+std::size_t widthOf(const Profile& profile, std::size_t series) {
+  return profile.numSamples(series) > 0 ? profile.sample(series, 0).values.size()
+                                        : profile.series()[series].columns.size();
 }
 
-std::size_t temperatureWidth(const Profile& profile) {
-  return profile.numTemperatures() > 0 ? profile.temperatures(0).values.size()
-                                       : profile.hand().temperatureSensors.size();
-}
-
-DoubleArray anglesAtFrames(const Profile& profile) {
-  if (profile.numAngles() == 0) throw py::value_error("this recording has no joint angles");
-  return samples(profile.numFrames(), angleWidth(profile), [&](std::size_t i) {
-    return profile.anglesAtFrame(i)->values;
+DoubleArray valuesOf(const Profile& profile, std::size_t series) {
+  return samples(profile.numSamples(series), widthOf(profile, series), [&](std::size_t i) {
+    return profile.sample(series, i).values;
   });
 }
 
-DoubleArray temperaturesAtFrames(const Profile& profile) {
-  if (profile.numTemperatures() == 0) throw py::value_error("this recording has no temperatures");
-  return samples(profile.numFrames(), temperatureWidth(profile), [&](std::size_t i) {
-    return profile.temperaturesAtFrame(i)->values;
+DoubleArray valuesAtFrames(const Profile& profile, std::size_t series, const char* what) {
+  if (profile.numSamples(series) == 0)
+    throw py::value_error("this recording has no " + std::string(what));
+  return samples(profile.numFrames(), widthOf(profile, series), [&](std::size_t i) {
+    return profile.sampleAtFrame(series, i)->values;
   });
+}
+
+TimeArray sampleTimes(const Profile& profile, std::size_t series, std::int64_t unitUs) {
+  return times(profile.numSamples(series), unitUs, [&](std::size_t i) {
+    return profile.sampleTimeUs(series, i);
+  });
+}
+
+// A series of a profile, whose arrays are made when they are asked for.
+struct SeriesOfProfile {
+  Profile profile;
+  std::size_t index;
+  const SeriesDescription& description() const { return profile.series()[index]; }
+};
+
+py::dict seriesOf(const Profile& profile) {
+  py::dict all;
+  for (std::size_t i = 0; i < profile.series().size(); ++i)
+    all[py::str(profile.series()[i].name)] = SeriesOfProfile{profile, i};
+  return all;
+}
+
+py::object deviceTimes(const SeriesOfProfile& series) {
+  bool any = false;
+  const auto times =
+      column<std::int64_t>(series.profile.numSamples(series.index), [&](std::size_t i) {
+        const auto deviceUs = series.profile.sample(series.index, i).deviceUs;
+        any = any || deviceUs;
+        return deviceUs.value_or(std::numeric_limits<std::int64_t>::min());
+      });
+  return any ? py::object(times) : py::none();
+}
+
+std::vector<std::string> textsOf(const SeriesOfProfile& series, std::string Column::*text) {
+  std::vector<std::string> texts;
+  for (const Column& column : series.description().columns) texts.push_back(column.*text);
+  return texts;
 }
 
 py::list matrices(const Profile& profile) {
@@ -220,10 +255,13 @@ void save(const Profile& profile,
 
 std::string described(const Profile& profile) {
   const std::size_t numMatrices = profile.layout().numMatrices();
+  std::string further;
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    further += ", " + counted(profile.numSamples(i), "sample") + " of " + profile.series()[i].name;
   return "<palpate.Profile: " + counted(profile.numFrames(), "frame") + ", " +
          std::to_string(numMatrices) + (numMatrices == 1 ? " matrix, " : " matrices, ") +
          counted(profile.numAngles(), "angle sample") + ", " +
-         counted(profile.numTemperatures(), "temperature sample") + ">";
+         counted(profile.numTemperatures(), "temperature sample") + further + ">";
 }
 
 using ProfileClass = py::class_<Profile>;
@@ -271,27 +309,27 @@ void bindValues(ProfileClass& profile) {
            "One taxel of the frames start..stop (exclusive), column x, row y: float32 (T,).")
       .def_property_readonly(
           "angles",
-          [](const Profile& p) {
-            return samples(
-                p.numAngles(), angleWidth(p), [&](std::size_t i) { return p.angles(i).values; });
-          },
+          [](const Profile& p) { return valuesOf(p, kAngleSeries); },
           "Joint angles [deg]: float64 (n, axes).")
       .def_property_readonly(
           "temperatures",
-          [](const Profile& p) {
-            return samples(p.numTemperatures(), temperatureWidth(p), [&](std::size_t i) {
-              return p.temperatures(i).values;
-            });
-          },
+          [](const Profile& p) { return valuesOf(p, kTemperatureSeries); },
           "Temperatures [deg C]: float64 (n, sensors); 0: no reading yet.")
-      .def("angles_at_frames",
-           &anglesAtFrames,
-           "Joint angles that belong to each frame (the last sample at or before it, clamped at "
-           "both ends) [deg]: float64 (T, axes). ValueError without angles.")
-      .def("temperatures_at_frames",
-           &temperaturesAtFrames,
-           "Temperatures that belong to each frame, as angles_at_frames() [deg C]: float64 (T, "
-           "sensors). ValueError without temperatures.");
+      .def_property_readonly(
+          "series",
+          &seriesOf,
+          "All series of the recording, a Series each: dict by their names. 'angles' and "
+          "'temperatures' are always there, then what a load cell or an IMU sent.")
+      .def(
+          "angles_at_frames",
+          [](const Profile& p) { return valuesAtFrames(p, kAngleSeries, "joint angles"); },
+          "Joint angles that belong to each frame (the last sample at or before it, clamped at "
+          "both ends) [deg]: float64 (T, axes). ValueError without angles.")
+      .def(
+          "temperatures_at_frames",
+          [](const Profile& p) { return valuesAtFrames(p, kTemperatureSeries, "temperatures"); },
+          "Temperatures that belong to each frame, as angles_at_frames() [deg C]: float64 (T, "
+          "sensors). ValueError without temperatures.");
 }
 
 void bindTimes(ProfileClass& profile) {
@@ -308,17 +346,11 @@ void bindTimes(ProfileClass& profile) {
           "time_s", &secondsOf, "Time of each frame from the first one [s]: float64 (T,).")
       .def_property_readonly(
           "angle_time_ms",
-          [](const Profile& p) {
-            return times(p.numAngles(), kUsPerMs, [&](std::size_t i) { return p.angleTimeUs(i); });
-          },
+          [](const Profile& p) { return sampleTimes(p, kAngleSeries, kUsPerMs); },
           "Host time of each sample of the angles [ms since 1970]: int64 (n,).")
       .def_property_readonly(
           "temperature_time_ms",
-          [](const Profile& p) {
-            return times(p.numTemperatures(), kUsPerMs, [&](std::size_t i) {
-              return p.temperatureTimeUs(i);
-            });
-          },
+          [](const Profile& p) { return sampleTimes(p, kTemperatureSeries, kUsPerMs); },
           "Host time of each sample of the temperatures [ms since 1970]: int64 (n,).")
       .def("timing",
            &timing,
@@ -335,9 +367,54 @@ void bindTimes(ProfileClass& profile) {
           "without frames.");
 }
 
+void bindSeries(py::module_& module) {
+  py::class_<SeriesOfProfile>(module,
+                              "Series",
+                              "Rows of numbers with stamps of their own beside the frames of a "
+                              "recording: from Profile.series.")
+      .def("__len__", [](const SeriesOfProfile& s) { return s.profile.numSamples(s.index); })
+      .def("__repr__",
+           [](const SeriesOfProfile& s) {
+             return "<palpate.Series " + s.description().name + ": " +
+                    counted(s.profile.numSamples(s.index), "sample") + ", " +
+                    counted(s.description().columns.size(), "column") + ">";
+           })
+      .def_property_readonly(
+          "times_us",
+          [](const SeriesOfProfile& s) { return sampleTimes(s.profile, s.index, 1); },
+          "Host time of each sample [us since 1970]: int64 (n,).")
+      .def_property_readonly(
+          "device_times_us",
+          &deviceTimes,
+          "The sender's clock at each sample [us]: int64 (n,), -2^63 where it is "
+          "not known; None where no sample has it.")
+      .def_property_readonly(
+          "values",
+          [](const SeriesOfProfile& s) { return valuesOf(s.profile, s.index); },
+          "The samples: float64 (n, columns); NaN where a value is not known.")
+      .def_property_readonly(
+          "columns",
+          [](const SeriesOfProfile& s) { return textsOf(s, &Column::name); },
+          "Names of the columns: list of str.")
+      .def_property_readonly(
+          "units",
+          [](const SeriesOfProfile& s) { return textsOf(s, &Column::unit); },
+          "Units of the columns, '' where none is known: list of str.")
+      .def_property_readonly(
+          "role",
+          [](const SeriesOfProfile& s) { return s.description().role; },
+          "What it means to Palpate: 'joint_angles', 'temperatures', 'reference_force', 'trigger', "
+          "or ''.")
+      .def_property_readonly(
+          "source",
+          [](const SeriesOfProfile& s) { return s.description().source; },
+          "Where it comes from, for people to read; or ''.");
+}
+
 }  // namespace
 
 void bindProfile(py::module_& module) {
+  bindSeries(module);
   py::class_<FrameIterator>(module, "_FrameIterator", py::module_local())
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", [](FrameIterator& frames) {
@@ -347,8 +424,9 @@ void bindProfile(py::module_& module) {
   ProfileClass profile(
       module,
       "Profile",
-      "The data of one recording: three time series (frames of taxels, joint angles, "
-      "temperatures), each with its own stamps. Read-only; several threads may read one. "
+      "The data of one recording: frames of taxels and any number of series (joint angles, "
+      "temperatures, a load cell, ..), each with its own stamps. Read-only; several threads may "
+      "read one. "
       "Arrays have memory of their own: they stay valid after the profile is deleted, and changing "
       "one "
       "changes nothing else. From load(), from_arrays(), filter(), synthesize() ..");

@@ -51,10 +51,10 @@ Profile inMemory(const Profile& profile, ProfileInfo info) {
     profile.readFrame(i, frame);
     builder.addFrame(frame);
   }
-  for (std::size_t i = 0; i < profile.numAngles(); ++i)
-    builder.addAngles(profile.angleTimeUs(i), profile.angles(i).values);
-  for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
-    builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).values);
+  for (std::size_t s = 0; s < profile.series().size(); ++s) {
+    if (s >= kHandSeries) builder.addSeries(profile.series()[s]);
+    for (std::size_t i = 0; i < profile.numSamples(s); ++i) builder.addSample(profile.sample(s, i));
+  }
   return builder.finish(std::move(info));
 }
 

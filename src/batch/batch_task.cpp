@@ -120,6 +120,9 @@ BatchTask convertTask(const ConvertOptions& options) {
           answer.said += "; " + std::to_string(saved.movedStamps) +
                          " time stamps moved behind the one before: whole milliseconds must "
                          "grow";
+        if (!saved.beside.empty())
+          answer.said +=
+              "; " + std::to_string(saved.beside.size()) + " further series in files beside it";
         answer.problem = partText(item, profile, recording.damage.events);
         return answer;
       }};

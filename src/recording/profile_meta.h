@@ -3,8 +3,14 @@
 // it, too.
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "palpate/core/error.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/model/profile.h"
 #include "palpate/recording/recording_data.h"
@@ -50,6 +56,19 @@ inline ProfileInfo readInfo(RecordingMeta& meta, const char* format, bool counts
     if (meta[key].empty()) meta.erase(key);
   info.valueType = counts ? ValueType::kCounts : ValueType::kFloat;
   return info;
+}
+
+// A profile whose further series a file describes. Throws FormatError where they are not valid.
+inline Profile recordedProfile(const std::filesystem::path& path,
+                               ProfileInfo info,
+                               HandDescription hand,
+                               std::shared_ptr<const ProfileStorage> storage,
+                               std::vector<SeriesDescription> further) {
+  try {
+    return {std::move(info), std::move(hand), std::move(storage), std::move(further)};
+  } catch (const std::invalid_argument& error) {
+    throw FormatError(path, std::string("its series are damaged: ") + error.what());
+  }
 }
 
 }  // namespace palpate

@@ -145,16 +145,14 @@ std::string withoutName(const fs::path& path, const std::string& message) {
 
 void readThrough(const Profile& profile, const Progress& progress) {
   constexpr std::size_t kSamplesPerReport = 4096;
-  const std::size_t numSeries = profile.series().size();
   std::size_t all = profile.numFrames();
-  for (std::size_t series = 0; series < numSeries; ++series) all += profile.numSamples(series);
+  for (std::size_t s = 0; s < profile.series().size(); ++s) all += profile.numSamples(s);
   std::size_t read = 0;
   const auto report = [&] { reportProgress(progress, read++, all + 1, kSamplesPerReport); };
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i, report()) profile.readFrame(i, frame);
-  for (std::size_t series = 0; series < numSeries; ++series)
-    for (std::size_t i = 0; i < profile.numSamples(series); ++i, report())
-      profile.sample(series, i);
+  for (std::size_t s = 0; s < profile.series().size(); ++s)
+    for (std::size_t i = 0; i < profile.numSamples(s); ++i, report()) profile.sample(s, i);
 }
 
 Recording withEventDamage(Recording recording) {

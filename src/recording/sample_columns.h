@@ -1,11 +1,13 @@
-// What the forms of a file write of joint angles, temperatures and events: columns. Private to this
-// module; inline, because the library of HDF5 files, which this module links, needs it, too.
+// What the forms of a file write of series and events: columns. Private to this module; inline,
+// because the library of HDF5 files, which this module links, needs it, too.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,15 +21,13 @@ namespace palpate {
 
 // The columns of samples of `width` values; what the hand doesn't describe has no name, and an axis
 // no unit.
-inline std::vector<Column> angleColumns(const HandDescription& hand,
-                                                        std::size_t width) {
+inline std::vector<Column> angleColumns(const HandDescription& hand, std::size_t width) {
   std::vector<Column> columns(width);
   for (std::size_t i = 0; i < std::min(width, hand.axes.size()); ++i)
     columns[i] = {hand.axes[i].name, hand.axes[i].unit()};
   return columns;
 }
-inline std::vector<Column> temperatureColumns(const HandDescription& hand,
-                                                              std::size_t width) {
+inline std::vector<Column> temperatureColumns(const HandDescription& hand, std::size_t width) {
   std::vector<Column> columns(width, {"", "degC"});
   for (std::size_t i = 0; i < std::min(width, hand.temperatureSensors.size()); ++i)
     columns[i].name = hand.temperatureSensors[i].name;
@@ -45,14 +45,19 @@ inline std::vector<std::string> columnUnits(const std::vector<Column>& columns) 
   return units;
 }
 
+constexpr std::int64_t kNoSampleDeviceTime = std::numeric_limits<std::int64_t>::min();
+
 // The samples of a series of a profile. Without samples the columns are those of its description.
 struct WrittenSamples {
   std::size_t count = 0;
   std::function<std::int64_t(std::size_t sample)> timeUs;  // [us since 1970]
   std::function<std::vector<double>(std::size_t sample)> values;
   std::vector<Column> columns;
+  // The sender's clock [us]; of a sample without it kNoSampleDeviceTime. Null where no sample has
+  // it, and of the hand's series.
+  std::function<std::int64_t(std::size_t sample)> deviceUs = nullptr;
 };
-// Throws Error where the first sample can't be read.
+// Throws Error where a sample can't be read: of the hand's series the first one.
 inline WrittenSamples writtenSamples(const Profile& profile, std::size_t series) {
   const std::size_t count = profile.numSamples(series);
   std::vector<Column> columns = profile.series()[series].columns;
@@ -60,10 +65,25 @@ inline WrittenSamples writtenSamples(const Profile& profile, std::size_t series)
     columns = angleColumns(profile.hand(), profile.angles(0).values.size());
   if (count > 0 && series == kTemperatureSeries)
     columns = temperatureColumns(profile.hand(), profile.temperatures(0).values.size());
-  return {count,
-          [profile, series](std::size_t i) { return profile.sampleTimeUs(series, i); },
-          [profile, series](std::size_t i) { return profile.sample(series, i).values; },
-          std::move(columns)};
+  WrittenSamples written{
+      count,
+      [profile, series](std::size_t i) { return profile.sampleTimeUs(series, i); },
+      [profile, series](std::size_t i) { return profile.sample(series, i).values; },
+      std::move(columns)};
+  if (series < kHandSeries) return written;
+  for (std::size_t i = 0; i < count && !written.deviceUs; ++i)
+    if (profile.sample(series, i).deviceUs)
+      written.deviceUs = [profile, series](std::size_t sample) {
+        return profile.sample(series, sample).deviceUs.value_or(kNoSampleDeviceTime);
+      };
+  return written;
+}
+
+// Whether values may be those of a sample: finite, or of a further series not known (NaN).
+inline bool areSampleValues(std::size_t series, std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [&](double value) {
+    return std::isfinite(value) || (series >= kHandSeries && std::isnan(value));
+  });
 }
 
 // Event; `matrices` has the value `noMatrix` where an event belongs to no single one.

@@ -1,9 +1,13 @@
 """palpate.load(), Profile, save(): against the independent reader of the tests and NumPy's own."""
+import contextlib
 import copy
 import json
 import multiprocessing
 import os
 import pickle
+import shutil
+import sqlite3
+import struct
 import tempfile
 import unittest
 from pathlib import Path
@@ -131,6 +135,50 @@ class Arrays(unittest.TestCase):
             np.testing.assert_array_equal(profile.frames(start, stop), every[start:stop])
         np.testing.assert_array_equal(profile.matrix(-1), profile.matrix(5))
         self.assertEqual(profile.serial, "1D9B0057")
+
+
+class FurtherSeries(unittest.TestCase):
+    @staticmethod
+    def add_wrist(path, rows):
+        """Adds a series to a native recording by docs/palpate_format.md: (host us, device us, fx, fz)."""
+        columns = '[{"name":"fx","unit":"N"},{"name":"fz","unit":""}]'
+        begin = rows[0][0]
+        data = b"".join(struct.pack("<Iqdd", t - begin, device, fx, fz) for t, device, fx, fz in rows)
+        block = (3, 0, len(rows), begin, rows[-1][0], 3 | 8)
+        with contextlib.closing(sqlite3.connect(path)) as db:
+            db.execute("CREATE TABLE series(idx INTEGER PRIMARY KEY, name TEXT NOT NULL, role TEXT NOT NULL,"
+                       " source TEXT NOT NULL, columns TEXT NOT NULL, crc32 INTEGER NOT NULL)")
+            series = (3, "wrist", "trigger", "tcp:1", columns)
+            crc = independent_reader.row_crc(3, "wrist", "trigger", "tcp:1", columns)
+            db.execute("INSERT INTO series VALUES(?, ?, ?, ?, ?, ?)", (*series, crc))
+            db.execute("INSERT INTO block(stream, first, n, t0_us, t1_us, coding, crc32, data)"
+                       " VALUES(?, ?, ?, ?, ?, ?, ?, ?)", (*block, independent_reader.block_crc(*block, data), data))
+            db.execute("PRAGMA user_version=3")
+            db.commit()
+
+    def test_series_of_the_hand(self):
+        profile = palpate.load(WHOLE)
+        angles = profile.series["angles"]
+        np.testing.assert_array_equal(angles.values, profile.angles)
+        self.assertEqual((angles.role, angles.columns), ("joint_angles", profile.axes))
+        self.assertIsNone(angles.device_times_us)
+
+    def test_values_times_and_pickling(self):
+        rows = [(10**15 + 7, 1001, 0.1, 2.5), (10**15 + 9, -2**63, 0.3, float("nan"))]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.palpate")
+            shutil.copy(WHOLE, path)
+            self.add_wrist(path, rows)
+            profile = palpate.load(path)
+            for each in (profile, pickle.loads(pickle.dumps(profile))):
+                self.assertEqual(list(each.series), ["angles", "temperatures", "wrist"])
+                wrist = each.series["wrist"]
+                self.assertEqual((len(wrist), wrist.role, wrist.source), (2, "trigger", "tcp:1"))
+                self.assertEqual((wrist.columns, wrist.units), (["fx", "fz"], ["N", ""]))
+                np.testing.assert_array_equal(wrist.times_us, [row[0] for row in rows])
+                np.testing.assert_array_equal(wrist.device_times_us, [row[1] for row in rows])
+                np.testing.assert_array_equal(wrist.values, [row[2:] for row in rows])
+            self.assertIn("2 samples of wrist", repr(profile))
 
 
 class Saving(unittest.TestCase):

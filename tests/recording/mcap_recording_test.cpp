@@ -579,7 +579,7 @@ TEST(McapRecording, damagedAndNewerFilesNameWhatIsWrong) {
   bytes = whole;
   bytes.replace(end + 9, 4, 4, '\0');
   const std::string version = "layout_version" + std::string("\1\0\0\0", 4);
-  bytes[bytes.find(version) + version.size()] = '3';
+  bytes[bytes.find(version) + version.size()] = '4';
   testing::writeFile(folder / "newer.mcap", bytes);
   expectError(folder / "newer.mcap", "newer Palpate");
   bytes = whole;

@@ -34,6 +34,13 @@ std::string movedText(std::size_t stamps) {
          " time stamps moved behind the one before: whole milliseconds must grow";
 }
 
+// Names the files of further series that lie beside a .csv.
+std::string besideText(const std::vector<fs::path>& files) {
+  std::string text;
+  for (const fs::path& file : files) text += (text.empty() ? "; series in " : ", ") + file.string();
+  return text;
+}
+
 int convertOne(const CommandLine& given, const std::string& in, const std::string& out) {
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   formatOf(out);
@@ -69,7 +76,10 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
     return saveRecording(profile, recording.events, out, overwrite, progress.callback(), extras);
   }();
   if (!given.quiet())
-    std::printf("%s\n", escapedLine(doneText(out, profile) + movedText(saved.movedStamps)).c_str());
+    std::printf("%s\n",
+                escapedLine(doneText(out, profile) + movedText(saved.movedStamps) +
+                            besideText(saved.beside))
+                    .c_str());
   const int code = reportOpened(in, profile, given.quiet());
   if (recording.damage.events == 0) return code;
   std::fprintf(stderr,
@@ -143,7 +153,7 @@ int convertCommand(const Arguments& words) {
       {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM\n"
                    "       palpate convert PATH... [--each-grasp] -o TEMPLATE",
        .purpose = "Converts a recording. The ending of OUT chooses the format: .dsa, .palpate, "
-                  ".csv (with OUT.angles.csv and OUT.temperatures.csv beside it), .npz (for "
+                  ".csv (with OUT.angles.csv and such files of other series beside it), .npz (for "
                   "NumPy), .h5, .mat, .mcap (docs/bridges.md) or .jsonl (frames as "
                   "schunk_sdh/TactileSensor). Of a FOLDER it converts every recording below it, "
                   "into OUTFOLDER under the same names with the ending of FORM, and prints a line "

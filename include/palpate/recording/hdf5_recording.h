@@ -1,7 +1,7 @@
 // A recording as an HDF5 file, which h5py, MATLAB, HDFView and others open; docs/bridges.md has its
-// layout. It holds all of a recording (frames, stamps, angles, temperatures, events, hand, what was
-// said of it) bit by bit, so that it can be read back, and beside that where it comes from and
-// series that were computed of its frames.
+// layout. It holds all of a recording (frames, stamps, series, events, hand, what was said of it)
+// bit by bit, so that it can be read back, and beside that where it comes from and series that were
+// computed of its frames.
 //
 // Files are read by a process of its own, palpate_hdf5, whose memory and processor time are
 // limited: libhdf5 crashes and hangs on files that anybody can make. A program that does without
@@ -23,9 +23,10 @@
 
 namespace palpate {
 
-// The newest version of the layout that is read. Only recordings with filtered frames are written
-// in it, for `mN_kept`; all others have version 1, so that earlier programs read them.
-constexpr int kHdf5LayoutVersion = 2;
+// The newest version of the layout that is read. Only recordings with further series are written
+// in it; those with filtered frames have version 2, for `mN_kept`, and all others version 1, so
+// that earlier programs read them.
+constexpr int kHdf5LayoutVersion = 3;
 
 // The first bytes of what writeHdf5() writes, and of HDF5 files without a user block.
 constexpr std::string_view kHdf5RecordingStart = "Palpate recording in HDF5\n";
@@ -50,7 +51,7 @@ void writeHdf5(const RecordingContent& content,
                const Hdf5WriteOptions& options = {});
 
 // Opens what writeHdf5() has made. The whole file is read once for its checksum. A part of the
-// stamps lies in memory; frames, angles and temperatures are read when they are asked for, and the
+// stamps lies in memory; frames and samples are read when they are asked for, and the
 // profile is safe from several threads. The process that reads it lives as long as the profile.
 // Throws FileError (also when palpate_hdf5 can't be started); FormatError where it is damaged, cut
 // off or changed, another program's (palpate import reads those), of a newer layout, refers to

@@ -1,8 +1,8 @@
 // A recording as an MCAP file, the container of ROS 2 and Foxglove (specification: mcap.dev/spec);
-// docs/bridges.md has its topics. It holds all of a recording (frames, stamps, angles,
-// temperatures, events, hand, what was said of it) bit by bit, so that it can be read back, and
-// beside that where it comes from and series that were computed of its frames. MCAP files of other
-// programs are read as far as they have images with one value per pixel.
+// docs/bridges.md has its topics. It holds all of a recording (frames, stamps, series, events,
+// hand, what was said of it) bit by bit, so that it can be read back, and beside that where it
+// comes from and series that were computed of its frames. MCAP files of other programs are read as
+// far as they have images with one value per pixel.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,10 @@
 
 namespace palpate {
 
-// The newest version of the topics that is read. Only recordings with filtered frames are written
-// in it, which have `kept`; all others have version 1, so that earlier programs read them.
-constexpr int kMcapLayoutVersion = 2;
+// The newest version of the topics that is read. Only recordings with further series are written in
+// it; those with filtered frames, which have `kept`, have version 2, and all others version 1, so
+// that earlier programs read them.
+constexpr int kMcapLayoutVersion = 3;
 
 // How the chunks of a file are compressed.
 enum class McapCompression { kNone, kLz4, kZstd };
@@ -93,8 +94,8 @@ constexpr std::size_t kMaxMcapEventsBytes = 64u << 20;
 // "32 events beyond the 64 MB that are read were left out".
 std::string mcapEventsLeftOutText(std::size_t count);
 
-// Reads a whole MCAP file through, all its checksums, and opens it. Stamps lie in memory; frames,
-// angles and temperatures are read when they are asked for, and the profile is safe from several
+// Reads a whole MCAP file through, all its checksums, and opens it. Stamps lie in memory; frames
+// and samples are read when they are asked for, and the profile is safe from several
 // threads. Of the events the first 64 MB are read. Of another program's file each
 // topic of images becomes a matrix of a plain hand, in the order of the topics' names: messages
 // sensor_msgs/msg/Image (CDR) and foxglove.RawImage (protobuf) of the encodings mono8, mono16,

@@ -26,7 +26,8 @@ struct SaveExtras {
 };
 // What a saved recording could not hold as it was.
 struct SaveReport {
-  std::size_t movedStamps = 0;  // of a .dsa: see DsaWriteReport
+  std::size_t movedStamps = 0;                     // of a .dsa: see DsaWriteReport
+  std::vector<std::filesystem::path> beside = {};  // of a .csv: the files of further series
 };
 
 // All that is needed to save a recording.

@@ -15,8 +15,8 @@ constexpr const char* kJsonLinesEndings[] = {".jsonl"};
 constexpr const char* kMatEndings[] = {".mat"};
 
 SaveReport saveCsv(const SaveJob& job) {
-  writeCsv(job.content.profile, job.path, job.overwrite, job.progress, job.extras.unitsRow);
-  return {};
+  return {.beside = writeCsv(
+              job.content.profile, job.path, job.overwrite, job.progress, job.extras.unitsRow)};
 }
 
 SaveReport saveNpz(const SaveJob& job) {

@@ -65,18 +65,34 @@ class MatExport {
     return MatValue::structure(std::move(fields));
   }
 
-  // Joint angles or temperatures.
+  // A series with samples of its own.
   static MatValue samples(const std::string& name, const WrittenSamples& from) {
-    return MatValue::structure({{name,
-                                 MatValue::numbers(MatNumber::kF64,
-                                                   {from.columns.size(), from.count},
-                                                   [from](const MatSink& sink) {
-                                                     for (std::size_t i = 0; i < from.count; ++i)
-                                                       sink(matBytesOf(from.values(i)));
-                                                   })},
-                                {"column", MatValue::texts(columnNames(from.columns))},
-                                {"units", MatValue::texts(columnUnits(from.columns))},
-                                {"time_us", stampsOf(from.count, from.timeUs)}});
+    Fields fields{{name,
+                   MatValue::numbers(MatNumber::kF64,
+                                     {from.columns.size(), from.count},
+                                     [from](const MatSink& sink) {
+                                       for (std::size_t i = 0; i < from.count; ++i)
+                                         sink(matBytesOf(from.values(i)));
+                                     })},
+                  {"column", MatValue::texts(columnNames(from.columns))},
+                  {"units", MatValue::texts(columnUnits(from.columns))},
+                  {"time_us", stampsOf(from.count, from.timeUs)}};
+    if (from.deviceUs) fields.emplace_back("device_time_us", stampsOf(from.count, from.deviceUs));
+    return MatValue::structure(std::move(fields));
+  }
+
+  // A field for each further series. Throws FileError where a name is too long.
+  static MatValue further(const Profile& profile, const std::filesystem::path& path) {
+    Fields fields;
+    for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
+      const std::string& name = profile.series()[i].name;
+      if (name.size() > kMaxMatName)
+        throw FileError(path,
+                        "can't hold the series '" + name + "': names have at most " +
+                            std::to_string(kMaxMatName) + " letters; write .h5 or .palpate");
+      fields.emplace_back(name, samples("values", writtenSamples(profile, i)));
+    }
+    return MatValue::structure(std::move(fields));
   }
 
   static MatValue series(ExportedSeries& from) {
@@ -215,13 +231,16 @@ void writeMat(const RecordingContent& content,
               const Progress& progress) {
   const Profile& profile = content.profile;
   const ExportExtras& extras = content.extras;
+  const MatValue further = MatExport::further(profile, path);
   MatFile file(path, overwrite, extras.provenance.program);
   MatExport samples(profile, progress);
   file.add("provenance", matProvenanceOf(extras.provenance, profile));
   file.add("meta", matMetaOf(profile, content.meta));
   file.add("tactile", samples.tactile());
   file.add("joints", MatExport::samples("angles", writtenSamples(profile, kAngleSeries)));
-  file.add("temperatures", MatExport::samples("values", writtenSamples(profile, kTemperatureSeries)));
+  file.add("temperatures",
+           MatExport::samples("values", writtenSamples(profile, kTemperatureSeries)));
+  if (profile.series().size() > kHandSeries) file.add("series", further);
   file.add("events", matEventsOf(content.events));
   for (const auto& series : extras.series) file.add(series->name(), MatExport::series(*series));
   file.commit();

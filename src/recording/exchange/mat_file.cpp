@@ -31,7 +31,7 @@ constexpr std::uint32_t kMiCompressed = 15;
 constexpr std::uint32_t kMiUtf16 = 17;
 
 constexpr std::uint64_t kMostVariableBytes = std::numeric_limits<std::int32_t>::max();
-constexpr std::size_t kFieldNameBytes = 32;  // with the NUL at its end
+constexpr std::size_t kFieldNameBytes = kMaxMatName + 1;  // with the NUL at its end
 
 struct MatNumberType {
   std::uint32_t element;

@@ -16,6 +16,8 @@
 
 namespace palpate {
 
+constexpr std::size_t kMaxMatName = 31;  // of a field
+
 // Numbers that an array holds.
 enum class MatNumber { kU8, kU16, kI32, kI64, kF32, kF64 };
 
@@ -35,7 +37,7 @@ class MatValue {
   static MatValue text(const std::string& utf8);
   // n x 1 cells.
   static MatValue texts(const std::vector<std::string>& utf8);
-  // 1 x 1; names of at most 31 letters.
+  // 1 x 1; names of at most kMaxMatName letters.
   static MatValue structure(std::vector<std::pair<std::string, MatValue>> fields);
 
   // Bytes of the element with its tag; `name`: of the variable, empty inside of others.

@@ -1,5 +1,9 @@
 // writeNpz() of table_export.h: arrays for NumPy, in a zip file.
 #include <bit>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <zlib.h>
 
@@ -233,6 +237,43 @@ void npzExportWriteSamples(ZipWriter& zip, const std::string& name, const Writte
   writeTimes(zip, name + "_time", samples.count, samples.timeUs);
 }
 
+// NAME, NAME_time_us and NAME_device_time_us of a further series.
+void writeSeries(ZipWriter& zip, const std::string& name, const WrittenSamples& samples) {
+  NpyArray array(zip, name, "<f8", 8, {samples.count, samples.columns.size()});
+  for (std::size_t i = 0; i < samples.count; ++i)
+    for (double value : samples.values(i)) array.f64(value);
+  array.end();
+  const auto writeStamps = [&](const char* ending, const auto& timeOf) {
+    NpyArray stamps(zip, name + ending, "<i8", 8, {samples.count});
+    for (std::size_t i = 0; i < samples.count; ++i) stamps.i64(timeOf(i));
+    stamps.end();
+  };
+  writeStamps("_time_us", samples.timeUs);
+  if (samples.deviceUs) writeStamps("_device_time_us", samples.deviceUs);
+}
+
+// Throws FileError where an array of a further series would have the name of another array.
+void requireOwnNames(const Profile& profile, const fs::path& path) {
+  std::set<std::string> taken{"angles",
+                              "angle_time_ms",
+                              "angle_time_us",
+                              "temperatures",
+                              "temperature_time_ms",
+                              "temperature_time_us",
+                              "time_ms",
+                              "time_us",
+                              "static_mask",
+                              "meta"};
+  for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
+    taken.insert({"m" + std::to_string(m), "m" + std::to_string(m) + "_active"});
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    for (const char* ending : {"", "_time_us", "_device_time_us"})
+      if (const std::string& name = profile.series()[i].name; !taken.insert(name + ending).second)
+        throw FileError(path,
+                        "can't hold the series '" + name + "': another array has the name '" +
+                            name + ending + "'; write .h5 or .palpate");
+}
+
 std::vector<std::size_t> shapeOf(const Profile& profile, std::size_t m) {
   const MatrixLayout& layout = profile.layout().matrix(m);
   return {profile.numFrames(),
@@ -301,6 +342,19 @@ std::string metaText(const Profile& profile, std::span<const Event> events) {
       .set("value_type", profile.info().valueType == ValueType::kCounts ? "counts" : "float")
       .set("pitch_mm", std::move(pitches))
       .set("events", eventsToJson(events));
+  if (profile.series().size() > kHandSeries)
+    meta.set(
+        "series",
+        jsonList(
+            std::span(profile.series()).subspan(kHandSeries), [](const SeriesDescription& series) {
+              return Json::object()
+                  .set("name", series.name)
+                  .set("role", series.role)
+                  .set("source", series.source)
+                  .set("columns", jsonList(series.columns, [](const Column& column) {
+                         return Json::object().set("name", column.name).set("unit", column.unit);
+                       }));
+            }));
   return meta.asciiText();
 }
 
@@ -311,6 +365,7 @@ void writeNpz(const Profile& profile,
               const fs::path& path,
               Overwrite overwrite,
               const Progress& progress) {
+  requireOwnNames(profile, path);
   OutputFile out(path, overwrite);
   ZipWriter zip(out);
   writeTimes(
@@ -322,6 +377,8 @@ void writeNpz(const Profile& profile,
     writeActive(zip, profile, m);
   npzExportWriteSamples(zip, "angle", writtenSamples(profile, kAngleSeries));
   npzExportWriteSamples(zip, "temperature", writtenSamples(profile, kTemperatureSeries));
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    writeSeries(zip, profile.series()[i].name, writtenSamples(profile, i));
   NpyArray mask(zip, "static_mask", "|u1", 1, {profile.layout().numCells()});
   for (const MatrixLayout& matrix : profile.layout().matrices())
     for (auto on : matrix.staticMask) mask.u8(on);

@@ -1,5 +1,8 @@
 #include "palpate/recording/table_export.h"
 
+#include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "palpate/core/number_text.h"
@@ -25,62 +28,76 @@ void appendInteger(std::string& text, std::int64_t value) {
   text += ',';
 }
 
-// "sample,time_ms,axis0_deg,..,time_us", and the row of units below it.
-std::string sampleHeader(const WrittenSamples& samples, const std::string& name, bool unitsRow) {
+// "sample,time_ms,axis0_deg,..,time_us", and the row of units below it. Columns of further series
+// have their own names.
+std::string sampleHeader(const WrittenSamples& samples, std::size_t series, bool unitsRow) {
   std::vector<std::string> names{"sample", "time_ms"};
   std::vector<std::string> units{"", "ms"};
   for (std::size_t i = 0; i < samples.columns.size(); ++i) {
-    const std::string& known = samples.columns[i].unit;
+    const auto& [name, known] = samples.columns[i];
+    if (series >= kHandSeries) {
+      units.push_back(known);
+      names.push_back(known.empty() ? name : name + "_" + known);
+      continue;
+    }
     units.push_back(known.empty() ? "deg" : known);
-    names.push_back(name + std::to_string(i) + (known == "degC" ? "_degc" : "_" + units.back()));
+    names.push_back((series == kAngleSeries ? "axis" : "sensor") + std::to_string(i) +
+                    (known == "degC" ? "_degc" : "_" + units.back()));
   }
   names.emplace_back("time_us");
   units.emplace_back("us");
+  if (samples.deviceUs) {
+    names.emplace_back("device_time_us");
+    units.emplace_back("us");
+  }
   return unitsRow ? csvLine(names) + csvLine(units) : csvLine(names);
 }
 
-// One row per sample: time [ms], a column per value, named with its unit, and the time [us].
+// One row per sample: time [ms], a column per value (empty: not known), named with its unit, the
+// time [us], and where it is known that of the sender.
 void tableExportWriteSamples(OutputFile& out,
                              const WrittenSamples& samples,
-                             const std::string& name,
+                             std::size_t series,
                              bool unitsRow) {
-  std::string text = sampleHeader(samples, name, unitsRow);
+  std::string text = sampleHeader(samples, series, unitsRow);
   for (std::size_t i = 0; i < samples.count; ++i) {
     appendInteger(text, static_cast<std::int64_t>(i));
     appendNumber(text, floorMs(samples.timeUs(i)));
     for (double value : samples.values(i)) {
       text += ',';
-      appendNumber(text, value);
+      if (!std::isnan(value)) appendNumber(text, value);
     }
     text += ',';
     appendNumber(text, samples.timeUs(i));
+    if (samples.deviceUs) {
+      text += ',';
+      const std::int64_t deviceUs = samples.deviceUs(i);
+      if (deviceUs != kNoSampleDeviceTime) appendNumber(text, deviceUs);
+    }
     text += '\n';
     writePiece(out, text);
   }
   writePiece(out, text, true);
 }
 
-fs::path tableExportWithEnding(const fs::path& path, const char* ending) {
-  fs::path other = path;
-  other += ending;
-  return other;
-}
-
 }  // namespace
 
-void writeCsv(const Profile& profile,
-              const fs::path& path,
-              Overwrite overwrite,
-              const Progress& progress,
-              bool unitsRow) {
+std::vector<fs::path> writeCsv(const Profile& profile,
+                               const fs::path& path,
+                               Overwrite overwrite,
+                               const Progress& progress,
+                               bool unitsRow) {
   constexpr std::size_t kFramesPerReport = 256;
   OutputFile taxels(path, overwrite);
-  std::optional<OutputFile> angles;
-  std::optional<OutputFile> temperatures;
-  if (profile.numAngles() > 0)
-    angles.emplace(tableExportWithEnding(path, ".angles.csv"), overwrite);
-  if (profile.numTemperatures() > 0)
-    temperatures.emplace(tableExportWithEnding(path, ".temperatures.csv"), overwrite);
+  std::vector<std::pair<std::size_t, std::unique_ptr<OutputFile>>> series;
+  std::vector<fs::path> further;
+  for (std::size_t i = 0; i < profile.series().size(); ++i) {
+    if (profile.numSamples(i) == 0) continue;
+    fs::path beside = path;
+    beside += "." + profile.series()[i].name + ".csv";
+    series.emplace_back(i, std::make_unique<OutputFile>(beside, overwrite));
+    if (i >= kHandSeries) further.push_back(std::move(beside));
+  }
 
   std::string text = "frame,time_ms,matrix,y,x,value,time_us\n";
   if (unitsRow) text += csvLine({"", "ms", "", "", "", profile.hand().unit, "us"});
@@ -108,13 +125,13 @@ void writeCsv(const Profile& profile,
     writePiece(taxels, text);
   }
   writePiece(taxels, text, true);
-  if (angles) tableExportWriteSamples(*angles, writtenSamples(profile, kAngleSeries), "axis", unitsRow);
-  if (temperatures)
-    tableExportWriteSamples(*temperatures, writtenSamples(profile, kTemperatureSeries), "sensor", unitsRow);
   std::vector<OutputFile*> files{&taxels};
-  if (angles) files.push_back(&*angles);
-  if (temperatures) files.push_back(&*temperatures);
+  for (const auto& [index, out] : series) {
+    tableExportWriteSamples(*out, writtenSamples(profile, index), index, unitsRow);
+    files.push_back(out.get());
+  }
   commitTogether(files);
+  return further;
 }
 
 TextTable taxelTable(const TactileFrame& frame, const std::string& index) {

@@ -13,6 +13,7 @@ namespace palpate::hdf5_layout {
 
 constexpr const char* kFormat = "palpate";  // value of the attribute `format`
 constexpr std::int64_t kUnfilteredLayoutVersion = 1;
+constexpr std::int64_t kFilteredLayoutVersion = 2;
 constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
 constexpr std::int32_t kNoMatrix = std::numeric_limits<std::int32_t>::min();
 
@@ -25,6 +26,18 @@ inline std::string userBlock(const std::string& sha256OfTheRest) {
   block.resize(kUserBlockBytes, '\0');
   return block;
 }
+
+// The group of a series, and its array of values.
+inline std::string seriesGroup(std::size_t series, const std::string& name) {
+  return series == kAngleSeries         ? "joints"
+         : series == kTemperatureSeries ? "temperatures"
+                                        : "series/" + name;
+}
+inline const char* seriesValues(std::size_t series) {
+  return series == kAngleSeries ? "angles" : "values";
+}
+// Attribute of the group `series`: the names of further series in their order, with commas between.
+constexpr const char* kSeriesNames = "names";
 
 inline std::string matrixPath(std::size_t matrix) { return "tactile/m" + std::to_string(matrix); }
 

@@ -2,11 +2,13 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -28,6 +30,7 @@
 #include "recording/block_cache.h"
 #include "recording/hdf5/hdf5_layout.h"
 #include "recording/profile_meta.h"
+#include "recording/sample_columns.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -39,6 +42,7 @@ constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 constexpr std::uint64_t kMostEvents = 1'000'000;
 constexpr std::uint64_t kMostMetaRows = 1'000;
 constexpr std::size_t kMostAttributeBytes = 60'000;
+constexpr std::size_t kMostNameBytes = kMaxSeries * (kMaxSeriesName + 1);
 constexpr std::size_t kMostMetaBytes = 2 * kHandFileByteLimit;
 constexpr std::size_t kMostTextBytes = 64u << 20;  // of all texts of a file together
 constexpr std::size_t kMostReadFrames = 4096;      // in one block
@@ -184,13 +188,15 @@ class StampSeries {
   mutable BlockCache<std::vector<std::int64_t>> pieces_{kPieces};  // by first index
 };
 
-// Joint angles or temperatures: stamps, and values in blocks of rows. Safe from several threads.
+// The samples of a series: stamps, and values in blocks of rows. Safe from several threads.
 class SampleSeries {
  public:
-  SampleSeries(Hdf5Process& file, const std::string& group, const std::string& name)
-      : timesUs_(timesOf(file, group)) {
+  // `name`: as in SeriesDescription.
+  SampleSeries(Hdf5Process& file, std::size_t series, const std::string& name)
+      : series_(series), timesUs_(timesOf(file, hdf5_layout::seriesGroup(series, name))) {
+    const std::string group = hdf5_layout::seriesGroup(series, name);
     if (timesUs_.size() == 0 && !file.has(group + "/time_us")) return;  // none was recorded
-    values_.emplace(file, group + "/" + name);
+    values_.emplace(file, group + "/" + hdf5_layout::seriesValues(series));
     values_->requireKind({Hdf5Kind::kFloat, Hdf5Kind::kInteger});
     if (values_->shape().size() != 2 || values_->shape()[1] < 1 ||
         values_->shape()[1] > kMaxSampleValues)
@@ -199,12 +205,22 @@ class SampleSeries {
     width_ = static_cast<std::size_t>(values_->shape()[1]);
     rowsPerBlock_ =
         std::clamp<std::size_t>(static_cast<std::size_t>(values_->chunkLength()), 1, kMostReadRows);
+    if (series < kHandSeries || !file.has(group + "/device_time_us")) return;
+    deviceTimes_.emplace(file, group + "/device_time_us");
+    deviceTimes_->requireIntegers(kMostSamples);
+    deviceTimes_->requireShape({timesUs_.size()});
   }
 
+  // Throws FormatError where the samples don't have so many values.
+  void requireWidth(std::size_t columns) const {
+    if (timesUs_.size() > 0 && width_ != columns)
+      values_->fail("has another number of columns than \"column\"");
+  }
   std::size_t width() const { return timesUs_.size() == 0 ? 0 : width_; }
   const StampSeries& timesUs() const { return timesUs_; }
 
-  std::vector<double> row(std::size_t index) const {
+  Sample sample(std::size_t index) const {
+    Sample sample{timesUs_.at(index), {}, series_};
     const std::lock_guard lock(mutex_);
     const std::size_t first = index / rowsPerBlock_ * rowsPerBlock_;
     if (block_.empty() || first != firstInBlock_) {
@@ -212,6 +228,7 @@ class SampleSeries {
       block_.assign(count * width_, 0.0);
       try {
         values_->read<double>(first, count, Hdf5Number::kF64, block_);
+        if (deviceTimes_) deviceUs_ = deviceTimes_->integers(first, count);
       } catch (...) {
         block_.clear();
         throw;
@@ -219,10 +236,12 @@ class SampleSeries {
       firstInBlock_ = first;
     }
     const auto begin = block_.begin() + static_cast<std::ptrdiff_t>((index - first) * width_);
-    std::vector<double> values(begin, begin + static_cast<std::ptrdiff_t>(width_));
-    if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
+    sample.values.assign(begin, begin + static_cast<std::ptrdiff_t>(width_));
+    if (!areSampleValues(series_, sample.values))
       values_->fail("has a value that is not a number in row " + std::to_string(index));
-    return values;
+    if (deviceTimes_ && deviceUs_[index - first] != hdf5_layout::kNoDeviceTime)
+      sample.deviceUs = deviceUs_[index - first];
+    return sample;
   }
 
  private:
@@ -232,12 +251,15 @@ class SampleSeries {
     return StampSeries(ReadArray(file, group + "/time_us"), kMostSamples);
   }
 
+  std::size_t series_;
   StampSeries timesUs_;
   std::optional<ReadArray> values_;
+  std::optional<ReadArray> deviceTimes_;
   std::size_t width_ = 0;
   std::size_t rowsPerBlock_ = 1;
   mutable std::mutex mutex_;
-  mutable std::vector<double> block_;  // the rows that were read last
+  mutable std::vector<double> block_;           // the rows that were read last
+  mutable std::vector<std::int64_t> deviceUs_;  // of the same rows
   mutable std::size_t firstInBlock_ = 0;
 };
 
@@ -315,10 +337,15 @@ class Hdf5Storage final : public ProfileStorage {
         from_(hdf5ProvenanceOf(*file_)),
         meta_(hdf5MetaOf(*file_, textBytesLeft_)),
         events_(hdf5EventsOf(*file_, textBytesLeft_)),
-        angles_(*file_, "joints", "angles"),
-        temperatures_(*file_, "temperatures", "values"),
+        further_(furtherSeries()),
         layout_(readLayout()),
         timesUs_(ReadArray(*file_, "tactile/time_us"), kMostFrames) {
+    samples_.emplace_back(*file_, kAngleSeries, "");
+    samples_.emplace_back(*file_, kTemperatureSeries, "");
+    for (const SeriesDescription& series : further_) {
+      samples_.emplace_back(*file_, samples_.size(), series.name);
+      samples_.back().requireWidth(series.columns.size());
+    }
     if (file_->has("tactile/device_time_ms"))
       deviceTimes_.emplace(
           ofFrames("tactile/device_time_ms", {timesUs_.size()}, {Hdf5Kind::kInteger}));
@@ -351,8 +378,8 @@ class Hdf5Storage final : public ProfileStorage {
 
   const SensorLayout& layout() const { return layout_; }
   bool counts() const { return counts_; }
-  const SampleSeries& angleSeries() const { return angles_; }
-  const SampleSeries& temperatureSeries() const { return temperatures_; }
+  std::size_t width(std::size_t series) const { return samples_[series].width(); }
+  const std::vector<SeriesDescription>& further() const { return further_; }
   const Provenance& provenance() const { return from_; }
   const RecordingMeta& meta() const { return meta_; }
   const std::vector<Event>& events() const { return events_; }
@@ -382,18 +409,20 @@ class Hdf5Storage final : public ProfileStorage {
         if (block->kept[m][at * cells + k] == 0) out.values[layout_.offset(m) + k] = 0.0F;
     }
   }
-  std::size_t numSamples(std::size_t series) const override { return of(series).timesUs().size(); }
+  std::size_t numSamples(std::size_t series) const override {
+    return samples_[series].timesUs().size();
+  }
   std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const override {
-    return of(series).timesUs().at(sample);
+    return samples_[series].timesUs().at(sample);
   }
   Sample sample(std::size_t series, std::size_t sample) const override {
-    return {of(series).timesUs().at(sample), of(series).row(sample), series};
+    return samples_[series].sample(sample);
   }
   std::optional<std::size_t> frameAt(std::int64_t timeUs) const override {
     return timesUs_.indexAt(timeUs);
   }
   std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const override {
-    return of(series).timesUs().indexAt(timeUs);
+    return samples_[series].timesUs().indexAt(timeUs);
   }
 
  private:
@@ -406,8 +435,35 @@ class Hdf5Storage final : public ProfileStorage {
     std::vector<std::vector<std::uint8_t>> kept;
   };
 
-  const SampleSeries& of(std::size_t series) const {
-    return series == kAngleSeries ? angles_ : temperatures_;
+  // What the series beside the hand's are.
+  std::vector<SeriesDescription> furtherSeries() {
+    std::vector<SeriesDescription> all;
+    if (!file_->has("series")) return all;
+    const auto names = file_->textAttribute("series", hdf5_layout::kSeriesNames, kMostNameBytes);
+    if (!names) throw FormatError(file_->path(), "the group 'series' has no attribute names");
+    std::istringstream list(*names);
+    for (std::string name; std::getline(list, name, ',');) {
+      SeriesDescription series{name, {}, {}, {}};
+      const std::string group = hdf5_layout::seriesGroup(kHandSeries, series.name);
+      if (all.size() == kMaxSeries - kHandSeries || !file_->has(group))
+        throw FormatError(file_->path(),
+                          "the group " + inQuotes(group) + " is missing, or one too many");
+      const auto texts = [&](const char* array) {
+        return ReadArray(*file_, group + array)
+            .texts(kMaxColumns, kMostAttributeBytes, textBytesLeft_);
+      };
+      const auto columns = texts("/column");
+      const auto units = texts("/unit");
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        series.columns.push_back({columns[i], i < units.size() ? units[i] : ""});
+      const auto said = [&](const char* attribute) {
+        return file_->textAttribute(group, attribute, kMostAttributeBytes).value_or("");
+      };
+      series.role = said("role");
+      series.source = said("source");
+      all.push_back(std::move(series));
+    }
+    return all;
   }
   std::vector<std::uint64_t> shapeOf(std::size_t m) const {
     return {timesUs_.size(),
@@ -522,8 +578,8 @@ class Hdf5Storage final : public ProfileStorage {
   Provenance from_;
   RecordingMeta meta_;
   std::vector<Event> events_;
-  SampleSeries angles_;
-  SampleSeries temperatures_;
+  std::vector<SeriesDescription> further_;
+  std::deque<SampleSeries> samples_;  // by series
   SensorLayout layout_;
   StampSeries timesUs_;
   std::optional<ReadArray> deviceTimes_;
@@ -592,11 +648,10 @@ Recording readHdf5(const fs::path& path) {
   const std::shared_ptr<const Hdf5Storage> storage = openedHdf5(path);
   auto meta = storage->meta();
   ProfileInfo info = readInfo(meta, "hdf5", storage->counts());
-  HandDescription hand = recordedHand(meta,
-                                      storage->layout(),
-                                      storage->angleSeries().width(),
-                                      storage->temperatureSeries().width());
-  return {.profile = Profile(std::move(info), std::move(hand), storage),
+  HandDescription hand = recordedHand(
+      meta, storage->layout(), storage->width(kAngleSeries), storage->width(kTemperatureSeries));
+  return {.profile =
+              recordedProfile(path, std::move(info), std::move(hand), storage, storage->further()),
           .events = storage->events(),
           .meta = std::move(meta),
           .provenance = storage->provenance()};

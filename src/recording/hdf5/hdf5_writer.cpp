@@ -98,9 +98,12 @@ class Hdf5Writer {
       makeGroup("tactile");
       makeGroup("joints");
       makeGroup("temperatures");
+      describeSeries();
     }
-    writeSamples("joints", "angles", writtenSamples(profile_, kAngleSeries));
-    writeSamples("temperatures", "values", writtenSamples(profile_, kTemperatureSeries));
+    for (std::size_t i = 0; i < profile_.series().size(); ++i)
+      writeSamples(hdf5_layout::seriesGroup(i, profile_.series()[i].name),
+                   hdf5_layout::seriesValues(i),
+                   writtenSamples(profile_, i));
     writeFrames();
     work_.finishAll();
     writeVersion();
@@ -252,12 +255,15 @@ class Hdf5Writer {
     attribute(root, "hand", from.hand.empty() ? profile_.hand().name : from.hand);
   }
 
-  // Earlier programs would read the values below 0 of filtered frames as 0.
+  // Earlier programs would read the values below 0 of filtered frames as 0, and leave out series
+  // without a word.
   void writeVersion() {
     const auto lock = hdf5Lock();
     attribute(out_.file(),
               "format_version",
-              anyFiltered_ ? kHdf5LayoutVersion : hdf5_layout::kUnfilteredLayoutVersion);
+              profile_.series().size() > kHandSeries ? kHdf5LayoutVersion
+              : anyFiltered_                         ? hdf5_layout::kFilteredLayoutVersion
+                                                     : hdf5_layout::kUnfilteredLayoutVersion);
   }
 
   void writeMeta() {
@@ -294,7 +300,25 @@ class Hdf5Writer {
     for (const Hdf5Id& column : columns) attachScale(column.get(), time.get(), 0);
   }
 
-  // Joint angles or temperatures: times, and a column per value.
+  // What further series are.
+  void describeSeries() {
+    if (profile_.series().size() == kHandSeries) return;
+    std::string names;
+    const Hdf5Id all = makeGroup("series");
+    for (std::size_t i = kHandSeries; i < profile_.series().size(); ++i) {
+      const SeriesDescription& series = profile_.series()[i];
+      names += (names.empty() ? "" : ",") + series.name;
+      const std::string path = hdf5_layout::seriesGroup(i, series.name);
+      const Hdf5Id group = makeGroup(path);
+      attribute(group.get(), "role", series.role);
+      attribute(group.get(), "source", series.source);
+      textArray(path + "/unit", columnUnits(series.columns));
+      if (profile_.numSamples(i) == 0) textArray(path + "/column", columnNames(series.columns));
+    }
+    attribute(all.get(), hdf5_layout::kSeriesNames, names);
+  }
+
+  // The samples of a series: times, and a column per value.
   void writeSamples(const std::string& group,
                     const std::string& name,
                     const WrittenSamples& samples) {
@@ -305,9 +329,17 @@ class Hdf5Writer {
     const std::size_t perChunk = std::min(count, kMaxChunkRows);
     ChunkedArray* times = nullptr;
     ChunkedArray* values = nullptr;
+    ChunkedArray* deviceTimes = nullptr;
     {
       const auto lock = hdf5Lock();
       times = &timeArray(group, count, perChunk);
+      if (samples.deviceUs) {
+        deviceTimes = &chunkedArray(
+            group + "/device_time_us", i64(), {count}, {perChunk}, hdf5_layout::kNoDeviceTime);
+        attribute(deviceTimes->id.get(), "units", std::string("us"));
+        attribute(deviceTimes->id.get(), "missing_value", hdf5_layout::kNoDeviceTime);
+        attachScale(deviceTimes->id.get(), times->id.get(), 0);
+      }
       values = &chunkedArray(group + "/" + name, f64(), {count, width}, {perChunk, width});
       const bool sameUnit = std::equal(units.begin() + 1, units.end(), units.begin());
       attribute(
@@ -321,9 +353,11 @@ class Hdf5Writer {
     for (std::size_t first = 0; first < count; first += perChunk) {
       Bytes timeBytes(perChunk * 8);
       Bytes valueBytes(perChunk * width * 8);
+      Bytes deviceBytes(deviceTimes ? perChunk * 8 : 0);
       const std::size_t end = std::min(count, first + perChunk);
       for (std::size_t i = first; i < end; ++i) {
         put(timeBytes, i - first, samples.timeUs(i));
+        if (deviceTimes) put(deviceBytes, i - first, samples.deviceUs(i));
         const std::vector<double> row = samples.values(i);
         if (row.size() != width)
           throw std::invalid_argument("writeHdf5: samples of several widths");
@@ -331,6 +365,7 @@ class Hdf5Writer {
       }
       addChunk(*times, {first}, std::move(timeBytes));
       addChunk(*values, {first, 0}, std::move(valueBytes));
+      if (deviceTimes) addChunk(*deviceTimes, {first}, std::move(deviceBytes));
     }
   }
 

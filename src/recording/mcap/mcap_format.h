@@ -36,6 +36,7 @@ enum Opcode : std::uint8_t {
 };
 
 constexpr int kUnfilteredLayoutVersion = 1;
+constexpr int kFilteredLayoutVersion = 2;
 
 // Names of metadata records, attachments and topics of a recording.
 constexpr const char* kAboutRecord = "palpate";      // layout version, provenance

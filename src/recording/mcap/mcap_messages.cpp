@@ -245,6 +245,15 @@ McapSchemaText mcapValuesSchema() {
           "float64[] values\n"};
 }
 
+McapSchemaText mcapSampleSchema() {
+  return {"palpate_msgs/msg/Sample",
+          "ros2msg",
+          "# Numbers of one instant; names and units stand in the metadata of the channel.\n"
+          "int64 time_us         # host time [us since 1970]\n"
+          "int64 device_time_us  # the sender's clock [us]; -2^63: not known\n"
+          "float64[] values      # NaN: not known\n"};
+}
+
 McapSchemaText mcapEventSchema() {
   return {"palpate_msgs/msg/Event",
           "ros2msg",

@@ -26,6 +26,7 @@ McapSchemaText mcapJointStateSchema();
 McapSchemaText mcapLogSchema();
 McapSchemaText mcapFrameSchema();   // palpate_msgs/msg/Frame
 McapSchemaText mcapValuesSchema();  // palpate_msgs/msg/Values
+McapSchemaText mcapSampleSchema();  // palpate_msgs/msg/Sample
 McapSchemaText mcapEventSchema();   // palpate_msgs/msg/Event
 
 // UTF-8 that any text comes back from: each NUL and each byte that is part of no valid character

@@ -13,6 +13,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/parallel.h"
 #include "palpate/core/time.h"
@@ -26,6 +27,7 @@
 #include "recording/mcap/mcap_messages.h"
 #include "recording/mcap/mcap_structure.h"
 #include "recording/profile_meta.h"
+#include "recording/sample_columns.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -44,7 +46,7 @@ std::int64_t mcapTextNumber(const std::map<std::string, std::string>& texts,
 }
 
 // What a channel of Palpate's holds.
-enum class McapRole { kOther, kFrame, kImage, kAngles, kTemperatures, kEvent };
+enum class McapRole { kOther, kFrame, kImage, kSample, kEvent };
 
 // The first events of a file, or of a chunk.
 class McapEvents {
@@ -69,7 +71,15 @@ class McapEvents {
   std::size_t leftOut_ = 0;
 };
 
-// The samples of a chunk.
+// The samples of a series in a chunk.
+struct McapSamples {
+  std::vector<std::int64_t> timesUs;
+  std::vector<std::int64_t> deviceUs;  // empty of the hand's series
+  std::vector<double> values;          // rows x width
+  std::size_t width = 0;               // 0: not known
+};
+
+// What a chunk holds.
 struct McapBlock {
   std::vector<std::int64_t> frameUs;
   std::vector<std::int64_t> deviceMs;
@@ -77,12 +87,7 @@ struct McapBlock {
   std::vector<float> values;       // frames x places
   std::vector<std::uint8_t> kept;  // frames x bytes; empty where no frame is filtered
   bool anyFloat = false;
-  std::vector<std::int64_t> angleUs;
-  std::vector<double> angles;  // rows x width
-  std::size_t angleWidth = 0;
-  std::vector<std::int64_t> temperatureUs;
-  std::vector<double> temperatures;
-  std::size_t temperatureWidth = 0;
+  std::vector<McapSamples> samples;  // by series
   McapEvents events;
   bool cutFrame = false;  // the last frame had not all of its images, and is left out
   // Other programs may put the images of a frame into two chunks.
@@ -109,6 +114,15 @@ class McapOwnFile {
   }
 
   const SensorLayout& layout() const { return layout_; }
+  // Those beside the hand's.
+  const std::vector<SeriesDescription>& further() const { return further_; }
+  std::size_t numSeries() const { return kHandSeries + further_.size(); }
+  // "angles", "samples of wrist".
+  std::string samplesText(std::size_t series) const {
+    return series == kAngleSeries         ? "angles"
+           : series == kTemperatureSeries ? "temperatures"
+                                          : "samples of " + further_[series - kHandSeries].name;
+  }
   bool saysFloat() const { return saysFloat_; }
   std::optional<std::uint16_t> eventChannel() const { return eventChannel_; }
 
@@ -120,6 +134,9 @@ class McapOwnFile {
                   bool salvage,
                   const Next& next) const {
     McapBlock block;
+    block.samples.resize(numSeries());
+    for (std::size_t i = 0; i < further_.size(); ++i)
+      block.samples[kHandSeries + i].width = further_[i].columns.size();
     std::size_t images = layout_.numMatrices();  // of the last frame, that are there
     const auto fail = [&](const std::string& fault) {
       throw FormatError(path_, place + " " + fault);
@@ -155,15 +172,12 @@ class McapOwnFile {
           else
             takeImage(message);
           break;
-        case McapRole::kAngles:
-          if (!addSample(message.data, block.angleUs, block.angles, block.angleWidth))
-            fail("has damaged angles");
+        case McapRole::kSample: {
+          const std::size_t series = roles_[message.channel].series;
+          if (!addSample(message.data, series, block.samples[series]))
+            fail("has damaged " + samplesText(series));
           break;
-        case McapRole::kTemperatures:
-          if (!addSample(
-                  message.data, block.temperatureUs, block.temperatures, block.temperatureWidth))
-            fail("has damaged temperatures");
-          break;
+        }
         case McapRole::kEvent:
           if (!addEvent(message.data, block.events)) fail("has a damaged event");
           break;
@@ -200,6 +214,7 @@ class McapOwnFile {
   struct ChannelRole {
     McapRole role = McapRole::kOther;
     std::size_t matrix = 0;
+    std::size_t series = 0;
     bool protobuf = false;
   };
 
@@ -250,7 +265,7 @@ class McapOwnFile {
         if (channel.topic != topic) return false;
         if (name != type || channel.encoding != "cdr")
           throw FormatError(path_,
-                            "the topic " + std::string(topic) + " has messages " + inQuotes(name) +
+                            "the topic " + escapedLine(topic) + " has messages " + inQuotes(name) +
                                 " (" + escapedLine(channel.encoding) + ") instead of " + type);
         return true;
       };
@@ -258,9 +273,14 @@ class McapOwnFile {
         role.role = McapRole::kFrame;
         frames = true;
       } else if (is(mcap_format::kAngles, "palpate_msgs/msg/Values")) {
-        role.role = McapRole::kAngles;
+        role = {.role = McapRole::kSample, .series = kAngleSeries};
       } else if (is(mcap_format::kTemperatures, "palpate_msgs/msg/Values")) {
-        role.role = McapRole::kTemperatures;
+        role = {.role = McapRole::kSample, .series = kTemperatureSeries};
+      } else if (channel.topic.starts_with(mcap_format::kSeries) &&
+                 is(channel.topic.c_str(), "palpate_msgs/msg/Sample")) {
+        role = {.role = McapRole::kSample, .series = numSeries()};
+        further_.push_back(seriesOf(channel));
+        if (numSeries() > kMaxSeries) throw FormatError(path_, "has too many series");
       } else if (is(mcap_format::kEvents, "palpate_msgs/msg/Event")) {
         role.role = McapRole::kEvent;
         eventChannel_ = id;
@@ -291,6 +311,30 @@ class McapOwnFile {
       throw FormatError(path_,
                         std::string("the layout of its matrices is invalid: ") + error.what());
     }
+  }
+
+  SeriesDescription seriesOf(const McapChannel& channel) const {
+    const auto text = [&](const char* key) {
+      const auto found = channel.metadata.find(key);
+      return found == channel.metadata.end() ? std::string() : found->second;
+    };
+    SeriesDescription series{channel.topic.substr(std::string_view(mcap_format::kSeries).size()),
+                             mcapRestoredText(text("role")),
+                             {},
+                             mcapRestoredText(text("source"))};
+    try {
+      const Json names = Json::parse(text("columns"));
+      const Json units = Json::parse(text("units"));
+      for (std::size_t i = 0; i < names.size(); ++i)
+        series.columns.push_back(
+            {mcapRestoredText(names.at(i).asString()), mcapRestoredText(units.at(i).asString())});
+      validate(series);
+    } catch (const std::exception& error) {
+      throw FormatError(path_,
+                        "the topic " + escapedLine(channel.topic) + " has no valid columns (" +
+                            escapedLine(error.what()) + ")");
+    }
+    return series;
   }
 
   MatrixLayout matrixOf(const McapChannel& channel) const {
@@ -370,18 +414,16 @@ class McapOwnFile {
     return "";
   }
 
-  static bool addSample(std::string_view data,
-                        std::vector<std::int64_t>& times,
-                        std::vector<double>& values,
-                        std::size_t& width) {
+  static bool addSample(std::string_view data, std::size_t series, McapSamples& samples) {
     CdrReader reader(data);
-    times.push_back(reader.number<std::int64_t>());
+    samples.timesUs.push_back(reader.number<std::int64_t>());
+    if (series >= kHandSeries) samples.deviceUs.push_back(reader.number<std::int64_t>());
     const std::vector<double> row = reader.doubles(kMaxSampleValues);
-    if (!reader.ok() || row.empty() || (width != 0 && width != row.size())) return false;
-    if (!std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); }))
+    if (!reader.ok() || row.empty() || (samples.width != 0 && samples.width != row.size()) ||
+        !areSampleValues(series, row))
       return false;
-    width = row.size();
-    values.insert(values.end(), row.begin(), row.end());
+    samples.width = row.size();
+    samples.values.insert(samples.values.end(), row.begin(), row.end());
     return true;
   }
 
@@ -404,6 +446,7 @@ class McapOwnFile {
   fs::path path_;
   SensorLayout layout_;
   std::vector<ChannelRole> roles_;  // by number of the channel
+  std::vector<SeriesDescription> further_;
   std::optional<std::uint16_t> eventChannel_;
   bool saysFloat_ = false;
 };
@@ -430,7 +473,7 @@ McapBlock readMcapBlock(const McapFile& file,
 struct McapSeriesIndex {
   std::vector<std::int64_t> timesUs;
   std::vector<std::size_t> firsts;  // by chunk: index of its first sample
-  std::size_t width = 0;            // of angles and temperatures
+  std::size_t width = 0;            // of a series
 
   // Chunk that holds a sample.
   std::size_t pieceOf(std::size_t sample) const {
@@ -443,7 +486,10 @@ struct McapSeriesIndex {
 class McapStorage final : public ProfileStorage {
  public:
   McapStorage(McapFile file, McapOwnFile own, std::vector<McapPiece> pieces)
-      : file_(std::move(file)), own_(std::move(own)), pieces_(std::move(pieces)) {}
+      : file_(std::move(file)),
+        own_(std::move(own)),
+        pieces_(std::move(pieces)),
+        samples_(own_.numSeries()) {}
 
   // Reads all chunks, checks them and notes where samples are. In a salvage, damaged ones are left
   // out; their number is returned.
@@ -471,6 +517,7 @@ class McapStorage final : public ProfileStorage {
             } catch (const FormatError& error) {
               if (!salvage) throw;
               blocks[i] = {};
+              blocks[i].samples.resize(own_.numSeries());
               faults[i] = mcapFaultOf(file_.path(), error);
             }
           },
@@ -486,8 +533,7 @@ class McapStorage final : public ProfileStorage {
 
   const McapOwnFile& own() const { return own_; }
   bool counts() const { return !anyFloat_ && !own_.saysFloat(); }
-  std::size_t angleWidth() const { return angles_.width; }
-  std::size_t temperatureWidth() const { return temperatures_.width; }
+  std::size_t width(std::size_t series) const { return samples_[series].width; }
   McapEvents& events() { return events_; }
   std::size_t cutFrames() const { return cutFrames_; }
   const std::string& firstFault() const { return firstFault_; }  // of a damaged chunk
@@ -512,24 +558,28 @@ class McapStorage final : public ProfileStorage {
     for (std::size_t k = 0; k < cells; ++k)
       if ((kept[k / 8] >> k % 8 & 1) == 0) out.values[k] = 0.0F;
   }
-  std::size_t numSamples(std::size_t series) const override { return of(series).timesUs.size(); }
+  std::size_t numSamples(std::size_t series) const override {
+    return samples_[series].timesUs.size();
+  }
   std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const override {
-    return of(series).timesUs[sample];
+    return samples_[series].timesUs[sample];
   }
   Sample sample(std::size_t series, std::size_t sample) const override {
-    const McapSeriesIndex& index = of(series);
+    const McapSeriesIndex& index = samples_[series];
     const std::size_t piece = index.pieceOf(sample);
     const std::shared_ptr<const McapBlock> block = blockOf(piece);
-    const auto& values = series == kAngleSeries ? block->angles : block->temperatures;
-    return {index.timesUs[sample],
-            rowOf(values, index, sample - index.firsts[piece], piece),
-            series};
+    const McapSamples& samples = block->samples[series];
+    const std::size_t row = sample - index.firsts[piece];
+    requireThere(samples.values.size() / index.width, row, piece);
+    const auto begin = samples.values.begin() + static_cast<std::ptrdiff_t>(row * index.width);
+    Sample read{
+        index.timesUs[sample], {begin, begin + static_cast<std::ptrdiff_t>(index.width)}, series};
+    if (series >= kHandSeries && samples.deviceUs[row] != mcap_format::kNoDeviceTime)
+      read.deviceUs = samples.deviceUs[row];
+    return read;
   }
 
  private:
-  const McapSeriesIndex& of(std::size_t series) const {
-    return series == kAngleSeries ? angles_ : temperatures_;
-  }
   McapBlock readBlock(std::size_t piece) const {
     return readMcapBlock(file_, own_, pieces_, piece, salvage_);
   }
@@ -540,19 +590,10 @@ class McapStorage final : public ProfileStorage {
       throw FormatError(file_.path(), "chunk " + std::to_string(piece) + " was changed");
   }
 
-  std::vector<double> rowOf(const std::vector<double>& values,
-                            const McapSeriesIndex& series,
-                            std::size_t row,
-                            std::size_t piece) const {
-    requireThere(values.size() / series.width, row, piece);
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * series.width);
-    return {begin, begin + static_cast<std::ptrdiff_t>(series.width)};
-  }
-
   void append(McapSeriesIndex& series,
               const std::vector<std::int64_t>& times,
               std::size_t width,
-              const char* name,
+              const std::string& name,
               std::size_t piece) const {
     const auto fail = [&](const std::string& fault) {
       throw FormatError(file_.path(), "chunk " + std::to_string(piece) + ": " + name + " " + fault);
@@ -579,8 +620,10 @@ class McapStorage final : public ProfileStorage {
     continued_ -= std::min(continued_, block.leading);
     continued_ += block.continued;
     append(frames_, block.frameUs, 0, "frames", piece);
-    append(angles_, block.angleUs, block.angleWidth, "angles", piece);
-    append(temperatures_, block.temperatureUs, block.temperatureWidth, "temperatures", piece);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const McapSamples& samples = block.samples[i];
+      append(samples_[i], samples.timesUs, samples.width, own_.samplesText(i), piece);
+    }
     anyFloat_ |= block.anyFloat;
     if (block.cutFrame) ++cutFrames_;
     events_.add(std::move(block.events));
@@ -619,8 +662,7 @@ class McapStorage final : public ProfileStorage {
   std::vector<McapPiece> pieces_;
   bool salvage_ = false;
   McapSeriesIndex frames_;
-  McapSeriesIndex angles_;
-  McapSeriesIndex temperatures_;
+  std::vector<McapSeriesIndex> samples_;  // by series
   McapEvents events_;
   std::size_t cutFrames_ = 0;
   std::string firstFault_;
@@ -685,15 +727,19 @@ Recording openOwnMcap(McapFile file,
   const std::size_t damaged = storage->scan(progress, threads, salvage);
   auto meta = mcapMetaOf(structure);
   ProfileInfo info = readInfo(meta, "mcap", storage->counts());
-  HandDescription hand = recordedHand(
-      meta, storage->own().layout(), storage->angleWidth(), storage->temperatureWidth());
+  HandDescription hand = recordedHand(meta,
+                                      storage->own().layout(),
+                                      storage->width(kAngleSeries),
+                                      storage->width(kTemperatureSeries));
+  std::vector<SeriesDescription> further = storage->own().further();
   std::string damage = structure.damage;
   if (damaged > 0)
     damage += (damage.empty() ? "has " : "; ") +
               mcapDamagedChunksText(damaged, storage->firstFault(), "samples");
   const std::size_t leftOut = storage->events().leftOut();
   std::vector<Event> events = storage->events().take();
-  return {.profile = Profile(std::move(info), std::move(hand), std::move(storage)),
+  return {.profile = recordedProfile(
+              path, std::move(info), std::move(hand), std::move(storage), std::move(further)),
           .events = std::move(events),
           .meta = std::move(meta),
           .provenance = mcapProvenanceOf(structure),

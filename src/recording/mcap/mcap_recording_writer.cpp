@@ -79,7 +79,7 @@ McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
                           {"hand", provenance.hand.empty() ? hand.name : provenance.hand}});
   about_["matrices"] = std::to_string(hand.layout->numMatrices());
   if (counts) about_["value_type"] = *counts ? "counts" : "float";
-  addAbout(mcap_format::kUnfilteredLayoutVersion);
+  requireVersion(mcap_format::kUnfilteredLayoutVersion);
 
   RecordingMeta said = writtenMeta({}, hand, meta);
   const std::string json = said["hand_json"];
@@ -116,13 +116,15 @@ McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
   log_ = file_.addChannel(schemaOf(mcapLogSchema()), mcap_format::kLog, "cdr", withQos({}));
 }
 
-void McapRecordingWriter::addAbout(int version) {
+void McapRecordingWriter::requireVersion(int version) {
+  if (version <= version_) return;
+  version_ = version;
   about_["layout_version"] = std::to_string(version);
   file_.addMetadata(mcap_format::kAboutRecord, about_);
 }
 
-std::uint16_t McapRecordingWriter::valuesChannel(
-    const std::string& topic, const std::vector<Column>& columns) {
+std::uint16_t McapRecordingWriter::valuesChannel(const std::string& topic,
+                                                 const std::vector<Column>& columns) {
   if (!valuesSchema_) {
     const McapSchemaText schema = mcapValuesSchema();
     valuesSchema_ = file_.addSchema(schema.name, schema.encoding, schema.data);
@@ -162,7 +164,25 @@ void McapRecordingWriter::beginTemperatures(std::size_t width) {
 }
 
 void McapRecordingWriter::beginSamples(std::size_t series, const SeriesDescription& description) {
-  samples_[series] = valuesChannel(mcap_format::kSeries + description.name, description.columns);
+  if (!sampleSchema_) {
+    const McapSchemaText schema = mcapSampleSchema();
+    sampleSchema_ = file_.addSchema(schema.name, schema.encoding, schema.data);
+  }
+  const auto listOf = [&](std::string Column::*text) {
+    return jsonList(description.columns,
+                    [&](const Column& column) { return mcapSafeText(column.*text); })
+        .text(-1);
+  };
+  samples_[series] = {file_.addChannel(*sampleSchema_,
+                                       mcap_format::kSeries + description.name,
+                                       "cdr",
+                                       withQos({{"columns", listOf(&Column::name)},
+                                                {"units", listOf(&Column::unit)},
+                                                {"role", mcapSafeText(description.role)},
+                                                {"source", mcapSafeText(description.source)}})),
+                      description.columns.size()};
+  // Earlier programs would leave the series out without a word.
+  requireVersion(kMcapLayoutVersion);
 }
 
 std::uint16_t McapRecordingWriter::beginSeries(const std::string& name,
@@ -227,7 +247,7 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
     throw std::invalid_argument("writeMcap: a frame of a recording of counts has another value");
   // Earlier programs would read the values below 0 of filtered frames as 0: the record again, with
   // the version that they refuse, is the one that counts.
-  if (!frame.filtered.empty() && !std::exchange(anyFiltered_, true)) addAbout(kMcapLayoutVersion);
+  if (!frame.filtered.empty()) requireVersion(mcap_format::kFilteredLayoutVersion);
   std::string& out = file_.beginMessage(frames_, mcapTimeNs(frame.hostUs));
   CdrWriter cdr(out);
   cdr.number(frame.hostUs);
@@ -253,7 +273,16 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
 void McapRecordingWriter::addSample(const Sample& sample) {
   if (sample.series == kAngleSeries) return addAngles(sample);
   if (sample.series == kTemperatureSeries) return addTemperatures(sample);
-  addRow(samples_.at(sample.series), sample.hostUs, sample.values);
+  const SampleChannel& channel = samples_.at(sample.series);
+  if (sample.values.size() != channel.width)
+    throw std::invalid_argument("McapRecordingWriter: another number of values");
+  std::string& out = file_.beginMessage(channel.id, mcapTimeNs(sample.hostUs));
+  CdrWriter cdr(out);
+  cdr.number(sample.hostUs);
+  cdr.number(sample.deviceUs.value_or(mcap_format::kNoDeviceTime));
+  cdr.sequence(std::span<const double>(sample.values));
+  file_.endMessage();
+  file_.endGroup();
 }
 
 void McapRecordingWriter::addAngles(const Sample& angles) {

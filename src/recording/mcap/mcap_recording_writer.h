@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,10 +29,10 @@ class McapRecordingWriter {
   // Begin a channel. Call them before the samples.
   void beginAngles(std::size_t width);
   void beginTemperatures(std::size_t width);
-  // A series beside those of the hand.
+  // A series beside those of the hand; from here on the file has a version that earlier programs
+  // refuse.
   void beginSamples(std::size_t series, const SeriesDescription& description);
-  std::uint16_t beginSeries(const std::string& name,
-                            const std::vector<Column>& columns);
+  std::uint16_t beginSeries(const std::string& name, const std::vector<Column>& columns);
 
   // Throw std::invalid_argument (another number of values, a value that is no count).
   void addFrame(const TactileFrame& frame);
@@ -42,10 +43,9 @@ class McapRecordingWriter {
   McapFileWriter& file() noexcept { return file_; }
 
  private:
-  // Writes what is said about the file, in this version of the layout.
-  void addAbout(int version);
-  std::uint16_t valuesChannel(const std::string& topic,
-                              const std::vector<Column>& columns);
+  // Writes what is said about the file, in this version of the layout, unless it has that already.
+  void requireVersion(int version);
+  std::uint16_t valuesChannel(const std::string& topic, const std::vector<Column>& columns);
   void addValues(std::uint16_t channel, std::int64_t timeUs, std::span<const double> values);
   void addAngles(const Sample& angles);
   void addTemperatures(const Sample& temperatures);
@@ -56,8 +56,9 @@ class McapRecordingWriter {
   const McapImages images_;
   McapFileWriter file_;
   McapFileWriter::Texts about_;
-  bool anyFiltered_ = false;  // frames so far
+  int version_ = 0;  // of the layout, so far
   std::optional<std::uint16_t> valuesSchema_;
+  std::optional<std::uint16_t> sampleSchema_;
   std::uint16_t frames_ = 0;
   std::vector<std::uint16_t> imageChannels_;
   std::vector<std::string> frameIds_;
@@ -68,7 +69,11 @@ class McapRecordingWriter {
   std::vector<HandJoint> joints_;
   std::string jointNames_;  // of a JointState: from behind the stamp to before the positions
   std::optional<std::uint16_t> temperatures_;
-  std::map<std::size_t, std::uint16_t> samples_;  // channels of further series
+  struct SampleChannel {
+    std::uint16_t id = 0;
+    std::size_t width = 0;
+  };
+  std::map<std::size_t, SampleChannel> samples_;  // of further series
   std::size_t numAngles_ = 0;
   std::size_t numTemperatures_ = 0;
 };

@@ -44,9 +44,9 @@ Salvage salvageMcap(const fs::path& path, const ReadOptions& options, const Prog
   Recording recording = recoverMcap(path, progress, 0, options.topics);
   const Profile& profile = recording.profile;
   const Damage& damage = recording.damage;
-  std::size_t items = profile.numFrames();
-  for (std::size_t i = 0; i < profile.series().size(); ++i) items += profile.numSamples(i);
-  if (items == 0 && !damage.text.empty()) return {.message = damage.text};
+  std::size_t samples = profile.numFrames();
+  for (std::size_t s = 0; s < profile.series().size(); ++s) samples += profile.numSamples(s);
+  if (samples == 0 && !damage.text.empty()) return {.message = damage.text};
   Salvage salvage;
   std::string& missing = salvage.missing = mcapDamageText(damage);
   if (damage.events > 0)
