@@ -11,7 +11,7 @@
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_format.h"
 
-#include "recording/import_samples.h"
+#include "imports/import_samples.h"
 #include "testing/testing.h"
 
 namespace palpate::further_series_test {

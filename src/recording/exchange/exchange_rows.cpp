@@ -40,10 +40,15 @@ constinit const RecordingFormat kCsvFormat{.name = "csv",
                                            .purpose = "CSV, a row per active taxel",
                                            .endings = kCsvEndings,
                                            .isExport = true,
+                                           .holdsFurther = true,
                                            .takesUnitsRow = true,
                                            .save = &saveCsv};
-constinit const RecordingFormat kNpzFormat{
-    .name = "npz", .purpose = "NumPy", .endings = kNpzEndings, .isExport = true, .save = &saveNpz};
+constinit const RecordingFormat kNpzFormat{.name = "npz",
+                                           .purpose = "NumPy",
+                                           .endings = kNpzEndings,
+                                           .isExport = true,
+                                           .holdsFurther = true,
+                                           .save = &saveNpz};
 constinit const RecordingFormat kJsonLinesFormat{.name = "jsonl",
                                                  .purpose = "JSON lines, schunk_sdh/TactileSensor",
                                                  .endings = kJsonLinesEndings,
@@ -54,6 +59,7 @@ constinit const RecordingFormat kMatFormat{.name = "mat",
                                            .endings = kMatEndings,
                                            .isExport = true,
                                            .takesSeries = true,
+                                           .holdsFurther = true,
                                            .save = &saveMat};
 
 }  // namespace palpate

@@ -47,6 +47,7 @@ constinit const RecordingFormat kHdf5Format{.name = "hdf5",
                                             .endings = kHdf5Endings,
                                             .isExport = true,
                                             .takesSeries = true,
+                                            .holdsFurther = true,
                                             .reader = &kHdf5Reader,
                                             .save = &saveHdf5};
 
