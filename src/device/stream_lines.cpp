@@ -504,6 +504,8 @@ std::optional<StreamItem> StreamLineParser::readJsonFrame(const Json& object) {
   if (!continues) dropPart();
   std::vector<bool> seen = continues ? partSeen_ : std::vector<bool>(layout.numMatrices());
   std::vector<float>& values = isWhole ? values_ : partValues_;
+  if (layout.numReadings() != layout.numCells())
+    throw Error("TactileSensor messages have one value per taxel, not three");
   values.resize(layout.numCells());
   readTactileMatrices(matrices, layout, seen, values);
   if (!isWhole) {

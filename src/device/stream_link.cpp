@@ -275,9 +275,8 @@ void StreamLink::takeFrame(const StreamItem& item) {
     return;
   }
   const std::int64_t beforeUs = session_.lastStampUs;
-  TactileFrame frame;
-  frame.layout = hand_.layout;
-  frame.values.assign(item.values.begin(), item.values.end());
+  TactileFrame frame(hand_.layout);
+  frame.stored().assign(item.values.begin(), item.values.end());
   frame.hostUs = stampAfter(session_.lastStampUs);
   const std::int64_t hostUs = frame.hostUs;
   const auto deviceUs = deviceTime(item, nowUs);

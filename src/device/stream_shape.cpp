@@ -58,6 +58,14 @@ std::string mismatchOf(const Json& matrices, const SensorLayout& layout) {
 
 }  // namespace
 
+namespace {
+
+std::size_t readingsOfTaxels(const MatrixLayout& matrix) {
+  return matrix.numTaxels() * static_cast<std::size_t>(matrix.touch.components);
+}
+
+}  // namespace
+
 StreamShape::StreamShape(const HandDescription& hand)
     : layout_(hand.layout),
       numAxes_(hand.axes.size()),
@@ -75,11 +83,12 @@ StreamShape::StreamShape(const HandDescription& hand)
   }
   for (const MatrixDescription& matrix : hand.matrices)
     names_.emplace_back(matrix.name, matrix.shortName);
-  numPlaces_ = layout_->numCells();
-  numTaxels_ = layout_->numTaxels();
+  numPlaces_ = layout_->numReadings();
+  for (const MatrixLayout& matrix : layout_->matrices()) numTaxels_ += readingsOfTaxels(matrix);
   if (numTaxels_ == numPlaces_) return;
   for (const MatrixLayout& matrix : layout_->matrices())
-    exists_.insert(exists_.end(), matrix.staticMask.begin(), matrix.staticMask.end());
+    for (const std::uint8_t exists : matrix.staticMask)
+      exists_.insert(exists_.end(), static_cast<std::size_t>(matrix.touch.components), exists);
 }
 
 bool StreamShape::fits(StreamItemKind kind, std::size_t count) const noexcept {
@@ -113,9 +122,10 @@ std::string StreamShape::arrange(std::span<float> values, std::size_t count) con
   std::size_t from = 0;
   for (std::size_t m = 0; m < fullScales_.size(); ++m) {
     const MatrixLayout& matrix = layout_->matrix(m);
-    const std::size_t to = from + (count == numPlaces_ ? matrix.numCells() : matrix.numTaxels());
+    const std::size_t to = from + (count == numPlaces_ ? matrix.numReadings() : readingsOfTaxels(matrix));
     const float most = fullScales_[m];
-    const auto isGood = [most](float value) { return value >= 0.0F && value <= most; };
+    const float least = matrix.touch.isSigned ? -most : 0.0F;
+    const auto isGood = [=](float value) { return value >= least && value <= most; };
     // Without an early exit, so that the compiler makes vector instructions of it.
     bool allGood = true;
     for (std::size_t i = from; i < to; ++i) allGood &= isGood(values[i]);
@@ -126,7 +136,7 @@ std::string StreamShape::arrange(std::span<float> values, std::size_t count) con
       const bool isNumber = std::isfinite(values[i]);
       if (outside.empty())
         outside = "value " + std::to_string(i + 1) + " is " + numberText(values[i]) +
-                  (isNumber ? ", not in 0.." + numberText(most) + " " + unit_ : ": 0 is kept");
+                  (isNumber ? ", not in " + numberText(least) + ".." + numberText(most) + " " + unit_ : ": 0 is kept");
       if (!isNumber) values[i] = 0.0F;
     }
     from = to;

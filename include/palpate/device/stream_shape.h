@@ -45,6 +45,7 @@ class StreamShape {
   // Throws std::invalid_argument when the hand has no layout or no full scale above 0.
   explicit StreamShape(const HandDescription& hand);
 
+  // Values of a frame: readings, where the hand decides touch by its readings (model/touch.h).
   std::size_t numPlaces() const noexcept { return numPlaces_; }
   // Taxels that exist by the static masks: numPlaces() when no place is masked.
   std::size_t numTaxels() const noexcept { return numTaxels_; }

@@ -112,7 +112,8 @@ void BlockPacker::addFrame(std::int64_t hostUs,
 }
 
 void BlockPacker::addFrame(const TactileFrame& frame) {
-  if (frame.filtered.empty()) return addFrame(frame.hostUs, frame.deviceUs, frame.values);
+  if (!frame.readings.empty() || frame.filtered.empty())
+    return addFrame(frame.hostUs, frame.deviceUs, frame.stored());
   item_.clear();
   encodeFrame(frame, FrameCoding::kFiltered, item_);
   add(frame.hostUs, frame.deviceUs, BlockCoding::kFilteredRuns);
@@ -236,13 +237,16 @@ void readFrameValues(const Block& block, std::uint32_t begin, TactileFrame& out)
   const auto bytes = std::span(block.data).subspan(begin);
   const BlockCoding coding = valueCoding(block.coding);
   if (coding != BlockCoding::kPlainF32 && coding != BlockCoding::kPlainF64) {
-    decodeFrame(bytes, frameCoding(coding), out);
+    if (out.readings.empty())
+      decodeFrame(bytes, frameCoding(coding), out);
+    else
+      decodeFrame(bytes, frameCoding(coding), std::span(out.readings));
     return;
   }
   out.filtered.clear();
   ByteReader in(bytes);
   const bool wide = coding == BlockCoding::kPlainF64;
-  for (float& value : out.values) value = wide ? static_cast<float>(in.f64()) : in.f32();
+  for (float& value : out.stored()) value = wide ? static_cast<float>(in.f64()) : in.f32();
 }
 
 void readSampleValues(const Block& block, std::uint32_t begin, std::span<double> values) {

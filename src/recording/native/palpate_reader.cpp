@@ -29,7 +29,7 @@ class PalpateStorage final : public BlockStorage {
       : BlockStorage(path, [this](std::int64_t id) { return load(id); }),
         path_(path),
         access_(path),
-        layout_(readLayout(access_.database())),
+        layout_(readLayout(access_.database(), access_.meta())),
         seriesRows_(readSeries(access_.database())) {
     if (access_.beingWritten())
       indexGrowing(progress);
@@ -39,7 +39,8 @@ class PalpateStorage final : public BlockStorage {
     access_.readBlocksOnly();
     readBlock_.emplace(access_.database().prepare(
         "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?"));
-    setWidth(Stream::kTactile, layout_.numCells());
+    setWidth(Stream::kTactile, layout_.numReadings());
+    setGivesReadings(layout_.decidesTouch());
     std::size_t end = seriesRows_.end();
     for (std::size_t series = 0; series < kMaxSeries; ++series) {
       const Stream stream = streamOfSeries(series);
@@ -209,7 +210,12 @@ Recording readPalpate(const fs::path& path, const Progress& progress) {
     }
   });
   RecordingMeta meta = storage->access().meta().values;
-  return {.profile = profileOf(std::move(storage)),
+  const bool overBaselines = storage->givesReadings();
+  Profile profile = profileOf(std::move(storage));
+  if (overBaselines)
+    profile =
+        profile.withBaselines(baselinesOf(events.events, profile.layout(), &damage.events));
+  return {.profile = std::move(profile),
           .events = std::move(events.events),
           .meta = std::move(meta),
           .damage = std::move(damage)};

@@ -356,7 +356,7 @@ void readBySql(const fs::path& path,
   recovery.damagedRows += found.meta.damaged;
   attemptRecovery(recovery, [&] { readBlocks(database, found, recovery, progress); });
   attemptRecovery(recovery,
-                  [&] { found.layout = std::make_shared<SensorLayout>(readLayout(database)); });
+                  [&] { found.layout = std::make_shared<SensorLayout>(readLayout(database, found.meta)); });
   attemptRecovery(recovery, [&] {
     found.series = readSeries(database);
     recovery.damagedRows += found.series.damaged;
@@ -561,7 +561,8 @@ void buildProfile(const fs::path& path,
       path, [blocks = found.blocks](std::int64_t id) { return blocks->load(id); });
   const std::shared_ptr<const SensorLayout> layout =
       found.layout ? found.layout : defaultHand().layout;
-  storage->setWidth(Stream::kTactile, layout->numCells());
+  storage->setWidth(Stream::kTactile, layout->numReadings());
+  storage->setGivesReadings(layout->decidesTouch());
   const std::size_t numSeries = found.seriesEnd();
   for (std::size_t i = 0; i < numSeries; ++i) {
     const auto described = found.series.sound.find(i);

@@ -194,7 +194,7 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout) {
   }
 }
 
-SensorLayout readLayout(SqliteDatabase& database) {
+SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta) {
   const std::filesystem::path& path = database.path();
   std::vector<MatrixLayout> matrices;
   SqliteStatement rows = database.prepare(
@@ -222,8 +222,10 @@ SensorLayout readLayout(SqliteDatabase& database) {
     matrices.push_back(std::move(matrix));
   }
   try {
-    return SensorLayout(std::move(matrices));
-  } catch (const std::invalid_argument& error) {
+    const SensorLayout layout(std::move(matrices));
+    const std::string rules = meta[kTouchRulesKey];
+    return rules.empty() ? layout : withTouchRules(layout, rules);
+  } catch (const std::exception& error) {
     throw FormatError(path, std::string("the layout of its matrices is invalid: ") + error.what());
   }
 }

@@ -43,7 +43,9 @@ void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view
 void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 
 // Reads the layout back. Throws FormatError where it is damaged or makes no sense.
-SensorLayout readLayout(SqliteDatabase& database);
+// With the rules of touch of a recording of readings.
+struct MetaRows;
+SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta);
 
 // The description of a series beside those of the hand. The first one makes the table.
 void insertSeries(SqliteDatabase& database, std::size_t index, const SeriesDescription& series);

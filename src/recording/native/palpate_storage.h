@@ -50,6 +50,10 @@ class BlockStorage : public ProfileStorage {
   std::size_t width(Stream stream) const { return of(stream).numValues; }
   const std::vector<BlockEntry>& places(Stream stream) const { return of(stream).places; }
 
+  // Whether frames are the readings of a sensor; it must be set before frames are read.
+  void setGivesReadings(bool gives) { givesReadings_ = gives; }
+  bool givesReadings() const override { return givesReadings_; }
+
   std::size_t numFrames() const override { return of(Stream::kTactile).numItems; }
   std::int64_t frameTimeUs(std::size_t frame) const override;
   void readFrame(std::size_t frame, TactileFrame& out) const override;
@@ -93,6 +97,7 @@ class BlockStorage : public ProfileStorage {
 
   std::filesystem::path path_;
   Loader loader_;
+  bool givesReadings_ = false;
   std::array<Entries, kMaxStreams> streams_;
   mutable std::mutex mutex_;  // over loader and cache
   mutable BlockCache<std::shared_ptr<const OpenBlock>> cache_{kCachedBytes};  // by id

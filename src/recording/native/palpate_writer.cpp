@@ -37,7 +37,7 @@ void refuseExisting(const fs::path& path) {
 }
 
 void requireReadable(const SensorLayout& layout) {
-  if (layout.numMatrices() > kMaxMatrices || layout.numCells() > kMaxPlaces)
+  if (layout.numMatrices() > kMaxMatrices || layout.numReadings() > kMaxPlaces)
     throw std::invalid_argument("PalpateWriter: at most " + std::to_string(kMaxMatrices) +
                                 " matrices with " + std::to_string(kMaxPlaces) + " places in all");
 }
@@ -96,11 +96,16 @@ PublishedFile publishEmpty(const fs::path& path,
   SqliteDatabase database(":memory:", SqliteDatabase::Mode::kCreate);
   database.execute("PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE; PRAGMA application_id=" +
                    std::to_string(kPalpateApplicationId) +
-                   "; PRAGMA user_version=" + std::to_string(kPalpateVersion) + ";");
+                   "; PRAGMA user_version=" +
+                   std::to_string(layout.decidesTouch() ? kPalpateVersionWithSeries
+                                                        : kPalpateVersion) +
+                   ";");
   database.execute("BEGIN IMMEDIATE");
   createTables(database);
   insertMeta(database, "format", "palpate");
-  for (const auto& [key, value] : meta) insertMeta(database, key, value);
+  for (const auto& [key, value] : meta)
+    if (key != kTouchRulesKey) insertMeta(database, key, value);
+  if (layout.decidesTouch()) insertMeta(database, kTouchRulesKey, touchRulesText(layout));
   insertMatrices(database, layout);
   database.execute("COMMIT");
   std::string bytes = database.bytes();
@@ -385,7 +390,7 @@ struct PalpateWriter::Impl {
     const bool inUs = std::any_of(pending.blocks.begin(),
                                   pending.blocks.end(),
                                   [](const Block& block) { return hasDeviceUs(block.coding); });
-    if (series.size() > kHandSeries) return kPalpateVersionWithSeries;
+    if (series.size() > kHandSeries || layout->decidesTouch()) return kPalpateVersionWithSeries;
     return inUs ? kPalpateVersionWithDeviceUs : kPalpateVersion;
   }
   void commit() {
@@ -465,12 +470,15 @@ PalpateWriter::~PalpateWriter() {
 }
 
 void PalpateWriter::addFrame(const TactileFrame& frame) {
-  if (frame.values.size() != impl_->layout->numCells())
-    throw std::invalid_argument("frame: expected " + std::to_string(impl_->layout->numCells()) +
-                                " values, got " + std::to_string(frame.values.size()));
+  const bool hasReadings = impl_->layout->decidesTouch();
+  const std::vector<float>& stored = hasReadings ? frame.readings : frame.values;
+  if (stored.size() != impl_->layout->numReadings())
+    throw std::invalid_argument("frame: expected " +
+                                std::to_string(impl_->layout->numReadings()) + " values, got " +
+                                std::to_string(stored.size()));
   if (frame.allValues().size() != frame.values.size())
     throw std::invalid_argument("frame: another number of filtered values than of values");
-  const std::vector<float>& all = frame.allValues();
+  const std::vector<float>& all = hasReadings ? stored : frame.allValues();
   if (!std::all_of(all.begin(), all.end(), [](float v) { return std::isfinite(v); }))
     throw std::invalid_argument("frame: a value is not a number");
   requireLater("frame", impl_->lastFrameUs, frame.hostUs);
@@ -607,7 +615,10 @@ void writePalpate(const Profile& profile,
                   const RecordingMeta& meta) {
   writePalpate(
       path,
-      profile.hand().layout,
+      // What was filtered has no readings any more.
+      profile.givesReadings() || !profile.layout().decidesTouch()
+          ? profile.hand().layout
+          : std::make_shared<const SensorLayout>(withoutTouchRules(profile.layout())),
       writtenMeta(profile.info(), profile.hand(), meta),
       [&](PalpateWriter& writer) { writeAll(profile, events, writer, progress); },
       overwrite);
