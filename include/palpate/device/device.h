@@ -170,6 +170,9 @@ class Device {
   // The hand whose frames are delivered. Changes only by a mask command or a reconnection.
   virtual HandDescription hand() const = 0;
   virtual DeviceInfo info() const = 0;
+  // The series beside those of the hand that it delivers, in the order of their indexes from
+  // kHandSeries on.
+  virtual std::vector<SeriesDescription> series() const { return {}; }
   // Starts delivering to `sink`, which must stay valid until stop() returns. Throws
   // std::logic_error when already started. A port that can't be opened causes no exception here:
   // the device looks for it until stop(), and status() reports it.
