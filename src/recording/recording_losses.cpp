@@ -28,19 +28,16 @@ Json detailsOf(const Event& event) {
   }
 }
 
-std::size_t streamOf(const Json& details) {
+std::string streamOf(const Json& details) {
   const Json named = details.at("stream");
-  if (!named.isString()) return 0;
-  const auto at =
-      std::ranges::find(kLossStreams, std::string_view(named.asString()), &LossStream::name);
-  return at == kLossStreams.end() ? 0 : static_cast<std::size_t>(at - kLossStreams.begin());
+  return std::string(named.isString() ? named.asString() : std::string(kLossStreams[0].name));
 }
 
 }  // namespace
 
 std::string RecordingLoss::text() const {
   const auto at = std::ranges::find(kLossStreams, std::string_view(stream), &LossStream::name);
-  const std::string item(at == kLossStreams.end() ? std::string_view("item") : at->item);
+  const std::string item = at == kLossStreams.end() ? stream + " sample" : std::string(at->item);
   const std::string what = lost == 0 && !counted
                                ? item + "s, how many is not known,"
                                : (counted ? "" : "at least ") + palpate::counted(lost, item);
@@ -50,13 +47,17 @@ std::string RecordingLoss::text() const {
 }
 
 std::vector<RecordingLoss> lossesOf(std::span<const Event> events) {
-  std::array<RecordingLoss, kLossStreams.size()> all;
+  std::vector<RecordingLoss> all;
+  for (const LossStream& known : kLossStreams) all.push_back({.stream = std::string(known.name)});
   for (const Event& event : events) {
     if (event.kind != "gap") continue;
     const Json details = detailsOf(event);
     const Json lost = details.at("lost");
     if (lost.isNumber() && lost.asDouble() == 0.0) continue;  // a silence without a loss
-    RecordingLoss& loss = all.at(streamOf(details));
+    const std::string stream = streamOf(details);
+    auto at = std::ranges::find(all, stream, &RecordingLoss::stream);
+    if (at == all.end()) at = all.insert(at, {.stream = stream});
+    RecordingLoss& loss = *at;
     ++loss.spans;
     loss.seconds += static_cast<double>(std::max<std::int64_t>(0, event.t1Us - event.tUs)) / 1e6;
     if (lost.isNumber() && lost.asDouble() >= 0.0)
@@ -64,13 +65,8 @@ std::vector<RecordingLoss> lossesOf(std::span<const Event> events) {
     else
       loss.counted = false;
   }
-  std::vector<RecordingLoss> losses;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].spans == 0) continue;
-    all[i].stream = kLossStreams[i].name;
-    losses.push_back(all[i]);
-  }
-  return losses;
+  std::erase_if(all, [](const RecordingLoss& loss) { return loss.spans == 0; });
+  return all;
 }
 
 }  // namespace palpate

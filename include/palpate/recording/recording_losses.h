@@ -16,7 +16,7 @@ namespace palpate {
 
 // What was lost of one stream.
 struct RecordingLoss {
-  std::string stream;      // "tactile", "angles", "temperatures" or "events"
+  std::string stream;      // "tactile", "angles", "temperatures", "events", or another series
   std::size_t spans = 0;   // events that tell of a loss
   std::uint64_t lost = 0;  // items, as far as the events tell their number
   bool counted = true;     // every event tells the number
@@ -26,8 +26,9 @@ struct RecordingLoss {
   std::string text() const;
 };
 
-// One item for each stream that lost something, in the order above. An event that names no stream
-// is about the frames. An event that tells of no lost item is a silence and no loss.
+// One item for each stream that lost something, in the order above, other series as they come. An
+// event that names no stream is about the frames. An event that tells of no lost item is a silence
+// and no loss.
 std::vector<RecordingLoss> lossesOf(std::span<const Event> events);
 
 }  // namespace palpate

@@ -298,8 +298,8 @@ struct PalpateWriter::Impl {
   }
 
   // Refuses a sample while too much waits for the disk.
-  void requireRoom() const {
-    if (pending.bytes >= kMaxPendingBytes)
+  void requireRoom(std::size_t most = kMaxPendingBytes) const {
+    if (pending.bytes >= most)
       throw FileError(file->database.path(),
                       "nothing could be written for too long; the memory for what waits is full");
   }
@@ -404,7 +404,8 @@ struct PalpateWriter::Impl {
     std::map<std::string, std::int64_t> counters;
     std::size_t bytes = 0;
     bool empty() const {
-      return series.empty() && blocks.empty() && seconds.empty() && events.empty() && counters.empty();
+      return series.empty() && blocks.empty() && seconds.empty() && events.empty() &&
+             counters.empty();
     }
   };
 
@@ -501,13 +502,13 @@ void PalpateWriter::addSample(const Sample& sample) {
   Impl::WrittenSeries& series = impl_->series[sample.series];
   requireValues(series.name, sample, series.width);
   requireLater(series.name, series.lastUs, sample.hostUs);
-  impl_->requireRoom();
+  // Series beside those of the hand leave half of the memory to it.
+  impl_->requireRoom(sample.series < kHandSeries ? kMaxPendingBytes : kMaxPendingBytes / 2);
   series.width = sample.values.size();
   series.lastUs = sample.hostUs;
   // The hand's own have never had them: its files stay as they are.
-  series.packer.addSample(sample.hostUs,
-                          sample.values,
-                          sample.series < kHandSeries ? std::nullopt : sample.deviceUs);
+  series.packer.addSample(
+      sample.hostUs, sample.values, sample.series < kHandSeries ? std::nullopt : sample.deviceUs);
   impl_->commitWhenDue(sample.hostUs);
 }
 
@@ -537,9 +538,8 @@ void PalpateWriter::finish() {
       insertMeta(
           database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
       insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
-      insertMeta(database,
-                 "angle_samples",
-                 std::to_string(impl.series[kAngleSeries].packer.numItems()));
+      insertMeta(
+          database, "angle_samples", std::to_string(impl.series[kAngleSeries].packer.numItems()));
       insertMeta(database,
                  "temperature_samples",
                  std::to_string(impl.series[kTemperatureSeries].packer.numItems()));
