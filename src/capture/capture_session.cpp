@@ -142,7 +142,7 @@ void CaptureSession::start() {
   const std::size_t first = kHandSeries + device_->series().size();
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     try {
-      sources_[i]->start(*this, first + i);
+      sources_[i]->start(furtherSink_, first + i);
     } catch (const std::exception& error) {  // no thread is left: the hand goes on without it
       onEvent({nowUs(),
                nowUs(),
@@ -262,7 +262,8 @@ void CaptureSession::onSample(Sample&& sample) {
     const std::lock_guard lock(shownMutex_);
     lastTemperatures_ = sample;
   }
-  pass(CaptureItem(std::move(sample)));
+  const bool ofHand = sample.series < kHandSeries;
+  pass(CaptureItem(std::move(sample)), ofHand);
 }
 
 void CaptureSession::onEvent(Event&& event) {
@@ -270,7 +271,7 @@ void CaptureSession::onEvent(Event&& event) {
   pass(CaptureItem(std::move(event)));
 }
 
-void CaptureSession::pass(const CaptureItem& item) {
+void CaptureSession::pass(const CaptureItem& item, bool ofHand) {
   if (numFeeds_ > 0) {
     std::vector<std::shared_ptr<CaptureQueue>> feeds;
     {
@@ -279,7 +280,8 @@ void CaptureSession::pass(const CaptureItem& item) {
       numFeeds_ = feeds_.size();
       feeds = feeds_;
     }
-    for (const auto& queue : feeds) queue->put(item);  // may wait here for a replay
+    for (const auto& queue : feeds)
+      if (ofHand || !queue->onlyHand()) queue->put(item);  // may wait here for a replay
   }
   recorder_.push(item);
 }

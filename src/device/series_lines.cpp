@@ -18,12 +18,12 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kLongestLine = 16'384;  // bytes
+constexpr std::size_t kLongestSeriesLine = 16'384;  // bytes
 constexpr double kMostTimeUs = 9e15;
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr double kMissingValue = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kSeriesByteOrderMark = "\xEF\xBB\xBF";
 
-bool isMissing(std::string_view text) {
+bool isMissingValue(std::string_view text) {
   constexpr std::size_t kLongest = 4;
   if (text.empty()) return true;
   if (text.size() > kLongest) return false;
@@ -34,7 +34,7 @@ bool isMissing(std::string_view text) {
 }
 
 std::optional<double> numberOf(std::string_view text) {
-  if (isMissing(text)) return kMissing;
+  if (isMissingValue(text)) return kMissingValue;
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   return parseDouble(text);
 }
@@ -45,9 +45,9 @@ std::string_view withoutQuotes(std::string_view text) {
              : text;
 }
 
-bool isName(std::string_view text) {
+bool isColumnName(std::string_view text) {
   text = withoutQuotes(text);
-  return !text.empty() && !isMissing(text) &&
+  return !text.empty() && !isMissingValue(text) &&
          (line_tokens::isLetter(text.front()) || static_cast<unsigned char>(text.front()) >= 0x80);
 }
 
@@ -69,7 +69,7 @@ std::string withNulls(std::string_view line) {
 }
 
 bool isNumberOrNull(const Json& value) { return value.isNumber() || value.isNull(); }
-double valueOf(const Json& value) { return value.isNull() ? kMissing : value.asDouble(); }
+double jsonValueOf(const Json& value) { return value.isNull() ? kMissingValue : value.asDouble(); }
 
 std::vector<Column> unnamed(std::size_t count) {
   std::vector<Column> columns;
@@ -159,9 +159,9 @@ void SeriesLines::push(std::span<const std::byte> bytes, const Sink& sink) {
     const std::size_t end = text.find_first_of("\r\n");
     const std::string_view piece = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (!skipping_ && pending_.size() + piece.size() > kLongestLine) {
+    if (!skipping_ && pending_.size() + piece.size() > kLongestSeriesLine) {
       ++lines_;
-      refuse("longer than " + std::to_string(kLongestLine) + " bytes");
+      refuse("longer than " + std::to_string(kLongestSeriesLine) + " bytes");
       skippedBytes_ += pending_.size();
       pending_.clear();
       skipping_ = true;
@@ -198,7 +198,7 @@ void SeriesLines::refuse(const std::string& why) {
 
 void SeriesLines::takeLine(std::string_view line, const Sink& sink) {
   ++lines_;
-  if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+  if (line.starts_with(kSeriesByteOrderMark)) line.remove_prefix(kSeriesByteOrderMark.size());
   line = trimmed(line, " ");
   if (line.empty() || line.front() == '#') return;
   if (line.find('\0') != std::string_view::npos)
@@ -242,9 +242,9 @@ void SeriesLines::takeCells(std::string_view line, const Sink& sink) {
   const bool hasOneMore = all_.empty() ? cells_.size() > 1 : cells_.size() == all_.size() + 1;
   if (hasOneMore && cells_.back().empty()) cells_.pop_back();
   const bool isHeader = std::ranges::all_of(cells_, [](std::string_view cell) {
-    return isName(cell) || cell.starts_with('(') || cell.starts_with('[');
+    return isColumnName(cell) || cell.starts_with('(') || cell.starts_with('[');
   });
-  if (isHeader && isName(cells_.front())) {
+  if (isHeader && isColumnName(cells_.front())) {
     std::vector<Column> header = columnsOfCells(cells_);
     const bool isSure = isSeparated || std::ranges::any_of(header, [this](const Column& column) {
                           return !column.unit.empty() ||
@@ -275,7 +275,7 @@ void SeriesLines::takeArray(const Json& array, const Sink& sink) {
     if (value.isString())
       header.push_back(columnOf(value.asString()));
     else if (isNumberOrNull(value))
-      numbers_.push_back(valueOf(value));
+      numbers_.push_back(jsonValueOf(value));
     else
       return refuse("value " + std::to_string(i + 1) + " is not a number");
   }
@@ -293,7 +293,7 @@ void SeriesLines::takeObject(const Json& object, const Sink& sink) {
       if (isNumberOrNull(object.at(key))) all.push_back(columnOf(key));
     if (!learn(std::move(all), /*isNamed=*/true, /*isSure=*/true)) return;
   }
-  numbers_.assign(all_.size(), kMissing);
+  numbers_.assign(all_.size(), kMissingValue);
   bool isRow = false;
   for (const std::string& key : keys) {
     const Json value = object.at(key);
@@ -305,7 +305,7 @@ void SeriesLines::takeObject(const Json& object, const Sink& sink) {
     if (!isNumberOrNull(value)) return refuse(inQuotes(key) + " is not a number");
     if (!at->unit.empty() && columnOf(key).unit != at->unit && !isGiven_)
       return refuse(inQuotes(key) + " has another unit than before, " + inQuotes(at->unit));
-    numbers_[static_cast<std::size_t>(at - all_.begin())] = valueOf(value);
+    numbers_[static_cast<std::size_t>(at - all_.begin())] = jsonValueOf(value);
     isRow = true;
   }
   if (!isRow) return refuse("it has none of the columns " + namesText(all_));

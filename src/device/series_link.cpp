@@ -15,13 +15,13 @@
 namespace palpate {
 namespace {
 
-constexpr std::chrono::milliseconds kReadWait{50};
-constexpr std::size_t kReadBytes = 4096;
+constexpr std::chrono::milliseconds kSeriesReadWait{50};
+constexpr std::size_t kSeriesReadBytes = 4096;
 constexpr std::size_t kLargestDatagram = 1U << 16;
 // As for frames; before the rate is known a series may be a slow one.
 constexpr std::int64_t kSeriesSilentUs = 500'000;
 constexpr std::int64_t kFirstSilentUs = 5'000'000;
-constexpr double kSilentPeriods = 3.0;
+constexpr double kSeriesSilentPeriods = 3.0;
 constexpr double kPeriodWeight = 0.05;
 constexpr double kLongestDecay = 0.99;
 constexpr std::int64_t kRowUs = 100;        // at 10,000 rows/s
@@ -95,8 +95,9 @@ void SeriesLink::connect(ByteChannel& channel) {
 void SeriesLink::work() {
   const std::int64_t aheadUs = session_.paidUs - clock_.monotonicUs();
   if (aheadUs > 0) return waitForCommand(clock_.monotonicUs() + std::min(aheadUs, kLongestWaitUs));
-  const auto into = std::span(buffer_).first(channel_->isDatagrams() ? buffer_.size() : kReadBytes);
-  const std::size_t got = channel_->read(into, kReadWait);
+  const auto into =
+      std::span(buffer_).first(channel_->isDatagrams() ? buffer_.size() : kSeriesReadBytes);
+  const std::size_t got = channel_->read(into, kSeriesReadWait);
   if (stopping()) return;
   if (got > 0) {
     session_.bytes += got;
@@ -201,7 +202,7 @@ void SeriesLink::watchSilence() {
       session_.longestUs == 0.0
           ? kFirstSilentUs
           : std::max(kSeriesSilentUs,
-                     static_cast<std::int64_t>(kSilentPeriods * session_.longestUs));
+                     static_cast<std::int64_t>(kSeriesSilentPeriods * session_.longestUs));
   if (session_.silent || silentUs < limitUs) return;
   session_.silent = true;
   // The sender came back, but sends nothing: rows are missing since then.

@@ -79,7 +79,10 @@ struct CaptureQueueOptions {
   // A waiting consumer wakes when a queue contains this number of items; the recorder checks every
   // 80 ms in any case, every 100 ms without a recording.
   std::size_t wakeAtItems = 1;
-  std::vector<std::string> series;  // the names of all series, for gaps; may be empty
+  std::vector<std::string> series = {};  // the names of all series, for gaps; may be empty
+  // A session leaves out the series beside those of the hand, and what their sources tell: for who
+  // moves the hand.
+  bool onlyHand = false;
 };
 
 struct CaptureQueueStats {
@@ -120,6 +123,7 @@ class CaptureQueue {
   // Ends all waiting; later items are rejected.
   void close();
   bool closed() const noexcept { return closed_.load(); }
+  bool onlyHand() const noexcept { return options_.onlyHand; }
   CaptureQueueStats stats() const;
 
  private:

@@ -17,6 +17,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <palpate/capture/capture_queue.h>
@@ -111,7 +112,19 @@ class CaptureSession : private DeviceSink {
   void onSample(Sample&& sample) override;
   void onEvent(Event&& event) override;
 
-  void pass(const CaptureItem& item);
+  // Takes what the sources of further series deliver.
+  struct FurtherSink : DeviceSink {
+    explicit FurtherSink(CaptureSession& to) : session(to) {}
+    void onFrame(TactileFrame&&) override {}
+    void onSample(Sample&& sample) override { session.onSample(std::move(sample)); }
+    void onEvent(Event&& event) override {
+      session.show(event);
+      session.pass(CaptureItem(std::move(event)), /*ofHand=*/false);
+    }
+    CaptureSession& session;
+  };
+
+  void pass(const CaptureItem& item, bool ofHand = true);
   void show(const Event& event);
   LinkInputs inputs() const;
   std::map<std::string, std::int64_t> counters() const;
@@ -120,6 +133,7 @@ class CaptureSession : private DeviceSink {
   const CaptureOptions options_;
   const Clock& clock_;
   std::unique_ptr<Device> device_;
+  FurtherSink furtherSink_{*this};
   std::vector<std::unique_ptr<SeriesSource>> sources_;
   Recorder recorder_;
   LinkMonitor meter_;
