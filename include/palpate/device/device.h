@@ -25,6 +25,9 @@ namespace palpate {
 // counted by the controller's clock if that clock continued; otherwise they are estimated from the
 // usual frame rate and "estimated" is true. "lost" is absent where no rate was known.
 //
+// That of a series beside those of the hand has its name, too: {"stream": "wrist", ..}; "lost" are
+// samples then.
+//
 // The JSON of "settings" contains all settings that hold from then on: {"matrices":
 // [{"sensitivity": 0.5, "threshold_counts": 150, "dynamic_mask": "FFFF..0F"}, ..]}. The mask is
 // written in capital hexadecimal digits, two per byte. Bit i % 8 (least significant first) of byte

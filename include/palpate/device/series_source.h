@@ -24,7 +24,7 @@ struct SeriesSourceOptions {
   std::string source;  // as StreamDeviceOptions::source
   // What each number of a row is, a column of time included; of JSON objects those that are taken.
   // Empty: a header line or the names in the objects say it, else they are "1", "2", ..
-  std::vector<Column> columns;
+  std::vector<Column> columns = {};
   int baud = 115'200;  // of a serial port, 50..10,000,000 [baud]
   // As StreamDeviceOptions::open.
   std::function<std::unique_ptr<ByteChannel>(const std::string& source)> open = {};
