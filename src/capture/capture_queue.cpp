@@ -44,6 +44,11 @@ const Sample* sampleOf(const CaptureItem& item, std::size_t series) noexcept {
   return sample && sample->series == series ? sample : nullptr;
 }
 
+bool leavesRoom(const CaptureItem& item, std::size_t used, std::size_t most) noexcept {
+  const auto* sample = std::get_if<Sample>(&item);
+  return !sample || sample->series < kHandSeries || used < most / 2;
+}
+
 // The angles that belong to a frame are the last ones at or before it, so they precede it.
 bool isEarlier(const CaptureItem& a, const CaptureItem& b) noexcept {
   const std::int64_t aUs = stampOf(a), bUs = stampOf(b);
@@ -65,8 +70,8 @@ Event gapEvent(CaptureStream stream,
   event.tUs = loss.firstUs;
   event.t1Us = loss.lastUs;
   event.kind = "gap";
-  const std::size_t noun = itemName.starts_with("sample of") ? std::string_view("sample").size()
-                                                             : itemName.size();
+  const std::size_t noun =
+      itemName.starts_with("sample of") ? std::string_view("sample").size() : itemName.size();
   event.text = std::to_string(loss.count) + " " + itemName.substr(0, noun) +
                (loss.count == 1 ? "" : "s") + itemName.substr(noun) +
                " lost: " + std::string(reason);
@@ -90,6 +95,11 @@ BoundedQueue<CaptureItem>& CaptureQueue::queueOf(CaptureStream stream) {
   return stream == CaptureStream::kEvents ? events_ : motion_;
 }
 
+void CaptureQueue::nameSeries(std::vector<std::string> names) {
+  const std::lock_guard lock(lossMutex_);
+  options_.series = std::move(names);
+}
+
 bool CaptureQueue::put(CaptureItem item) {
   if (closed()) return false;
   const CaptureStream stream = streamOf(item);
@@ -101,7 +111,7 @@ bool CaptureQueue::put(CaptureItem item) {
   } else {
     // The lock ensures that a gap ends before the item that ends it.
     const std::lock_guard lock(lossMutex_);
-    taken = queue.tryPush(std::move(item));
+    taken = leavesRoom(item, queue.size(), options_.motionItems) && queue.tryPush(std::move(item));
     if (closed()) return taken;
     const auto index = static_cast<std::size_t>(stream);
     std::optional<CaptureLoss>& open = open_.at(index);
@@ -111,7 +121,8 @@ bool CaptureQueue::put(CaptureItem item) {
       ++open->count;
       ++lost_.at(index);
     } else if (open) {
-      ended_.emplace_back(gapEvent(stream, *open, consumer_ + " could not keep up", options_.series));
+      ended_.emplace_back(
+          gapEvent(stream, *open, consumer_ + " could not keep up", options_.series));
       open.reset();
     }
   }
@@ -139,8 +150,10 @@ void CaptureQueue::takeOpenGaps(std::vector<CaptureItem>& out, std::vector<Event
   const std::lock_guard lock(lossMutex_);
   for (std::size_t i = 0; i < kCaptureStreams; ++i) {
     if (!open_.at(i)) continue;
-    Event gap =
-        gapEvent(static_cast<CaptureStream>(i), *open_.at(i), consumer_ + " could not keep up", options_.series);
+    Event gap = gapEvent(static_cast<CaptureStream>(i),
+                         *open_.at(i),
+                         consumer_ + " could not keep up",
+                         options_.series);
     if (ownGaps) ownGaps->push_back(gap);
     out.emplace_back(std::move(gap));
     open_.at(i).reset();

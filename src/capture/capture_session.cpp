@@ -84,13 +84,43 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
           clock),
       meter_(options_.health),
       scansItself_(device_->isFreeRunning()),
-      hand_(device_->hand()) {}
+      hand_(device_->hand()) {
+  recorder_.nameSeries(seriesNames());
+}
 
 CaptureSession::~CaptureSession() {
   stop();
   recorder_.stop();  // a recording may have been requested although the device was never started
   const std::lock_guard lock(feedsMutex_);
   for (const auto& queue : feeds_) queue->close();
+}
+
+void CaptureSession::addSeries(std::unique_ptr<SeriesSource> source) {
+  if (started_ || recorder_.recording())
+    throw std::logic_error("CaptureSession::addSeries: it was started already");
+  if (!source) throw std::invalid_argument("CaptureSession: no series");
+  std::vector<std::string> taken = seriesNames();
+  if (taken.size() == kMaxSeries)
+    throw std::invalid_argument("at most " + std::to_string(kMaxSeries) + " series");
+  // The names of other streams in events.
+  taken.insert(taken.end(), {"tactile", "events"});
+  if (std::ranges::find(taken, source->name()) != taken.end())
+    throw std::invalid_argument("two series have the name " + source->name() +
+                                ", or it is one of the hand's");
+  sources_.push_back(std::move(source));
+  recorder_.nameSeries(seriesNames());
+}
+
+std::vector<SeriesDescription> CaptureSession::furtherSeries() const {
+  std::vector<SeriesDescription> all = device_->series();
+  for (const auto& source : sources_) all.push_back(source->description());
+  return all;
+}
+
+std::vector<std::string> CaptureSession::seriesNames() const {
+  std::vector<std::string> names{"angles", "temperatures"};
+  for (const SeriesDescription& series : furtherSeries()) names.push_back(series.name);
+  return names;
 }
 
 void CaptureSession::start() {
@@ -109,11 +139,26 @@ void CaptureSession::start() {
   if (options_.ownThread) recorder_.run();
   device_->start(*this);
   started_ = true;
+  const std::size_t first = kHandSeries + device_->series().size();
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    try {
+      sources_[i]->start(furtherSink_, first + i);
+    } catch (const std::exception& error) {  // no thread is left: the hand goes on without it
+      onEvent({nowUs(),
+               nowUs(),
+               "alarm",
+               {},
+               "series " + sources_[i]->name() + ": " + error.what(),
+               ""});
+    }
+  }
 }
 
 void CaptureSession::stop() noexcept {
   if (!started_) return;
+  for (const auto& source : sources_) source->requestStop();
   device_->stop();
+  for (const auto& source : sources_) source->stop();
   started_ = false;
   recorder_.stop();
   recorder_.halt();
@@ -122,40 +167,61 @@ void CaptureSession::stop() noexcept {
 void CaptureSession::startRecording(RecordingOptions options) {
   // Counts from before the recording are subtracted. One that waits for a contact begins when its
   // file is made; both functions below are called by the recorder alone.
-  const auto before =
-      std::make_shared<std::map<std::string, std::int64_t>>(countersOf(device_->status()));
+  const auto before = std::make_shared<std::map<std::string, std::int64_t>>(counters());
   const auto waits = std::make_shared<bool>(options.startOnContact);
   const auto given = options.counters;
   // What the link counted when the recording ended: a gap that was open then and ends later is
   // counted by the link, too.
   const auto atEnd = std::make_shared<std::optional<std::map<std::string, std::int64_t>>>();
   options.openGaps = [this, atEnd](std::int64_t untilUs) {
-    auto& counters = atEnd->emplace(countersOf(device_->status()));
+    auto& last = atEnd->emplace(counters());
     std::vector<Event> gaps;
     if (auto gap = device_->openGap(untilUs)) gaps.push_back(std::move(*gap));
     for (const RecordingLoss& loss : lossesOf(gaps))
       for (const char* name : {"lost", "lost_estimated"})
-        counters[name] += static_cast<std::int64_t>(loss.lost);
+        last[name] += static_cast<std::int64_t>(loss.lost);
+    for (const auto& source : sources_) {
+      auto gap = source->openGap(untilUs);
+      if (!gap) continue;
+      for (const RecordingLoss& loss : lossesOf({&*gap, 1}))
+        last[seriesCounter(source->name(), "lost")] += static_cast<std::int64_t>(loss.lost);
+      gaps.push_back(std::move(*gap));
+    }
     return gaps;
   };
   options.counters = [this, before, given, atEnd] {
-    auto counters = *atEnd ? **atEnd : countersOf(device_->status());
-    for (auto& [name, value] : counters) {
+    auto now = *atEnd ? **atEnd : counters();
+    for (auto& [name, value] : now) {
       const auto earlier = before->find(name);
       if (earlier != before->end() && earlier->second <= value) value -= earlier->second;
     }
     if (given)
-      for (const auto& [name, value] : given()) counters[name] = value;
-    return counters;
+      for (const auto& [name, value] : given()) now[name] = value;
+    return now;
   };
+  options.series = [this] { return furtherSeries(); };
   options.describe = [this, before, waits, more = options.describe] {
-    if (std::exchange(*waits, false)) *before = countersOf(device_->status());
+    if (std::exchange(*waits, false)) *before = counters();
     auto meta = describe(*device_);
     if (more)
       for (const auto& [key, value] : more()) meta[key] = value;
     return meta;
   };
   recorder_.start(std::move(options));
+}
+
+std::map<std::string, std::int64_t> CaptureSession::counters() const {
+  auto counters = countersOf(device_->status());
+  for (const auto& source : sources_) {
+    const PortStatus port = source->status().port;
+    const auto add = [&](const char* what, std::uint64_t count) {
+      counters[seriesCounter(source->name(), what)] = static_cast<std::int64_t>(count);
+    };
+    add("lost", port.lost);
+    add("suspect", port.suspect);
+    add("reconnects", port.reconnects);
+  }
+  return counters;
 }
 
 RecordingReport CaptureSession::stopRecording() { return recorder_.stop(); }
@@ -196,7 +262,8 @@ void CaptureSession::onSample(Sample&& sample) {
     const std::lock_guard lock(shownMutex_);
     lastTemperatures_ = sample;
   }
-  pass(CaptureItem(std::move(sample)));
+  const bool ofHand = sample.series < kHandSeries;
+  pass(CaptureItem(std::move(sample)), ofHand);
 }
 
 void CaptureSession::onEvent(Event&& event) {
@@ -204,7 +271,7 @@ void CaptureSession::onEvent(Event&& event) {
   pass(CaptureItem(std::move(event)));
 }
 
-void CaptureSession::pass(const CaptureItem& item) {
+void CaptureSession::pass(const CaptureItem& item, bool ofHand) {
   if (numFeeds_ > 0) {
     std::vector<std::shared_ptr<CaptureQueue>> feeds;
     {
@@ -213,7 +280,8 @@ void CaptureSession::pass(const CaptureItem& item) {
       numFeeds_ = feeds_.size();
       feeds = feeds_;
     }
-    for (const auto& queue : feeds) queue->put(item);  // may wait here for a replay
+    for (const auto& queue : feeds)
+      if (ofHand || !queue->onlyHand()) queue->put(item);  // may wait here for a replay
   }
   recorder_.push(item);
 }
@@ -227,6 +295,7 @@ void CaptureSession::show(const Event& event) {
 std::shared_ptr<CaptureQueue> CaptureSession::subscribe(std::string consumer,
                                                         const CaptureQueueOptions& options) {
   auto queue = std::make_shared<CaptureQueue>(std::move(consumer), options);
+  if (options.series.empty()) queue->nameSeries(seriesNames());
   const std::lock_guard lock(feedsMutex_);
   feeds_.push_back(queue);
   numFeeds_ = feeds_.size();
@@ -239,9 +308,7 @@ SharedFrame CaptureSession::takeFrame() { return screenFrame_.take().value_or(nu
 
 std::optional<Sample> CaptureSession::takeAngles() { return screenAngles_.take(); }
 
-std::optional<Sample> CaptureSession::takeTemperatures() {
-  return screenTemperatures_.take();
-}
+std::optional<Sample> CaptureSession::takeTemperatures() { return screenTemperatures_.take(); }
 
 std::vector<Event> CaptureSession::takeEvents() {
   const std::lock_guard lock(shownMutex_);
@@ -257,6 +324,7 @@ LinkInputs CaptureSession::inputs() const {
   inputs.frames = meter_.read(clock_.monotonicUs());
   inputs.queues = recorder_.queueStats();
   inputs.recorder = recorder_.status();
+  for (const auto& source : sources_) inputs.series.push_back(source->status());
   const std::lock_guard lock(shownMutex_);
   inputs.temperatures = lastTemperatures_;
   return inputs;

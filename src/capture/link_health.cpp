@@ -220,6 +220,7 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
   health.device = inputs.device;
   health.queues = inputs.queues;
   health.recorder = inputs.recorder;
+  health.series = inputs.series;
   health.lost = inputs.device.tactile.lost;
   health.badChecksums = inputs.device.tactile.badChecksums;
   if (inputs.device.motion) health.badChecksums += inputs.device.motion->badChecksums;
@@ -235,6 +236,10 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
     health.alarms.push_back({AlarmKind::kLowDisk,
                              "the disk is full in " + diskTimeText(*health.diskHours) +
                                  ": free some space, or record elsewhere"});
+  for (const SeriesStatus& series : inputs.series)
+    if (inputs.started && series.port.state != PortState::kStreaming)
+      health.alarms.push_back(
+          {AlarmKind::kNoRows, "series " + series.name + ": " + series.port.message});
   if (const auto hottest = hottestOf(inputs); hottest && *hottest > options.maxTemperatureDegC)
     health.alarms.push_back({AlarmKind::kTooHot,
                              "the hand is " + fixedText(*hottest, 0) +

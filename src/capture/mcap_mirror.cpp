@@ -32,6 +32,10 @@ void McapMirror::begin(const std::filesystem::path& path,
   push(Begin{path, std::move(layout), std::move(meta)});
 }
 
+void McapMirror::addSeries(std::size_t series, const SeriesDescription& description) {
+  push(BeginSeries{series, description});
+}
+
 void McapMirror::add(const CaptureItem& item) { push(item); }
 
 void McapMirror::flushWhenDue(std::int64_t monoUs) {
@@ -104,6 +108,8 @@ void McapMirror::work(Task& task) {
   }
   if (!writer_) return;
   if (std::holds_alternative<Flush>(task)) return writer_->flush();
+  if (const auto* series = std::get_if<BeginSeries>(&task))
+    return writer_->addSeries(series->index, series->description);
   const auto& item = std::get<CaptureItem>(task);
   if (const auto* frame = std::get_if<SharedFrame>(&item))
     writer_->addFrame(**frame);

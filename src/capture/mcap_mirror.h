@@ -34,6 +34,8 @@ class McapMirror {
   void begin(const std::filesystem::path& path,
              std::shared_ptr<const SensorLayout> layout,
              RecordingMeta meta);
+  // Before the first sample of a series beside those of the hand, in each file.
+  void addSeries(std::size_t series, const SeriesDescription& description);
   void add(const CaptureItem& item);
   // Writes what waits when the last time was a second ago.
   void flushWhenDue(std::int64_t monoUs);
@@ -51,8 +53,12 @@ class McapMirror {
     std::shared_ptr<const SensorLayout> layout;
     RecordingMeta meta;
   };
+  struct BeginSeries {
+    std::size_t index = 0;
+    SeriesDescription description;
+  };
   struct Flush {};
-  using Task = std::variant<Begin, CaptureItem, Flush>;
+  using Task = std::variant<Begin, BeginSeries, CaptureItem, Flush>;
 
   void push(Task task);
   void run();

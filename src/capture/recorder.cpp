@@ -6,7 +6,6 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <deque>
-#include <numeric>
 #include <stdexcept>
 
 #include "palpate/core/error.h"
@@ -70,13 +69,17 @@ struct Recorder::Impl {
 
   std::int64_t nowUs() const { return otherTime.load() ? newestUs.load() : host->nowUs(); }
 
-  std::int64_t lostInQueues() const {
-    const auto lost = queue.stats().lost;
-    return static_cast<std::int64_t>(std::accumulate(lost.begin(), lost.end(), std::uint64_t{0}));
+  // Lost in the queues since the start, by CaptureStream.
+  QueueLosses lostInQueues() const {
+    QueueLosses lost = queue.stats().lost;
+    const std::lock_guard lock(mutex);
+    for (std::size_t i = 0; i < lost.size(); ++i) lost[i] -= lostAtStart[i];
+    return lost;
   }
 
   // Keeps the items of the last seconds, measured from the newest stamp.
   void keep(const CaptureItem& item) {
+    if (!leavesRoom(item, kept.size(), kMostKept)) return;
     kept.push_back(item);
     keptNewestUs = std::max(keptNewestUs, stampOf(item));
     const std::int64_t horizonUs =
@@ -164,7 +167,7 @@ struct Recorder::Impl {
     takenMonoUs = takingMonoUs;
     if (parts) {
       const RoundTime time = now();
-      parts->noteQueueLosses(lostInQueues() - lostAtStart.load());
+      parts->noteQueueLosses(lostInQueues());
       parts->round(time);
       if (stopping || parts->ended(time)) finish(time, stopping);
     }
@@ -241,7 +244,6 @@ struct Recorder::Impl {
   std::atomic<bool> otherTime = false;          // stamps are not in the clock's time
   std::atomic<std::int64_t> newestUs = 0;       // stamp of the newest sample pushed
   std::atomic<std::int64_t> roundBeganUs = -1;  // monotonic; -1 between rounds
-  std::atomic<std::int64_t> lostAtStart = 0;
 
   // Used by the recorder's thread only.
   std::vector<CaptureItem> items;
@@ -259,6 +261,7 @@ struct Recorder::Impl {
   std::optional<RecordingOptions> request;
   RoundTime requestTime;
   std::optional<fs::path> folderRequest;
+  QueueLosses lostAtStart{};
   bool active = false;
   bool stopRequested = false;
   RecordingReport report;
@@ -308,9 +311,14 @@ void Recorder::step() {
   impl_->round();
 }
 
+void Recorder::nameSeries(std::vector<std::string> names) {
+  impl_->queue.nameSeries(std::move(names));
+}
+
 bool Recorder::push(CaptureItem item) {
   if (const auto* frame = std::get_if<SharedFrame>(&item); frame && !*frame) return false;
-  if (streamOf(item) != CaptureStream::kEvents) {
+  // Other series have the clock's time, whatever the hand has.
+  if (streamOf(item) <= CaptureStream::kTemperatures) {
     const std::int64_t stampUs = stampOf(item);
     impl_->newestUs.store(stampUs);
     impl_->otherTime.store(std::abs(stampUs - impl_->host->nowUs()) > kOtherTimeUs);
@@ -342,10 +350,10 @@ void Recorder::start(RecordingOptions options) {
   // Before the first item the time of the stamps is unknown; every item counts as after the start
   // then.
   if (impl.newestUs.load() == 0) time.nowUs = INT64_MIN / 2;
-  const std::int64_t lost = impl.lostInQueues();
+  const QueueLosses lost = impl.queue.stats().lost;
   const std::lock_guard lock(impl.mutex);
   if (impl.active) throw std::logic_error("Recorder: records already");
-  impl.lostAtStart.store(lost);
+  impl.lostAtStart = lost;
   impl.active = true;
   const bool armed = options.startOnContact;
   impl.request = std::move(options);

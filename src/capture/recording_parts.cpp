@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -100,6 +102,7 @@ RecordingParts::RecordingParts(RecordingOptions options,
 
 // Keeps the items of the time before a contact, with which the recording then begins.
 void RecordingParts::awaitContact(const CaptureItem& item, RoundTime time) {
+  if (!leavesRoom(item, before_.size(), kMostHeld)) return;
   before_.push_back(item);
   const auto* frame = std::get_if<SharedFrame>(&item);
   // A contact from before the request counts if it is still there.
@@ -171,6 +174,10 @@ void RecordingParts::take(const CaptureItem& item, RoundTime time) {
 }
 
 void RecordingParts::hold(const CaptureItem& item) {
+  if (!leavesRoom(item, held_.size(), kMostHeld)) {
+    if (frameHeld_) recordLoss(item);
+    return;
+  }
   frameHeld_ = frameHeld_ || streamOf(item) == CaptureStream::kTactile;
   held_.push_back(item);
   // Before the first frame nothing is recorded yet: old angles may be dropped.
@@ -203,7 +210,32 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
   ++nextPart_;
   paths_.push_back(path);
   if (mcap_) mcap_->begin(mcapPathOf(path), layout, meta);
+  for (const std::size_t index : inFile_) {
+    writer->addSeries(further_[index].description);
+    if (mcap_) mcap_->addSeries(kHandSeries + index, further_[index].description);
+  }
   return writer;
+}
+
+// Adds the series whose columns are known by now to the open part, and so to those that follow.
+void RecordingParts::learnSeries() {
+  if (!options_.series) return;
+  const std::vector<SeriesDescription> all = options_.series();
+  if (further_.size() < all.size()) further_.resize(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    FurtherSeries& series = further_[i];
+    if (series.indexInFile) continue;
+    series.description = all[i];
+    if (all[i].columns.empty()) continue;
+    try {
+      series.indexInFile = writer_->addSeries(all[i]);
+    } catch (const std::invalid_argument& error) {  // its samples are refused
+      refusedWhy_ = error.what();
+      continue;
+    }
+    inFile_.push_back(i);
+    if (mcap_) mcap_->addSeries(kHandSeries + i, all[i]);
+  }
 }
 
 // Opens a part with the layout of the first waiting frame.
@@ -232,6 +264,7 @@ void RecordingParts::open(RoundTime time) {
     noteRelocation(failure + "; it is recorded in " + paths_.back().string(), time);
   layout_ = layout;
   lastCounters_.clear();
+  learnSeries();
   for (const CaptureItem& item : std::exchange(held_, {})) take(item, time);
   onCommitSucceeded(time);
   commit(time);  // the file contains the items from its first moment on
@@ -399,6 +432,11 @@ bool RecordingParts::closeOldPart(RoundTime time) {
 
 void RecordingParts::write(const CaptureItem& item, RoundTime time) {
   try {
+    const auto* sample = std::get_if<Sample>(&item);
+    const bool isFurther = sample && sample->series >= kHandSeries;
+    if (isFurther && (sample->series - kHandSeries >= further_.size() ||
+                      !further_[sample->series - kHandSeries].indexInFile))
+      learnSeries();
     writeTo(item);
   } catch (const FileError&) {  // commits have failed until the memory limit was reached
     return recordLoss(item);
@@ -413,18 +451,18 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
   if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.sinceMonoUs;
 }
 
-namespace {
-
-void append(PalpateWriter& writer, const CaptureItem& item) {
-  if (const auto* frame = std::get_if<SharedFrame>(&item))
-    writer.addFrame(**frame);
-  else if (const auto* sample = std::get_if<Sample>(&item))
-    writer.addSample(*sample);
-  else if (const auto* event = std::get_if<Event>(&item))
-    writer.addEvent(*event);
+void RecordingParts::append(PalpateWriter& writer, const CaptureItem& item) const {
+  if (const auto* frame = std::get_if<SharedFrame>(&item)) return writer.addFrame(**frame);
+  if (const auto* event = std::get_if<Event>(&item)) return writer.addEvent(*event);
+  const auto& sample = std::get<Sample>(item);
+  if (sample.series < kHandSeries) return writer.addSample(sample);
+  const std::size_t index = sample.series - kHandSeries;
+  if (index >= further_.size() || !further_[index].indexInFile)
+    throw std::invalid_argument("there is no series " + std::to_string(sample.series));
+  Sample inFile = sample;
+  inFile.series = *further_[index].indexInFile;
+  writer.addSample(inFile);
 }
-
-}  // namespace
 
 void RecordingParts::writeTo(const CaptureItem& item) {
   append(*writer_, item);
@@ -447,12 +485,17 @@ void RecordingParts::writeTo(const CaptureItem& item) {
     case CaptureStream::kEvents:
       ++counts_.events;
       break;
-    default:
+    default: {
+      FurtherSeries& series = further_[std::get<Sample>(item).series - kHandSeries];
+      series.lastUs = stampOf(item);
+      if (series.samples++ == 0) series.firstUs = series.lastUs;
       ++counts_.samples;
+    }
   }
 }
 
 void RecordingParts::keepUncommitted(const CaptureItem& item) {
+  if (!leavesRoom(item, uncommitted_.size(), kMostHeld)) return;
   uncommitted_.push_back(item);
   if (uncommitted_.size() <= kMostHeld) return;
   if (streamOf(uncommitted_.front()) == CaptureStream::kTactile) {
@@ -562,6 +605,11 @@ void RecordingParts::continueIn(const fs::path& folder, RoundTime time) {
 
 void RecordingParts::recordLoss(const CaptureItem& item) {
   ++counts_.lost;
+  if (const auto* sample = std::get_if<Sample>(&item); sample && sample->series >= kHandSeries) {
+    const std::size_t index = sample->series - kHandSeries;
+    if (further_.size() <= index) further_.resize(index + 1);
+    ++further_[index].lost;
+  }
   std::optional<CaptureLoss>& loss = losses_.at(static_cast<std::size_t>(streamOf(item)));
   const std::int64_t stampUs = stampOf(item);
   if (!loss) loss = CaptureLoss{stampUs, stampUs, 0};
@@ -572,7 +620,10 @@ void RecordingParts::recordLoss(const CaptureItem& item) {
 void RecordingParts::endLossInterval(std::size_t stream) {
   std::optional<CaptureLoss>& loss = losses_.at(stream);
   if (!loss) return;
-  addOwn(gapEvent(static_cast<CaptureStream>(stream), *loss, "the disk could not be written"));
+  std::vector<std::string> names(kHandSeries);
+  for (const FurtherSeries& series : further_) names.push_back(series.description.name);
+  addOwn(
+      gapEvent(static_cast<CaptureStream>(stream), *loss, "the disk could not be written", names));
   loss.reset();
 }
 
@@ -589,7 +640,10 @@ void RecordingParts::addOwn(Event event) {
 void RecordingParts::addOpenGaps(RoundTime time) {
   if (!options_.openGaps || std::exchange(gapsTaken_, true)) return;
   for (Event& gap : options_.openGaps(std::min(time.nowUs, endUs_.value_or(time.nowUs)))) {
-    counts_.openGapS = std::max(counts_.openGapS, static_cast<double>(gap.t1Us - gap.tUs) / 1e6);
+    const bool isOfFrames =
+        gap.json.empty() || !Json::parse(gap.json).contains("stream");  // made by this program
+    if (isOfFrames)
+      counts_.openGapS = std::max(counts_.openGapS, static_cast<double>(gap.t1Us - gap.tUs) / 1e6);
     unwrittenEvents_.push_back(std::move(gap));
   }
 }
@@ -758,16 +812,36 @@ void RecordingParts::describe(RecorderStatus& status) const {
   status.angles = counts_.angles;
   status.temperatures = counts_.temperatures;
   status.samples = counts_.samples;
+  status.series = recordedSeries();
   status.firstFrameUs = intervals_.firstUs();
   status.lastFrameUs = intervals_.lastUs();
   status.recordedS = intervals_.durationS();
   status.framesOnDisk = framesOnDisk();
   status.bytesOnDisk = bytesOnDisk();
-  status.lost = counts_.lost + lostInQueues_;
+  status.lost = counts_.lost + lostByQueues();
   status.refused = counts_.refused;
   status.writeError = error_;
   status.relocation = relocation_;
   status.mcapFailure = mcapFailure_;
+}
+
+std::int64_t RecordingParts::lostByQueues() const {
+  return static_cast<std::int64_t>(
+      std::accumulate(lostInQueues_.begin(), lostInQueues_.end(), std::uint64_t{0}));
+}
+
+std::vector<RecordedSeries> RecordingParts::recordedSeries() const {
+  std::vector<RecordedSeries> recorded;
+  for (std::size_t i = 0; i < further_.size(); ++i) {
+    const FurtherSeries& series = further_[i];
+    const auto lost = static_cast<std::int64_t>(lostInQueues_[1 + kHandSeries + i]) + series.lost;
+    const double seconds = static_cast<double>(series.lastUs - series.firstUs) / kUsPerS;
+    recorded.push_back({series.description.name,
+                        series.samples,
+                        lost,
+                        seconds > 0.0 ? static_cast<double>(series.samples - 1) / seconds : 0.0});
+  }
+  return recorded;
 }
 
 // Which parts are unfinished elsewhere.
@@ -793,7 +867,8 @@ RecordingReport RecordingParts::report() const {
   }
   std::erase_if(report.paths, [](const fs::path& path) { return !isThere(path); });
   const auto vanished = unfinished_ ? vanishing() : std::vector<const PalpateWriter*>();
-  report.lost += lostInQueues_;
+  report.series = recordedSeries();
+  report.lost += lostByQueues();
   report.gaps = intervals_.gaps();
   report.gapsS = intervals_.gapsS();
   report.firstFrameUs = intervals_.firstUs();

@@ -31,6 +31,9 @@ void requireNewFile(const std::filesystem::path& path);
 // Throws FileError: no such folder, not writable.
 void requireWritableFolder(const std::filesystem::path& folder);
 
+// Items lost in the queues, by CaptureStream.
+using QueueLosses = std::array<std::uint64_t, kCaptureStreams>;
+
 // Times of a round on both clocks.
 struct RoundTime {
   std::int64_t monoUs = 0;  // used for waiting and retrying
@@ -66,8 +69,8 @@ class RecordingParts {
   bool waitsForDisk() const noexcept { return options_.waitForDisk; }
   // The oldest item that no commit has taken came after this monotonic time; empty: there is none.
   std::optional<std::int64_t> oldestUncommittedMonoUs() const noexcept { return dirtySinceMonoUs_; }
-  // Number of items that the queues lost since the start; their gaps arrive as events.
-  void noteQueueLosses(std::int64_t items) noexcept { lostInQueues_ = items; }
+  // What the queues lost since the start; its gaps arrive as events.
+  void noteQueueLosses(const QueueLosses& lost) noexcept { lostInQueues_ = lost; }
   // Monotonic time since which it records: of the request, or of the contact that began it.
   std::int64_t startMonoUs() const noexcept { return start_.monoUs; }
   void describe(RecorderStatus& status) const;
@@ -108,6 +111,10 @@ class RecordingParts {
   void noteFinished(const std::filesystem::path& path);
   void write(const CaptureItem& item, RoundTime time);
   void writeTo(const CaptureItem& item);
+  void append(PalpateWriter& writer, const CaptureItem& item) const;
+  void learnSeries();
+  std::vector<RecordedSeries> recordedSeries() const;
+  std::int64_t lostByQueues() const;
   void keepUncommitted(const CaptureItem& item);
   void replace(std::unique_ptr<PalpateWriter>& part);
   void recordLoss(const CaptureItem& item);
@@ -202,7 +209,20 @@ class RecordingParts {
   std::optional<std::int64_t> endUs_;  // the recording ends before this stamp
   bool ended_ = false;
   RecordingReport counts_;
-  std::int64_t lostInQueues_ = 0;
+  QueueLosses lostInQueues_{};
+
+  // Series beside those of the hand. All parts have those that are known, in the same order: a file
+  // counts them in the order in which their columns became known.
+  struct FurtherSeries {
+    SeriesDescription description;
+    std::optional<std::size_t> indexInFile;  // empty: its columns are not known yet
+    std::int64_t samples = 0;
+    std::int64_t lost = 0;  // by the disk
+    std::int64_t firstUs = 0;
+    std::int64_t lastUs = 0;
+  };
+  std::vector<FurtherSeries> further_;  // from kHandSeries on
+  std::vector<std::size_t> inFile_;     // which of them are in the files, in their order
 };
 
 }  // namespace palpate

@@ -5,6 +5,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -66,7 +67,7 @@ struct Replay::Impl {
   void countUnreadable(bool tactile, const std::string& fault) {
     if (!std::exchange(warned, true)) untold = fault;
     const std::lock_guard lock(mutex);
-    PortStatus& port = tactile ? status.tactile : *status.motion;
+    PortStatus& port = tactile || !status.motion ? status.tactile : *status.motion;
     ++port.lost;
     port.message = fault;
   }
@@ -87,8 +88,9 @@ struct Replay::Impl {
       countUnreadable(tactile, error.what());
       return tellUnreadable(item.timeUs);
     }
+    if (!tactile && item.series >= kHandSeries) return;  // of no port of the hand
     const std::lock_guard lock(mutex);
-    PortStatus& port = tactile ? status.tactile : *status.motion;
+    PortStatus& port = tactile || !status.motion ? status.tactile : *status.motion;
     ++port.items;
     port.lastItemUs = item.timeUs;
   }
@@ -220,6 +222,12 @@ DeviceInfo Replay::info() const {
   info.sensorRevision =
       static_cast<int>(parseInteger(impl_->profile.info().sensorRevision).value_or(0));
   return info;
+}
+
+std::vector<SeriesDescription> Replay::series() const {
+  const std::span all(impl_->profile.series());
+  const auto further = all.subspan(std::min(kHandSeries, all.size()));
+  return {further.begin(), further.end()};
 }
 
 void Replay::start(DeviceSink& sink) {

@@ -35,6 +35,7 @@ CaptureQueueOptions smallFeed() {
   options.tactileItems = kWaitingFrames;
   options.motionItems = 8 * kWaitingFrames;
   options.eventItems = kWaitingFrames;
+  options.onlyHand = true;
   return options;
 }
 

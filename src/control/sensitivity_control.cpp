@@ -23,7 +23,8 @@ constexpr double kTemperaturesWithinS = 3.0;
 constexpr std::int64_t kStaleUs = 1'000'000;  // without a frame for this time no rate is known
 
 // Frames of one or two seconds: if step() is called less often, frames are skipped without harm.
-const CaptureQueueOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
+const CaptureQueueOptions kFeed{
+    .tactileItems = 256, .motionItems = 256, .eventItems = 64, .onlyHand = true};
 
 TactileThresholds resetOf(const HandDescription& hand) {
   TactileThresholds reset;
@@ -172,7 +173,8 @@ void SensitivityControl::processFrames() {
   queue_->take(items_);
   for (const CaptureItem& item : items_) {
     if (const auto* frame = std::get_if<SharedFrame>(&item)) onFrame(**frame);
-    if (const Sample* temperatures = sampleOf(item, kTemperatureSeries)) degC_ = temperatures->values;
+    if (const Sample* temperatures = sampleOf(item, kTemperatureSeries))
+      degC_ = temperatures->values;
     // A pause of the stream must not count as a low rate.
     if (const auto* event = std::get_if<Event>(&item))
       if (event->kind == "settings" || event->kind == "gap") stampsUs_.clear();

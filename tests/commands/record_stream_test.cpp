@@ -55,6 +55,31 @@ TEST(RecordStream, TheLastRefusedLineIsNamed) {
   EXPECT_EQ(result.err, "palpate: 1 refused (the last: line 3: 255 numbers instead of 256)\n");
 }
 
+// The hand is recorded without it.
+TEST(RecordStream, ASeriesThatIsNotThereIsTold) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      recordText(folder, line(0) + line(1), kPad, "--series wrist=tcp:127.0.0.1:1");
+  EXPECT_EQ(result.exitCode, 3) << result.err;
+  EXPECT_NE(result.err.find("series wrist: no row was recorded"), std::string::npos) << result.err;
+  EXPECT_EQ(openRecording(folder / "a.palpate").numFrames(), 2u);
+}
+
+TEST(RecordStream, SeriesThatCannotBeReadAreRefused) {
+  for (const char* more : {"--series wrist",
+                           "--series Wrist=tcp:127.0.0.1:1",
+                           "--series wrist=udp:nine",
+                           "--series wrist=-",
+                           "--series wrist=udp:0 --series wrist=udp:0",
+                           "--series angles=udp:0",
+                           "--series wrist=udp:0 --series-columns 'wrist=a,a'",
+                           "--series-columns wrist=a"}) {
+    const TemporaryFolder folder;
+    const ProgramResult result = recordText(folder, line(0), kPad, more);
+    EXPECT_EQ(result.exitCode, 2) << more << result.err;
+  }
+}
+
 // A pad of 2 x 3, full scale 1023.
 std::string smallPad(const TemporaryFolder& folder) {
   std::filesystem::create_directory(folder / "pad");

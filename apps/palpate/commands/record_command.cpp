@@ -24,6 +24,7 @@
 #include "commands/commands.h"
 #include "commands/live_streams.h"
 #include "commands/remote_recording.h"
+#include "commands/series_options.h"
 #include "commands/stream_options.h"
 
 namespace palpate::commands {
@@ -118,6 +119,7 @@ void recordUntilDone(CaptureSession& session,
                      double firstFrameS,
                      bool quiet,
                      StreamNotice& notice) {
+  SeriesNotice seriesNotice(session, quiet);
   constexpr int kLookMs = 50;
   constexpr int kShowEvery = 10;
   session.start();
@@ -126,6 +128,7 @@ void recordUntilDone(CaptureSession& session,
   for (int look = 0; session.recording(); ++look) {
     if (interruption.waitForSignal(kLookMs)) return;
     notice.show();
+    seriesNotice.show();
     if (stream != nullptr && stream->finished()) return;
     const RecorderStatus recorder = session.recorderStatus();
     if (recorder.state != RecorderStatus::State::kRecording && recorder.elapsedS >= firstFrameS &&
@@ -179,6 +182,7 @@ std::string recordJsonText(const RecordingReport& report,
       .set("lost_estimated", report.counter("lost_estimated"))
       .set("recorder_lost", report.lost)
       .set("gaps", report.gaps)
+      .set("series", seriesJson(report))
       .set("events", report.events)
       .set("duration_s", report.durationS)
       .set("rate_hz", recordRateJson(report.rateHz))
@@ -198,7 +202,7 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
          counted(static_cast<std::uint64_t>(report.temperatures), "temperature sample") + "; " +
          std::to_string(report.counter("lost") + report.lost) + " lost, " +
          counted(badChecksumsOf(device), "bad checksum") + ", " +
-         counted(static_cast<std::uint64_t>(report.gaps), "gap");
+         counted(static_cast<std::uint64_t>(report.gaps), "gap") + seriesText(report);
 }
 
 std::unique_ptr<Device> recordedDevice(const CommandLine& given) {
@@ -223,7 +227,7 @@ CommandSpec recordSpec() {
           "folder, or a folder with a template of file names. Exit code 3: the recorder lost "
           "something, frames were refused or hold values outside the hand's range, no frame came "
           "at "
-          "its end, or a stream lost some.",
+          "its end, or a stream or a series lost some.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"output,o", "OUT.palpate", "where to record"},
@@ -253,6 +257,8 @@ CommandSpec recordSpec() {
       .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
       .maxArguments = 0};
   const std::vector<OptionSpec> stream = streamSourceOptions();
+  const std::vector<OptionSpec> series = seriesOptions();
+  spec.options.insert(spec.options.begin() + 2, series.begin(), series.end());
   spec.options.insert(spec.options.begin() + 2, stream.begin(), stream.end());
   const std::vector<OptionSpec> foxglove = foxgloveOptions();
   spec.options.insert(spec.options.end(), foxglove.begin(), foxglove.end());
@@ -277,6 +283,7 @@ int recordCommand(const Arguments& words) {
   const auto calibration = streamCalibrationOf(given);
   Interruption interruption;  // must exist until the file is finished
   CaptureSession session(recordedDevice(given), streamCaptureOptions(given));
+  addSeriesSources(given, session);
   std::unique_ptr<LiveStreams> streams;
   if (!targets.empty()) streams = std::make_unique<LiveStreams>(session, targets, calibration);
   if (streams && !given.quiet())
@@ -303,8 +310,12 @@ int recordCommand(const Arguments& words) {
                  escapedLine(report.mcapFailure).c_str());
   const std::string leftOut = leftOutText(report, streamOf(session));
   if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
+  const std::string seriesLeftOut = seriesLeftOutText(report, session);
+  if (!seriesLeftOut.empty()) std::fprintf(stderr, "palpate: %s\n", seriesLeftOut.c_str());
   if (!report.complete) std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
-  return report.complete && report.mcapFailure.empty() && leftOut.empty() ? kDone : kPartlyDone;
+  return report.complete && report.mcapFailure.empty() && leftOut.empty() && seriesLeftOut.empty()
+             ? kDone
+             : kPartlyDone;
 }
 
 }  // namespace palpate::commands

@@ -12,6 +12,7 @@
 #include "palpate/interop/remote_server.h"
 
 #include "commands/commands.h"
+#include "commands/series_options.h"
 #include "commands/stream_options.h"
 
 namespace palpate::commands {
@@ -78,7 +79,9 @@ int recordRemotely(const CommandLine& given,
   RemoteRecorderOptions options = remoteRecordingOptionsOf(given, std::move(each));
   std::atomic<bool> whole = true;
   options.onFinished = [&](const RecordingReport& report) {
-    const std::string leftOut = leftOutText(report, streamOf(session));
+    std::string leftOut = leftOutText(report, streamOf(session));
+    const std::string series = seriesLeftOutText(report, session);
+    leftOut += (leftOut.empty() || series.empty() ? "" : "; ") + series;
     if ((!report.complete || !leftOut.empty()) && !report.paths.empty()) whole = false;
     if (given.has("json") || !given.quiet()) sayRemoteRecording(report, given.has("json"));
     if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
@@ -90,7 +93,11 @@ int recordRemotely(const CommandLine& given,
     std::printf("remote=%s\n", escapedLine(server.socket().string()).c_str());
     std::fflush(stdout);
     StreamNotice notice(streamOf(session), given.quiet());
-    while (!interruption.waitForSignal(kRemoteRecordingLookMs)) notice.show();
+    SeriesNotice seriesNotice(session, given.quiet());
+    while (!interruption.waitForSignal(kRemoteRecordingLookMs)) {
+      notice.show();
+      seriesNotice.show();
+    }
   }
   session.stop();
   return whole ? kDone : kPartlyDone;

@@ -1,6 +1,6 @@
 // Bounded queues from a capture session to one consumer (the recorder, live processing): one for
-// tactile frames, one for the samples of series, one for events. They never make the device wait and never
-// drop an item silently.
+// tactile frames, one for the samples of series, one for events. They never make the device wait
+// and never drop an item silently.
 //
 // Items that don't fit are lost. An event of kind "gap" then covers exactly the lost time span:
 // stamps of the first and the last lost item, and their number.
@@ -46,6 +46,9 @@ CaptureStream streamOf(const CaptureItem& item) noexcept;
 const Sample* sampleOf(const CaptureItem& item, std::size_t series) noexcept;
 // Time stamp [us since 1970]; of an event its begin.
 std::int64_t stampOf(const CaptureItem& item) noexcept;
+// Whether the item may take a place of `used` of `most`: the series beside those of the hand, which
+// others send as fast as they like, leave half of it to the hand.
+bool leavesRoom(const CaptureItem& item, std::size_t used, std::size_t most) noexcept;
 // Order by stamps; at equal times events, samples (the later series first), then the frame they
 // belong to.
 bool isEarlier(const CaptureItem& a, const CaptureItem& b) noexcept;
@@ -67,8 +70,8 @@ struct CaptureQueueOptions {
   // Capacity for frames: 27 s at 300 frames/s, 258 s at 31.7. An SDH-2's frame takes 2.1 kB: 17 MB
   // when full. An empty place takes 136 bytes.
   std::size_t tactileItems = 8192;
-  // Capacity for the samples of all series: 73 s at 111/s, 8 s at 1 kHz; 0.2 kB each: 1.6 MB when
-  // full.
+  // Capacity for the samples of all series: 73 s at 111/s; 0.2 kB each: 1.6 MB when full. Half of
+  // it is for the hand's alone: the others have 4 s at 1 kHz.
   std::size_t motionItems = 8192;
   std::size_t eventItems = 1024;
   // True: the producer waits for room instead of losing items; only for a replay, which can wait.
@@ -77,6 +80,9 @@ struct CaptureQueueOptions {
   // 80 ms in any case, every 100 ms without a recording.
   std::size_t wakeAtItems = 1;
   std::vector<std::string> series = {};  // the names of all series, for gaps; may be empty
+  // A session leaves out the series beside those of the hand, and what their sources tell: for who
+  // moves the hand.
+  bool onlyHand = false;
 };
 
 struct CaptureQueueStats {
@@ -100,6 +106,8 @@ class CaptureQueue {
   CaptureQueue(const CaptureQueue&) = delete;
   CaptureQueue& operator=(const CaptureQueue&) = delete;
 
+  // The names of all series, for gaps. Before the first put().
+  void nameSeries(std::vector<std::string> names);
   // Returns false when the item was lost (and counted) or the queue is closed.
   bool put(CaptureItem item);
   // Appends all waiting items to `out` in order of time (at equal times: events, temperatures,
@@ -115,13 +123,14 @@ class CaptureQueue {
   // Ends all waiting; later items are rejected.
   void close();
   bool closed() const noexcept { return closed_.load(); }
+  bool onlyHand() const noexcept { return options_.onlyHand; }
   CaptureQueueStats stats() const;
 
  private:
   BoundedQueue<CaptureItem>& queueOf(CaptureStream stream);
 
   const std::string consumer_;
-  const CaptureQueueOptions options_;
+  CaptureQueueOptions options_;
   BoundedQueue<CaptureItem> tactile_;
   BoundedQueue<CaptureItem> motion_;
   BoundedQueue<CaptureItem> events_;

@@ -1,9 +1,9 @@
 // A capture session owns a device, live or replayed, and passes its data to the recorder, to live
 // processing and to the display, without ever making the device wait.
 //
-//   device's threads --> CaptureQueue --> recorder's thread --> disk
-//                   `--> CaptureQueue of each subscriber (live processing)
-//                   `--> newest frame, angles, temperatures; events (the display fetches them)
+//   threads of the device and of further series --> CaptureQueue --> recorder's thread --> disk
+//       `--> CaptureQueue of each subscriber (live processing)
+//       `--> newest frame, angles, temperatures; events (the display fetches them)
 //
 // All time stamps are those of the device. One thread controls the session; any number of threads
 // may fetch data.
@@ -17,6 +17,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <palpate/capture/capture_queue.h>
@@ -25,6 +26,7 @@
 #include <palpate/core/latest_value.h>
 #include <palpate/core/time.h>
 #include <palpate/device/device.h>
+#include <palpate/device/series_source.h>
 
 namespace palpate {
 
@@ -47,6 +49,17 @@ class CaptureSession : private DeviceSink {
 
   Device& device() noexcept { return *device_; }
   const Device& device() const noexcept { return *device_; }
+
+  // Adds a series that comes from elsewhere, beside those of the device; before start(). It is
+  // recorded, can't stop anything, and what happens to it is no matter of the hand. Throws
+  // std::invalid_argument (none, a name that is taken, too many), std::logic_error (started).
+  void addSeries(std::unique_ptr<SeriesSource> source);
+  const std::vector<std::unique_ptr<SeriesSource>>& seriesSources() const noexcept {
+    return sources_;
+  }
+  // The series beside those of the hand, in the order of their indexes from kHandSeries on; without
+  // columns where these are not known yet.
+  std::vector<SeriesDescription> furtherSeries() const;
 
   // Starts device and recorder; no effect when started. Resets all stored data and counters of an
   // earlier run.
@@ -76,8 +89,8 @@ class CaptureSession : private DeviceSink {
   PreflightCheck checkPreflight(const std::filesystem::path& folder) const;
   PreflightCheck checkPreflight(const FolderState& folder) const;
 
-  // Adds a consumer with its own queue; it ends when the pointer is released. `consumer` is named
-  // in gaps.
+  // Adds a consumer with its own queue, after addSeries(); it ends when the pointer is released.
+  // `consumer` is named in gaps.
   std::shared_ptr<CaptureQueue> subscribe(std::string consumer,
                                           const CaptureQueueOptions& options = {});
 
@@ -99,13 +112,29 @@ class CaptureSession : private DeviceSink {
   void onSample(Sample&& sample) override;
   void onEvent(Event&& event) override;
 
-  void pass(const CaptureItem& item);
+  // Takes what the sources of further series deliver.
+  struct FurtherSink : DeviceSink {
+    explicit FurtherSink(CaptureSession& to) : session(to) {}
+    void onFrame(TactileFrame&&) override {}
+    void onSample(Sample&& sample) override { session.onSample(std::move(sample)); }
+    void onEvent(Event&& event) override {
+      session.show(event);
+      session.pass(CaptureItem(std::move(event)), /*ofHand=*/false);
+    }
+    CaptureSession& session;
+  };
+
+  void pass(const CaptureItem& item, bool ofHand = true);
   void show(const Event& event);
   LinkInputs inputs() const;
+  std::map<std::string, std::int64_t> counters() const;
+  std::vector<std::string> seriesNames() const;
 
   const CaptureOptions options_;
   const Clock& clock_;
   std::unique_ptr<Device> device_;
+  FurtherSink furtherSink_{*this};
+  std::vector<std::unique_ptr<SeriesSource>> sources_;
   Recorder recorder_;
   LinkMonitor meter_;
   const bool scansItself_;

@@ -14,6 +14,7 @@
 #include <palpate/capture/capture_queue.h>
 #include <palpate/capture/recorder.h>
 #include <palpate/device/device.h>
+#include <palpate/device/series_source.h>
 #include <palpate/model/series.h>
 
 namespace palpate {
@@ -95,6 +96,7 @@ enum class AlarmKind {
   kMcapStopped,     // the MCAP file beside the recording is not whole; the recording goes on
   kSlowDisk,        // the disk makes the recorder wait
   kEmptyRecording,  // a recording was started, but no frame arrives
+  kNoRows,          // a series beside the hand's: nothing comes from its source
   kTooHot,          // a motor or a board is hotter than HealthOptions::maxTemperatureDegC
 };
 struct Alarm {
@@ -111,14 +113,16 @@ struct LinkInputs {
   RecorderStatus recorder;
   // The newest temperatures; empty before the first ones.
   std::optional<Sample> temperatures;
+  std::vector<SeriesStatus> series;  // of the sources of further series
 };
 
 struct LinkHealth {
   LinkMonitor::Reading frames;
   DeviceStatus device;
-  std::uint64_t lost = 0;          // frames that were sent but not received completely
-  std::uint64_t badChecksums = 0;  // of both ports
-  CaptureQueueStats queues;        // queues of the recorder
+  std::vector<SeriesStatus> series;  // of the sources of further series
+  std::uint64_t lost = 0;            // frames that were sent but not received completely
+  std::uint64_t badChecksums = 0;    // of both ports
+  CaptureQueueStats queues;          // queues of the recorder
   // Bytes written to disk, measured (or HealthOptions::nominalBytesPerS).
   double bytesPerS = 0.0;
   std::optional<std::uint64_t> freeBytes;

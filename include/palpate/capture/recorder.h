@@ -23,6 +23,7 @@
 #include <palpate/capture/contact_trigger.h>
 #include <palpate/core/time.h>
 #include <palpate/device/frame_losses.h>
+#include <palpate/model/series.h>
 #include <palpate/recording/mcap_recording.h>
 
 namespace palpate {
@@ -54,6 +55,10 @@ struct RecordingOptions {
   // Returns counters of the recording (bad checksums, ..); called with every commit, at least once
   // a second, and at the end; may be empty.
   std::function<std::map<std::string, std::int64_t>()> counters;
+  // Returns the series beside those of the hand, in the order of their indexes from kHandSeries on;
+  // one whose columns are not known yet has none. Called when a file is created, and when samples
+  // of one come that is not known yet; may be empty.
+  std::function<std::vector<SeriesDescription>()> series;
   // Returns the events of gaps that are still going on at this time [us since 1970], at which the
   // recording ends; called once, before the last `counters`; may be empty.
   std::function<std::vector<Event>(std::int64_t untilUs)> openGaps;
@@ -90,6 +95,20 @@ std::filesystem::path mcapPathOf(const std::filesystem::path& path);
 // Path of a part: NAME.palpate is followed by NAME_002.palpate, ..; existing files are skipped.
 std::filesystem::path partPath(const std::filesystem::path& path, int part);
 
+// What was recorded of a series beside those of the hand.
+struct RecordedSeries {
+  std::string name;
+  std::int64_t samples = 0;
+  std::int64_t lost = 0;  // received samples that are missing, see RecordingReport::lost
+  double rateHz = 0.0;    // (samples - 1) / time from the first to the last; 0: not known
+};
+
+// Name of a counter of a series: "lost" (sent but not received, by the usual rate), "suspect" (rows
+// that were refused), "reconnects".
+inline std::string seriesCounter(const std::string& series, const std::string& what) {
+  return "series_" + series + "_" + what;
+}
+
 struct RecordingReport {
   // Parts in order, those that are there now; empty when no frame arrived and so no file was
   // created.
@@ -98,7 +117,8 @@ struct RecordingReport {
   std::int64_t frames = 0;
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
-  std::int64_t samples = 0;  // of other series
+  std::int64_t samples = 0;            // of other series
+  std::vector<RecordedSeries> series;  // the same of each of them
   std::int64_t events = 0;
   // Number of received items that are missing in the recording because a queue overflowed or
   // the disk failed; gap events say which. Of a recording that could not be finished, the frames
@@ -154,8 +174,9 @@ struct RecorderStatus {
   std::int64_t frames = 0;
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
-  std::int64_t samples = 0;  // of other series
-  double elapsedS = 0.0;  // since the start, or since the contact that began it [s]
+  std::int64_t samples = 0;            // of other series
+  std::vector<RecordedSeries> series;  // the same of each of them
+  double elapsedS = 0.0;               // since the start, or since the contact that began it [s]
   // Stamps of the first and the newest recorded frame [us since 1970]; 0: there is none yet.
   std::int64_t firstFrameUs = 0;
   std::int64_t lastFrameUs = 0;
@@ -198,6 +219,8 @@ class Recorder {
   // std::logic_error while run() is active.
   void step();
 
+  // The names of all series, for gaps. Before the first push().
+  void nameSeries(std::vector<std::string> names);
   // Adds an item; never waits (unless feed.blockWhenFull). Returns false when it was lost (and
   // counted).
   bool push(CaptureItem item);

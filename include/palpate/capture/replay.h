@@ -40,6 +40,7 @@ class Replay : public Device {
 
   HandDescription hand() const override;
   DeviceInfo info() const override;
+  std::vector<SeriesDescription> series() const override;
   // Starts at the beginning. A sample that, or whose time, can't be read is counted as lost
   // and skipped; the first such sample causes an event "alarm". At the end comes an event "link".
   // Any other exception in the delivering thread, also one of the sink, ends the replay with an

@@ -25,6 +25,9 @@ namespace palpate {
 // counted by the controller's clock if that clock continued; otherwise they are estimated from the
 // usual frame rate and "estimated" is true. "lost" is absent where no rate was known.
 //
+// That of a series beside those of the hand has its name, too: {"stream": "wrist", ..}; "lost" are
+// samples then.
+//
 // The JSON of "settings" contains all settings that hold from then on: {"matrices":
 // [{"sensitivity": 0.5, "threshold_counts": 150, "dynamic_mask": "FFFF..0F"}, ..]}. The mask is
 // written in capital hexadecimal digits, two per byte. Bit i % 8 (least significant first) of byte
@@ -170,6 +173,9 @@ class Device {
   // The hand whose frames are delivered. Changes only by a mask command or a reconnection.
   virtual HandDescription hand() const = 0;
   virtual DeviceInfo info() const = 0;
+  // The series beside those of the hand that it delivers, in the order of their indexes from
+  // kHandSeries on.
+  virtual std::vector<SeriesDescription> series() const { return {}; }
   // Starts delivering to `sink`, which must stay valid until stop() returns. Throws
   // std::logic_error when already started. A port that can't be opened causes no exception here:
   // the device looks for it until stop(), and status() reports it.

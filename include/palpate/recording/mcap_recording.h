@@ -72,6 +72,9 @@ class McapLiveWriter {
   McapLiveWriter(const McapLiveWriter&) = delete;
   McapLiveWriter& operator=(const McapLiveWriter&) = delete;
 
+  // Makes a series beside those of the hand known, before its first sample. Its index may be any
+  // from kHandSeries on. Throws as addFrame().
+  void addSeries(std::size_t series, const SeriesDescription& description);
   // Each appends. Throw FileError (the disk is full, ..): the file ends with its last whole chunk,
   // and nothing more can be added. Throw std::invalid_argument (a frame of another layout, stamps
   // that don't ascend): nothing was added.

@@ -47,7 +47,8 @@ void writeMcap(const RecordingContent& content,
                              content.extras.provenance,
                              options);
   if (profile.numAngles() > 0) writer.beginAngles(profile.angles(0).values.size());
-  if (profile.numTemperatures() > 0) writer.beginTemperatures(profile.temperatures(0).values.size());
+  if (profile.numTemperatures() > 0)
+    writer.beginTemperatures(profile.temperatures(0).values.size());
   for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
     writer.beginSamples(i, profile.series()[i]);
   std::vector<std::pair<std::uint16_t, std::unique_ptr<RunningSeries>>> series;
@@ -159,6 +160,12 @@ void McapLiveWriter::addFrame(const TactileFrame& frame) {
     throw std::invalid_argument("McapLiveWriter: a frame of another layout");
   Impl::requireLater(impl_->lastFrameUs, frame.hostUs);
   impl_->writer->addFrame(frame);
+}
+
+void McapLiveWriter::addSeries(std::size_t series, const SeriesDescription& description) {
+  if (series < kHandSeries || series >= kMaxSeries)
+    throw std::invalid_argument("McapLiveWriter: there is no series " + std::to_string(series));
+  impl_->writer->beginSamples(series, description);
 }
 
 void McapLiveWriter::addSample(const Sample& sample) {

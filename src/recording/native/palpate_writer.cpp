@@ -303,8 +303,8 @@ struct PalpateWriter::Impl {
   }
 
   // Refuses a sample while too much waits for the disk.
-  void requireRoom() const {
-    if (pending.bytes >= kMaxPendingBytes)
+  void requireRoom(std::size_t most = kMaxPendingBytes) const {
+    if (pending.bytes >= most)
       throw FileError(file->database.path(),
                       "nothing could be written for too long; the memory for what waits is full");
   }
@@ -510,7 +510,8 @@ void PalpateWriter::addSample(const Sample& sample) {
   Impl::WrittenSeries& series = impl_->series[sample.series];
   requireValues(series.name, sample, series.width);
   requireLater(series.name, series.lastUs, sample.hostUs);
-  impl_->requireRoom();
+  // Series beside those of the hand leave half of the memory to it.
+  impl_->requireRoom(sample.series < kHandSeries ? kMaxPendingBytes : kMaxPendingBytes / 2);
   series.width = sample.values.size();
   series.lastUs = sample.hostUs;
   // The hand's own have never had them: its files stay as they are.

@@ -1,0 +1,299 @@
+// Series of other sensors, recorded beside the hand in the same session.
+#include <algorithm>
+#include <filesystem>
+#include <mutex>
+#include <span>
+#include <stdexcept>
+#include <thread>
+
+#include "palpate/capture/replay.h"
+#include "palpate/core/json.h"
+#include "palpate/core/time.h"
+#include "palpate/recording/recording.h"
+
+#include "capture/scripted_device.h"
+#include "testing/awaited.h"
+#include "testing/testing.h"
+
+namespace palpate::series_recording_test {
+namespace {
+using namespace testing;
+
+// A sender whose bytes come when the test says so. Shared with the thread of the source.
+struct Wire {
+  std::mutex mutex;
+  std::string waiting;
+  bool plugged = true;
+  void send(const std::string& text) {
+    const std::lock_guard lock(mutex);
+    waiting += text;
+  }
+};
+
+class WireChannel : public ByteChannel {
+ public:
+  explicit WireChannel(std::shared_ptr<Wire> wire) : wire_(std::move(wire)) {}
+  std::size_t read(std::span<std::byte> into, std::chrono::milliseconds) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const std::lock_guard lock(wire_->mutex);
+    if (!wire_->plugged) throw DeviceError(DeviceFault::kDisconnected, name_, "unplugged");
+    const std::size_t count = std::min(into.size(), wire_->waiting.size());
+    for (std::size_t i = 0; i < count; ++i) into[i] = static_cast<std::byte>(wire_->waiting[i]);
+    wire_->waiting.erase(0, count);
+    return count;
+  }
+  void write(std::span<const std::byte>) override {}
+  void interrupt() noexcept override {}
+  const std::string& name() const noexcept override { return name_; }
+
+ private:
+  std::shared_ptr<Wire> wire_;
+  std::string name_ = "wire";
+};
+
+// A session on a scripted device, with series whose senders the test plays.
+struct Session {
+  HandClock clock;
+  ScriptedDevice* device = nullptr;
+  std::unique_ptr<CaptureSession> session;
+  std::vector<std::shared_ptr<Wire>> wires;
+  std::size_t frames = 0;
+
+  explicit Session(const std::vector<std::string>& names, CaptureOptions options = {}) {
+    auto owned = std::make_unique<ScriptedDevice>();
+    device = owned.get();
+    options.ownThread = false;
+    session = std::make_unique<CaptureSession>(std::move(owned), std::move(options), clock);
+    for (const std::string& name : names) session->addSeries(source(name));
+    session->start();
+  }
+  std::unique_ptr<SeriesSource> source(const std::string& name) {
+    wires.push_back(std::make_shared<Wire>());
+    SeriesSourceOptions options{.name = name, .source = "wire"};
+    options.open = [wire = wires.back()](const std::string& port) -> std::unique_ptr<ByteChannel> {
+      const std::lock_guard lock(wire->mutex);
+      if (!wire->plugged) throw DeviceError(DeviceFault::kNotFound, port, "no such port");
+      return std::make_unique<WireChannel>(wire);
+    };
+    return std::make_unique<SeriesSource>(std::move(options), clock);
+  }
+  std::uint64_t rowsOf(std::size_t i) const {
+    return session->seriesSources()[i]->status().port.items;
+  }
+  // Sends rows to a series, each 10 ms after the other, with a frame.
+  void rows(std::size_t i, int count) {
+    for (int n = 0; n < count; ++n) {
+      const std::uint64_t before = rowsOf(i);
+      clock.pass(10'000);
+      wires[i]->send(std::to_string(n) + "," + std::to_string(2 * n) + "\n");
+      ASSERT_TRUE(awaited([&] { return rowsOf(i) == before + 1; }));
+      // The source counts a row before it delivers it.
+      frame();
+    }
+  }
+  void frame() {
+    device->frame(frames++, clock.hostUs());
+    session->step();
+  }
+  void record(const std::filesystem::path& path) {
+    RecordingOptions options;
+    options.path = path;
+    session->startRecording(options);
+  }
+  // All rows that were sent have been delivered when the sources have stopped.
+  RecordingReport stop() {
+    session->stop();
+    return session->stopRecording();
+  }
+};
+
+TEST(SeriesRecording, SeriesAreInTheFileWithTheirColumns) {
+  const TemporaryFolder folder;
+  Session bench({"wrist", "cell"});
+  bench.record(folder / "a.palpate");
+  bench.frame();
+  bench.wires[1]->send("f[N],g[N]\n");  // the second one is known first
+  bench.rows(1, 20);
+  bench.rows(0, 30);
+  const RecordingReport report = bench.stop();
+  EXPECT_TRUE(report.complete) << report.message;
+  EXPECT_EQ(report.frames, 51);
+  ASSERT_EQ(report.series.size(), 2u);
+  EXPECT_EQ(report.series[0].name, "wrist");
+  EXPECT_EQ(report.series[0].samples, 30);
+  EXPECT_EQ(report.series[0].lost, 0);
+  EXPECT_NEAR(report.series[0].rateHz, 100.0, 1.0);
+  EXPECT_EQ(report.series[1].samples, 20);
+  EXPECT_EQ(report.counter("series_wrist_lost"), 0);
+  const Profile profile = openRecording(folder / "a.palpate");
+  ASSERT_EQ(profile.series().size(), kHandSeries + 2);
+  EXPECT_EQ(profile.series()[kHandSeries],
+            (SeriesDescription{"cell", "", {{"f", "N"}, {"g", "N"}}, "wire"}));
+  EXPECT_EQ(profile.series()[kHandSeries + 1].name, "wrist");
+  ASSERT_EQ(profile.numSamples(kHandSeries + 1), 30u);
+  EXPECT_EQ(profile.sample(kHandSeries + 1, 29).values, (std::vector<double>{29, 58}));
+  EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
+
+  // A replay delivers them, and a hand without a motion port doesn't matter.
+  Replay replay(profile, {.pace = ReplayPace::kManual});
+  ASSERT_EQ(replay.series().size(), 2u);
+  EXPECT_EQ(replay.series()[0].name, "cell");
+  CaptureOptions options;
+  options.ownThread = false;
+  HandClock clock;
+  auto owned = std::make_unique<Replay>(
+      profile, ReplayOptions{.pace = ReplayPace::kManual}, std::vector<Event>(), clock);
+  Replay* const again = owned.get();
+  CaptureSession second(std::move(owned), options, clock);
+  RecordingOptions to;
+  to.path = folder / "b.palpate";
+  second.startRecording(to);
+  second.start();
+  again->advance(10'000'000);
+  const RecordingReport copied = second.stopRecording();
+  EXPECT_EQ(copied.samples, 50);
+  const Profile copy = openRecording(folder / "b.palpate");
+  ASSERT_EQ(copy.series().size(), profile.series().size());
+  for (std::size_t i = kHandSeries; i < copy.series().size(); ++i)
+    EXPECT_EQ(copy.series()[i], profile.series()[i]);
+}
+
+TEST(SeriesRecording, EachPartHasThem) {
+  const TemporaryFolder folder;
+  Session bench({"wrist", "cell"});
+  RecordingOptions options;
+  options.path = folder / "a.palpate";
+  options.splitS = 1.0;
+  bench.session->startRecording(options);
+  bench.frame();
+  bench.rows(1, 60);
+  bench.rows(0, 60);
+  bench.rows(1, 100);
+  const RecordingReport report = bench.stop();
+  EXPECT_TRUE(report.complete) << report.message;
+  ASSERT_GE(report.paths.size(), 2u);
+  std::size_t samples = 0;
+  for (const auto& path : report.paths) {
+    const Profile profile = openRecording(path);
+    for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+      samples += profile.numSamples(i);
+    EXPECT_EQ(profile.series()[kHandSeries].name, "cell");
+  }
+  EXPECT_EQ(samples, 220u);
+}
+
+TEST(SeriesRecording, AnUnpluggedSourceIsAGapAndTheHandGoesOn) {
+  const TemporaryFolder folder;
+  Session bench({"wrist"});
+  bench.record(folder / "a.palpate");
+  bench.frame();
+  bench.rows(0, 50);
+  const auto state = [&] { return bench.session->health().series.at(0).port.state; };
+  {
+    const std::lock_guard lock(bench.wires[0]->mutex);
+    bench.wires[0]->plugged = false;
+  }
+  ASSERT_TRUE(awaited([&] { return state() == PortState::kLost; }));
+  const LinkHealth health = bench.session->health();
+  EXPECT_TRUE(std::ranges::any_of(
+      health.alarms, [](const Alarm& alarm) { return alarm.kind == AlarmKind::kNoRows; }));
+  for (int i = 0; i < 100; ++i) {
+    bench.clock.pass(10'000);
+    bench.frame();
+  }
+  {
+    const std::lock_guard lock(bench.wires[0]->mutex);
+    bench.wires[0]->plugged = true;
+  }
+  ASSERT_TRUE(awaited([&] {
+    bench.clock.pass(100'000);  // until it is tried again
+    return state() == PortState::kStreaming;
+  }));
+  bench.rows(0, 10);
+  const RecordingReport report = bench.stop();
+  EXPECT_TRUE(report.complete) << report.message;
+  EXPECT_EQ(report.frames, 161);
+  EXPECT_EQ(report.series.at(0).samples, 60);
+  EXPECT_GE(report.counter("series_wrist_lost"), 90);
+  EXPECT_EQ(report.counter("series_wrist_reconnects"), 1);
+  EXPECT_EQ(report.counter("lost"), 0);
+  EXPECT_EQ(report.openGapS, 0.0);
+  std::size_t gaps = 0;
+  for (const Event& event : readableRecording(folder / "a.palpate").events)
+    if (event.kind == "gap") {
+      ++gaps;
+      EXPECT_EQ(Json::parse(event.json).at("stream").asString(), "wrist");
+    }
+  EXPECT_EQ(gaps, 1u);
+}
+
+TEST(SeriesRecording, NamesAreUnique) {
+  Session bench({"wrist"});
+  EXPECT_THROW(bench.session->addSeries(bench.source("cell")), std::logic_error);  // started
+  bench.session->stop();
+  for (const char* name : {"wrist", "angles", "temperatures", "tactile", "events"})
+    EXPECT_THROW(bench.session->addSeries(bench.source(name)), std::invalid_argument) << name;
+  EXPECT_THROW(bench.session->addSeries(nullptr), std::invalid_argument);
+  bench.session->addSeries(bench.source("cell"));
+  EXPECT_EQ(bench.session->furtherSeries().size(), 2u);
+}
+
+// A writer that is killed leaves what was committed.
+TEST(SeriesRecording, AKilledWriterLeavesTheSeries) {
+  const TemporaryFolder folder;
+  Session bench({"wrist"});
+  bench.record(folder / "a.palpate");
+  bench.frame();
+  bench.rows(0, 50);
+  ASSERT_TRUE(awaited([&] {
+    bench.session->step();
+    return bench.session->recorderStatus().samples == 50;
+  }));
+  bench.clock.pass(200'000);
+  bench.session->step();
+  const auto copy = folder / "killed.palpate";
+  std::filesystem::copy_file(folder / "a.palpate", copy);
+  const Recording read = readableRecording(copy);
+  ASSERT_EQ(read.profile.series().size(), kHandSeries + 1);
+  EXPECT_EQ(read.profile.numSamples(kHandSeries), 50u);
+  bench.stop();
+}
+
+// However fast a series is, the hand's samples find room.
+TEST(SeriesRecording, AFullQueueLosesSamplesOfTheSeriesOnly) {
+  CaptureQueueOptions options;
+  options.motionItems = 100;
+  CaptureQueue queue("the test", options);
+  queue.nameSeries({"angles", "temperatures", "wrist"});
+  for (int i = 1; i <= 500; ++i) queue.put(Sample{i, {1.0}, kHandSeries});
+  for (int i = 1; i <= 50; ++i) EXPECT_TRUE(queue.put(Sample{i, {1.0}, kAngleSeries}));
+  std::vector<CaptureItem> items;
+  queue.take(items);
+  EXPECT_EQ(items.size(), 100u);
+  EXPECT_EQ(queue.stats().lost[1 + kHandSeries], 450u);
+  EXPECT_EQ(queue.stats().lost[1 + kAngleSeries], 0u);
+  items.clear();
+  queue.takeOpenGaps(items);
+  ASSERT_EQ(items.size(), 1u);
+  EXPECT_EQ(Json::parse(std::get<Event>(items[0]).json).at("stream").asString(), "wrist");
+}
+
+TEST(SeriesRecording, WhoMovesTheHandReceivesNoneOfThem) {
+  Session bench({"wrist"});
+  CaptureQueueOptions options;
+  options.onlyHand = true;
+  const auto hand = bench.session->subscribe("the hand", options);
+  const auto all = bench.session->subscribe("all");
+  bench.rows(0, 5);
+  bench.session->stop();
+  std::vector<CaptureItem> items;
+  hand->take(items);
+  for (const CaptureItem& item : items) EXPECT_EQ(streamOf(item), CaptureStream::kTactile);
+  EXPECT_EQ(items.size(), 5u);
+  items.clear();
+  all->take(items);
+  EXPECT_GE(items.size(), 10u);
+}
+
+}  // namespace
+}  // namespace palpate::series_recording_test
