@@ -131,6 +131,10 @@ void CaptureSession::start() {
   takeAngles();
   takeTemperatures();
   {
+    const std::lock_guard lock(baselineMutex_);
+    recent_.clear();  // the baseline stays: it is that of the sensor
+  }
+  {
     const std::lock_guard lock(shownMutex_);
     shown_.clear();
     lastTemperatures_.reset();
@@ -208,6 +212,23 @@ void CaptureSession::startRecording(RecordingOptions options) {
     return meta;
   };
   recorder_.start(std::move(options));
+  const std::lock_guard lock(baselineMutex_);
+  if (baseline_) recorder_.push(baselineEvent(*baseline_, nowUs()));
+}
+
+void CaptureSession::takeBaseline() {
+  std::optional<Event> event;
+  {
+    const std::lock_guard lock(baselineMutex_);
+    if (recent_.size() < 2)
+      throw Error("a baseline needs a second of readings of a hand that decides touch by them "
+                  "(components, signed, touch_threshold or touch_sigma in its hand.json)");
+    auto baseline = std::make_shared<const Baseline>(
+        baselineOf(std::vector<SharedFrame>(recent_.begin(), recent_.end())));
+    event = baselineEvent(*baseline, nowUs());
+    baseline_ = std::move(baseline);
+  }
+  note(*event);
 }
 
 std::map<std::string, std::int64_t> CaptureSession::counters() const {
@@ -241,6 +262,10 @@ void CaptureSession::note(const Event& event) {
 }
 
 void CaptureSession::onFrame(TactileFrame&& frame) {
+  if (!frame.readings.empty()) {
+    const std::lock_guard lock(baselineMutex_);
+    decideTouch(frame, baseline_);
+  }
   const bool saturated = numSaturated(hand_, frame) > 0;
   if (scansItself_ && frame.layout != expectedFor_) {
     expectedFor_ = frame.layout;
@@ -251,6 +276,11 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   // Only the line of a controller that scans by itself has a known rate.
   meter_.frame(clock_.monotonicUs(), saturated, scansItself_ ? dsaRunsOf(frame) : 0);
   auto shared = std::make_shared<const TactileFrame>(std::move(frame));
+  if (!shared->readings.empty()) {
+    const std::lock_guard lock(baselineMutex_);
+    recent_.push_back(shared);
+    while (recent_.front()->hostUs < shared->hostUs - kUsPerS) recent_.pop_front();
+  }
   screenFrame_.put(shared);
   pass(CaptureItem(std::move(shared)));
 }

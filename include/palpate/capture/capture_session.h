@@ -68,6 +68,12 @@ class CaptureSession : private DeviceSink {
   void stop() noexcept;
   bool started() const noexcept { return started_.load(); }
 
+  // Takes the readings of the last second, at least two frames, for the readings at rest (of a hand
+  // that decides touch by its readings): what follows is seen over them, and the event "baseline"
+  // is shown and recorded, also at the begin of each later recording. Throws Error where there are
+  // no such readings. Safe from any thread.
+  void takeBaseline();
+
   // As Recorder::start(). The recording also contains the device's properties (serial number,
   // firmware, settings), the program's version and the counters of the connection. The device need
   // not be started: the recording begins with its first frame.
@@ -142,6 +148,10 @@ class CaptureSession : private DeviceSink {
   std::shared_ptr<const SensorLayout> expectedFor_;
   HandDescription hand_;  // of the device when it was started
   std::atomic<bool> started_ = false;
+
+  std::mutex baselineMutex_;
+  std::shared_ptr<const Baseline> baseline_;
+  std::deque<SharedFrame> recent_;  // frames with readings of the last second
 
   LatestValue<SharedFrame> screenFrame_;
   LatestValue<Sample> screenAngles_;
