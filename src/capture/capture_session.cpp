@@ -212,8 +212,11 @@ void CaptureSession::startRecording(RecordingOptions options) {
     return meta;
   };
   recorder_.start(std::move(options));
+  const HandDescription hand = device_->hand();
+  if (!hand.layout->decidesTouch()) return;
   const std::lock_guard lock(baselineMutex_);
-  if (baseline_) recorder_.push(baselineEvent(*baseline_, nowUs()));
+  const Baseline none{std::vector<float>(hand.layout->numReadings()), {}};
+  recorder_.push(baselineEvent(baseline_ ? *baseline_ : none, nowUs()));
 }
 
 void CaptureSession::takeBaseline() {
@@ -221,7 +224,7 @@ void CaptureSession::takeBaseline() {
   {
     const std::lock_guard lock(baselineMutex_);
     if (recent_.size() < 2)
-      throw Error("a baseline needs a second of readings of a hand that decides touch by them "
+      throw Error("a baseline needs readings of a hand that decides touch by them "
                   "(components, signed, touch_threshold or touch_sigma in its hand.json)");
     auto baseline = std::make_shared<const Baseline>(
         baselineOf(std::vector<SharedFrame>(recent_.begin(), recent_.end())));
@@ -279,7 +282,8 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   if (!shared->readings.empty()) {
     const std::lock_guard lock(baselineMutex_);
     recent_.push_back(shared);
-    while (recent_.front()->hostUs < shared->hostUs - kUsPerS) recent_.pop_front();
+    const auto keptUs = static_cast<std::int64_t>(options_.baselineS * kUsPerS);
+    while (recent_.front()->hostUs < shared->hostUs - keptUs) recent_.pop_front();
   }
   screenFrame_.put(shared);
   pass(CaptureItem(std::move(shared)));

@@ -68,7 +68,7 @@ std::vector<SecondSummary> readSeconds(const std::filesystem::path& path) {
 
 std::vector<SecondSummary> readPalpateSeconds(const std::filesystem::path& path) {
   PalpateConnection access(path);
-  const std::size_t numMatrices = readLayout(access.database()).numMatrices();
+  const std::size_t numMatrices = readLayout(access.database(), access.meta()).numMatrices();
   auto seconds =
       readOverview(access.database(), numMatrices, access.meta().integer("seconds").value_or(0));
   if (seconds) return std::move(*seconds);

@@ -113,6 +113,27 @@ RecordingOptions recordingOptions(const CommandLine& given) {
   return options;
 }
 
+// Waits for frames of so many seconds, which are the sensor's at rest. Throws Error when it is
+// interrupted, no frame arrives in time, or there is nothing to be taken.
+void takeBaseline(CaptureSession& session,
+                  Interruption& interruption,
+                  double seconds,
+                  double firstFrameS) {
+  constexpr int kLookMs = 20;
+  session.start();
+  std::optional<std::int64_t> firstUs;
+  const std::int64_t beginUs = systemClock().monotonicUs();
+  while (true) {
+    if (interruption.waitForSignal(kLookMs))
+      throw Error("interrupted before the baseline was taken: nothing was recorded");
+    if (const SharedFrame frame = session.takeFrame(); frame && !firstUs) firstUs = frame->hostUs;
+    if (firstUs && secondsBetween(*firstUs, session.nowUs()) >= seconds) break;
+    if (!firstUs && secondsBetween(beginUs, systemClock().monotonicUs()) > firstFrameS)
+      throw Error("no frame arrived for the baseline");
+  }
+  session.takeBaseline();
+}
+
 // Waits until the recording stops by itself, a signal arrives, or no first frame arrives in time.
 void recordUntilDone(CaptureSession& session,
                      Interruption& interruption,
@@ -237,6 +258,10 @@ CommandSpec recordSpec() {
                   {"object", "NAME", "what is grasped"},
                   {"run", "TEXT", "which run"},
                   {"notes", "TEXT", "any other notes"},
+                  {"baseline",
+                   "S",
+                   "takes the readings of the first S seconds for those at rest, before the "
+                   "recording begins"},
                   {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
                   {"split-mb", "N", "a new file at about N MB"},
                   {"start-on-contact",
@@ -282,7 +307,11 @@ int recordCommand(const Arguments& words) {
   const StreamTargets targets = streamTargetsOf(given, "to");
   const auto calibration = streamCalibrationOf(given);
   Interruption interruption;  // must exist until the file is finished
-  CaptureSession session(recordedDevice(given), streamCaptureOptions(given));
+  CaptureOptions captureOptions = streamCaptureOptions(given);
+  captureOptions.baselineS = given.number("baseline", 0.1, 60.0).value_or(captureOptions.baselineS);
+  if (given.has("baseline") && given.has("remote"))
+    throw UsageError("--baseline can't be used with --remote: other programs start and stop");
+  CaptureSession session(recordedDevice(given), captureOptions);
   addSeriesSources(given, session);
   std::unique_ptr<LiveStreams> streams;
   if (!targets.empty()) streams = std::make_unique<LiveStreams>(session, targets, calibration);
@@ -290,6 +319,8 @@ int recordCommand(const Arguments& words) {
     for (const std::string& place : streams->places())
       std::fprintf(stderr, "%s\n", escapedLine(place).c_str());
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
+  if (given.has("baseline"))
+    takeBaseline(session, interruption, captureOptions.baselineS, firstFrameS);
   session.startRecording(std::move(options));
   StreamNotice notice(streamOf(session), given.quiet());
   recordUntilDone(session, interruption, firstFrameS, given.quiet(), notice);

@@ -35,6 +35,7 @@ struct CaptureOptions {
   HealthOptions health;
   // False: the caller runs the recorder by step().
   bool ownThread = true;
+  double baselineS = 1.0;  // how long takeBaseline() looks back
 };
 
 class CaptureSession : private DeviceSink {
@@ -68,9 +69,9 @@ class CaptureSession : private DeviceSink {
   void stop() noexcept;
   bool started() const noexcept { return started_.load(); }
 
-  // Takes the readings of the last second, at least two frames, for the readings at rest (of a hand
+  // Takes the readings of the last CaptureOptions::baselineS, at least two frames, for the readings at rest (of a hand
   // that decides touch by its readings): what follows is seen over them, and the event "baseline"
-  // is shown and recorded, also at the begin of each later recording. Throws Error where there are
+  // is shown and recorded. Each recording of such a hand begins with the event of its baseline. Throws Error where there are
   // no such readings. Safe from any thread.
   void takeBaseline();
 
@@ -151,7 +152,7 @@ class CaptureSession : private DeviceSink {
 
   std::mutex baselineMutex_;
   std::shared_ptr<const Baseline> baseline_;
-  std::deque<SharedFrame> recent_;  // frames with readings of the last second
+  std::deque<SharedFrame> recent_;  // frames with readings of the last baselineS
 
   LatestValue<SharedFrame> screenFrame_;
   LatestValue<Sample> screenAngles_;
