@@ -330,8 +330,8 @@ int importCommand(const Arguments& words) {
     std::printf("%s\n", importJson(out, report).text().c_str());
   } else if (!given.quiet()) {
     std::printf("%s\n", escapedLine(importText(out, report)).c_str());
-    for (const ImportedSeries& series : report.series)
-      std::printf("%s\n", escapedLine(series.text()).c_str());
+    for (const ImportedSeries& each : report.series)
+      std::printf("%s\n", escapedLine(each.text()).c_str());
     for (const std::string& note : report.notes)
       std::printf("note: %s\n", escapedLine(note).c_str());
   }
