@@ -66,6 +66,9 @@ void noteUnused(Planning& p) {
   }
   std::vector<TableColumn> unused;
   std::size_t numNumbers = 0;
+  for (const PlannedSeries& series : p.plan.series)
+    for (const std::size_t c : series.columns)
+      numNumbers += series.kind == Kind::kFurther && isScalar(p.columns[c]) ? 1 : 0;
   for (std::size_t c = 0; c < p.columns.size(); ++c) {
     const TableColumn& column = p.columns[c];
     if (used.contains(c) || p.times.isPart(c) || p.times.hasSameTimes(c) ||
@@ -74,16 +77,19 @@ void noteUnused(Planning& p) {
     unused.push_back(column);
     numNumbers += column.isNumeric && isScalar(column) ? 1 : 0;
   }
-  if (unused.empty()) return;
-  std::string text = namesText(unused);
+  std::string hint;
   for (const Kind kind : {Kind::kAngles, Kind::kTemperatures}) {
     const std::size_t count = namesOf(p.hand, kind).size();
     if (count > 0 && !planned.contains(kind) && sampleMapping(p, kind).columns.empty() &&
         numNumbers >= count)
-      text += kind == Kind::kAngles ? "; --angles chooses joint angles"
-                                    : "; --temperatures chooses temperatures";
+      hint += (hint.empty() ? "" : "; ") +
+              (kind == Kind::kAngles ? "--angles chooses joint angles"
+                                     : std::string("--temperatures chooses temperatures"));
   }
-  p.note(reason::kNotUsed, {text});
+  const bool isFurther = planned.contains(Kind::kFurther);
+  if (!hint.empty() && isFurther) p.note(reason::kChoosesInstead, {hint});
+  if (!unused.empty())
+    p.note(reason::kNotUsed, {namesText(unused) + (hint.empty() || isFurther ? "" : "; " + hint)});
 }
 
 // The name that a column of a group has with another number in the place of the index `position`.
@@ -123,16 +129,6 @@ bool arePlacesOfTaxels(const std::set<std::int64_t>& numbers, const SensorLayout
 
 const std::set<std::string> kOriginWords = {
     "sensor", "topic", "source", "device", "publisher", "hand", "pad", "matrix", "node"};
-
-bool saysOrigin(const TableColumn& column) {
-  if (column.numRows || !isScalar(column) || column.hasDates) return false;
-  std::vector<std::string> parts = nameParts(column.name);
-  const bool isId = parts.size() > 1 && parts.back() == "id";
-  if (isId || (parts.size() > 1 && parts.back() == "name")) parts.pop_back();
-  if (parts.empty() || (column.isNumeric && !isId)) return false;
-  return kOriginWords.contains(parts.back()) ||
-         (isId && !column.isNumeric && parts.back() == "frame");
-}
 
 // What the numbers in the names of the taxels' columns leave open: one is left out, or they begin
 // late. Nothing where they are those of the places that have a taxel.
@@ -205,7 +201,9 @@ void addOrigins(const std::vector<TableColumn>& columns, PlannedSeries& series) 
 
 ImportPlan planTable(TableSource& source,
                      const HandDescription& hand,
-                     const ImportMapping& mapping) {
+                     const ImportMapping& mapping,
+                     std::span<const SeriesFile> files,
+                     std::uint64_t mostRows) {
   Planning p{source, hand, mapping};
   ImportPlan& plan = p.plan;
   std::optional<double>& rateHz = p.mapping.time.rateHz;
@@ -251,6 +249,7 @@ ImportPlan planTable(TableSource& source,
                                             : taxels.number ? kMostMissingFrames
                                                             : 0.0))
     plan.doubts.push_back(std::move(doubt));
+  chooseFurther(p, files, mostRows);
   for (PlannedSeries& series : plan.series) addOrigins(p.columns, series);
   noteUnused(p);
   return std::move(plan);
@@ -305,15 +304,47 @@ ImportPlan planTaxelList(TableSource& source,
   return plan;
 }
 
+// A name that a series can have, and that no other one has.
+void requireName(const fs::path& source, const SeriesFile& file, const ImportPlan& plan) {
+  const std::string valid = seriesName(file.name);
+  if (valid != file.name)
+    throw FormatError(source, sentenceOf(reason::kSeriesName, {file.name, valid}));
+  const bool isTaken = isHandSeries(file.name) ||
+                       std::any_of(plan.series.begin(), plan.series.end(), [&](const auto& other) {
+                         return other.kind == Kind::kFurther && other.further.name == file.name;
+                       });
+  if (isTaken) throw FormatError(source, sentenceOf(reason::kSeriesTwice, {file.name}));
+}
+
 }  // namespace
+
+bool saysOrigin(const TableColumn& column) {
+  if (column.numRows || !isScalar(column) || column.hasDates) return false;
+  std::vector<std::string> parts = nameParts(column.name);
+  const bool isId = parts.size() > 1 && parts.back() == "id";
+  if (isId || (parts.size() > 1 && parts.back() == "name")) parts.pop_back();
+  if (parts.empty() || (column.isNumeric && !isId)) return false;
+  return kOriginWords.contains(parts.back()) ||
+         (isId && !column.isNumeric && parts.back() == "frame");
+}
 
 ImportPlan planImport(TableSource& source,
                       const HandDescription& hand,
                       const ImportMapping& mapping,
-                      const TableOptions& options) {
+                      const TableOptions& options,
+                      std::span<const SeriesFile> files,
+                      std::uint64_t mostRows) {
   try {
-    if (isTaxelList(source.columns())) return planTaxelList(source, hand, mapping, options);
-    return planTable(source, hand, mapping);
+    ImportPlan plan = isTaxelList(source.columns())
+                          ? planTaxelList(source, hand, mapping, options)
+                          : planTable(source, hand, mapping, files, mostRows);
+    for (const SeriesFile& file : files) {
+      requireName(source.path(), file, plan);
+      PlannedSeries series = planSeriesFile(file, hand, mapping, mostRows, plan);
+      addOrigins(series.table->columns(), series);
+      plan.series.push_back(std::move(series));
+    }
+    return plan;
   } catch (const FileError&) {
     throw;
   } catch (const FormatError&) {

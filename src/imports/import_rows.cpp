@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -11,6 +12,7 @@
 #include "palpate/model/timing.h"
 
 #include "imports/cell_text.h"
+#include "imports/sorted_source.h"
 
 namespace palpate {
 namespace {
@@ -35,14 +37,23 @@ ImportRows::ImportRows(const HandDescription& hand,
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
     for (const std::uint8_t isTaxel : hand.layout->matrix(m).staticMask)
       maximum_.push_back(isTaxel != 0 ? hand.maximumOf(m) : -1.0F);
+  for (const PlannedSeries& series : plan.series) {
+    if (series.kind != PlannedSeries::Kind::kFurther) continue;
+    further_[&series].index = report_.series.size();
+    report_.series.emplace_back().description = series.further;
+  }
 }
 
 std::vector<ImportRows::Pass> ImportRows::passes() const {
   std::vector<Pass> passes;
   for (const PlannedSeries& series : plan_.series) {
+    if (series.table) {  // times of its own
+      passes.push_back({{&series}});
+      continue;
+    }
     const auto same = std::find_if(passes.begin(), passes.end(), [&](const Pass& pass) {
-      return pass.first().file == series.file && pass.first().time == series.time &&
-             pass.first().timeWithin == series.timeWithin &&
+      return !pass.first().table && pass.first().file == series.file &&
+             pass.first().time == series.time && pass.first().timeWithin == series.timeWithin &&
              pass.first().timeFile == series.timeFile;
     });
     if (same != passes.end())
@@ -64,7 +75,15 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
     rowUs_.reset();
     rowIndex_ = 0;
     skipped_ = 0;
-    if (all[i].first().file != source.path()) {
+    shiftUs_.reset();
+    place_.clear();
+    std::shared_ptr<TableSource> own = all[i].first().table;
+    if (own) {
+      place_ = shortened(own->path().filename().string()) + ", ";
+      own = orderedTable(all[i].first(), mostRows);
+      runPass(*own, all[i], mostRows, part);
+      noteRows(*own, false);
+    } else if (all[i].first().file != source.path()) {
       const auto beside = openTable(all[i].first().file, mapping_.text);
       runPass(*beside, all[i], mostRows, part);
     } else if (plan_.isTaxelList) {
@@ -73,8 +92,11 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
       runPass(source, all[i], mostRows, part);
     }
     report_.counterRestarts += timeReader_ ? timeReader_->numRestarts() : 0;
-    if (all[i].first().kind == PlannedSeries::Kind::kFrames) noteRows(source);
+    if (all[i].first().kind != PlannedSeries::Kind::kFrames) continue;
+    noteRows(source, true);
+    if (timeReader_) frameShiftUs_ = timeReader_->shiftUs();
   }
+  finishSeries();
   noteOthers();
   countFirstGap();
   if (report_.frames > 1) {
@@ -87,30 +109,88 @@ void ImportRows::refuse(const TableSource& source,
                         const TableRow& row,
                         std::uint64_t& counter,
                         const std::string& what) {
-  const std::string text = source.rowWord() + (" " + std::to_string(row.line)) + what;
+  const std::string text = place_ + source.rowWord() + " " + std::to_string(row.line) + what;
   if (strict_) throw FormatError(source.path(), text);
   if (report_.refused.first.empty()) report_.refused.first = text;
   ++counter;
 }
 
-// What is known of the times and the end of the table when the frames were read.
-void ImportRows::noteRows(const TableSource& source) {
-  if (report_.frames == 1 && numFalling_ > 1 && numFalling_ == report_.refused.notLater)
+// What is known of the times and the end of a table when its rows were read.
+void ImportRows::noteRows(const TableSource& source, bool areFrames) {
+  if (areFrames && report_.frames == 1 && numFalling_ > 1 &&
+      numFalling_ == report_.refused.notLater)
     throw FormatError(source.path(), "time: it descends from row to row; sort the file by time");
   if (timeReader_ && timeReader_->assumedUtc())
-    report_.notes.push_back("time: the dates have no offset and are taken as UTC");
-  report_.nulBytes = source.nulBytes();
+    report_.notes.push_back("time: " + place_ + "the dates have no offset and are taken as UTC");
+  if (const NulBytes found = source.nulBytes(); found.count > 0) {
+    if (report_.nulBytes.count == 0) report_.nulBytes.line = found.line;
+    report_.nulBytes.count += found.count;
+  }
   if (strict_ && report_.nulBytes.count > 0) throw FormatError(source.path(), report_.nulText());
   const std::string end = atEnd_ ? source.endNote() : "";
-  if (!end.empty()) report_.notes.push_back(end);
+  if (!end.empty()) report_.notes.push_back(place_ + end);
+}
+
+// What was read of the further series, and which of them have other times than the frames.
+void ImportRows::finishSeries() {
+  for (const auto& [series, further] : further_) {
+    ImportedSeries& read = report_.series[further.index];
+    if (read.samples > 1)
+      read.meanRateHz = static_cast<double>(read.samples - 1) * kUsPerS /
+                        static_cast<double>(further.lastUs - further.firstUs);
+    if (read.samples == 0 || report_.frames == 0) continue;
+    const bool isBefore = further.lastUs < *firstUs_;
+    const std::int64_t apart =
+        isBefore ? *firstUs_ - further.lastUs : further.firstUs - lastFrameUs_;
+    if (apart > 0 && atEnd_)
+      report_.doubts.push_back("series " + series->further.name + ": all of it lies " +
+                               fixedText(static_cast<double>(apart) / kUsPerS, 3) + " s " +
+                               (isBefore ? "before the first frame" : "after the last frame"));
+  }
+}
+
+// The table of a SeriesFile with its rows in order of time, and what has to be added to its times.
+std::shared_ptr<TableSource> ImportRows::orderedTable(const PlannedSeries& series,
+                                                      std::uint64_t mostRows) {
+  if (!series.time) return series.table;
+  TimeReader times(series.timeUnit, std::nullopt, mapping_.text.decimal, series.timeFactor);
+  const TimesOfRows found = timesOfRows(*series.table, series, times, mostRows);
+  if (found.leastUs) shiftUs_ = shiftOf(series, *found.leastUs);
+  if (found.ascend) return series.table;
+  report_.notes.push_back("series " + series.further.name +
+                          ": the rows are not in order of time; they are sorted");
+  return std::make_shared<SortedSource>(series.table, series, times, mostRows);
+}
+
+// Times since 1970 are taken as they are where those of the frames are, too, and so are times that
+// count from a beginning. Of one of each only the beginning can be the same.
+std::int64_t ImportRows::shiftOf(const PlannedSeries& series, std::int64_t firstUs) {
+  constexpr std::int64_t kYear2000Us = 946'684'800'000'000;
+  const std::string name = "series " + series.further.name + ": ";
+  const std::int64_t framesUs = firstUs_.value_or(0);
+  const std::int64_t ofCount = frameShiftUs_.value_or(mapping_.time.startUs.value_or(0));
+  const bool areDates = firstUs >= kYear2000Us;
+  const bool wereDates = frameShiftUs_ && framesUs - *frameShiftUs_ >= kYear2000Us;
+  if (areDates ? framesUs >= kYear2000Us : !wereDates) {
+    report_.notes.push_back(name + (areDates ? "its times are dates, as those of the frames"
+                                             : "its times are taken to count from the same "
+                                               "beginning as those of the frames"));
+    return areDates && !wereDates ? 0 : ofCount;
+  }
+  report_.doubts.push_back(name +
+                           (areDates ? "its times are dates, those of the frames are not"
+                                     : "its times are no dates, those of the frames are") +
+                           ": its first row is taken to be at the first frame");
+  return framesUs - firstUs;
 }
 
 // The time of a row; nothing when it was refused.
 std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const TableRow& row) {
   std::optional<std::int64_t> us;
   if (!timeReader_) {
-    const double elapsed = static_cast<double>(rowIndex_ + skipped_) / *plan_.rateHz * kUsPerS;
-    us = mapping_.time.startUs.value_or(0) + std::llround(elapsed);
+    const double elapsed =
+        static_cast<double>(rowIndex_ + skipped_) / rateHz_.value_or(0.0) * kUsPerS;
+    us = beginUs_ + std::llround(elapsed);
   } else {
     us = timeReader_->us(row.time);
   }
@@ -169,6 +249,10 @@ bool ImportRows::examine(const TableSource& source,
     if (!target || (areTaxels && maximum_[*target] < 0.0F)) continue;
     ++used;
     const std::size_t at = begin + i;
+    if (series.kind == PlannedSeries::Kind::kFurther) {
+      isThere = isThere || !std::isnan(furtherValue(row, at, series.values[i]));
+      continue;
+    }
     const auto fail = [&](std::uint64_t& counter, const char* what) {
       refuse(source, row, counter, ", " + source.placeOf(at) + what);
       return false;
@@ -193,6 +277,7 @@ bool ImportRows::examine(const TableSource& source,
         return fail(report_.refused.text, " is not a number");
     }
   }
+  if (series.kind == PlannedSeries::Kind::kFurther) return true;
   isThere = numbers > 0;
   if (isThere && numbers == numNotANumber) {
     refuse(source,
@@ -272,12 +357,56 @@ void ImportRows::add(const TableSource& source,
         frame_.values[*place] = taxelValue(source, row, *place, valueAt(i));
     return addFrame(us);
   }
+  if (series.kind == PlannedSeries::Kind::kFurther)
+    return addFurther(source, series, us, row, begin);
   const bool isAngles = series.kind == PlannedSeries::Kind::kAngles;
   sample_.assign(isAngles ? hand_.axes.size() : hand_.temperatureSensors.size(), 0.0);
   for (std::size_t i = 0; i < series.values.size(); ++i)
     if (series.values[i].target) sample_[*series.values[i].target] = valueAt(i);
   ++(isAngles ? report_.angles : report_.temperatures);
   if (sink_.sample) sink_.sample({us, sample_, isAngles ? kAngleSeries : kTemperatureSeries});
+}
+
+// A number of a further series; NaN where there is none.
+double ImportRows::furtherValue(const TableRow& row,
+                                std::size_t at,
+                                const PlannedValue& planned) const {
+  const CellState state = row.states[at];
+  const double value = row.values[at] * planned.scale + planned.offset;
+  const bool isNumber = state == CellState::kNumber || state == CellState::kNotFinite;
+  return isNumber && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+void ImportRows::addFurther(const TableSource& source,
+                            const PlannedSeries& series,
+                            std::int64_t us,
+                            const TableRow& row,
+                            std::size_t begin) {
+  Further& further = further_.at(&series);
+  ImportedSeries& read = report_.series[further.index];
+  sample_.assign(series.further.columns.size(), 0.0);
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    if (!series.values[i].target) continue;
+    const std::size_t at = begin + i;
+    const double value = sample_[*series.values[i].target] =
+        furtherValue(row, at, series.values[i]);
+    const CellState state = row.states[at];
+    if (!std::isnan(value) || state == CellState::kEmpty ||
+        (state == CellState::kNotFinite && std::isnan(row.values[at])))
+      continue;
+    const std::string place =
+        place_ + source.rowWord() + " " + std::to_string(row.line) + ", " + source.placeOf(at);
+    if (strict_) throw FormatError(source.path(), place + " is not a number");
+    if (report_.notNumbers.count++ == 0) report_.notNumbers.first = place;
+  }
+  if (read.samples++ == 0) further.firstUs = us;
+  if (further.gaps.afterGap(us)) {
+    ++read.gaps;
+    read.longestGapS =
+        std::max(read.longestGapS, static_cast<double>(us - further.lastUs) / kUsPerS);
+  }
+  further.lastUs = us;
+  if (sink_.sample) sink_.sample({us, sample_, kHandSeries + further.index});
 }
 
 bool ImportRows::examineAll(const TableSource& source, const Pass& pass, const TableRow& row) {
@@ -402,17 +531,6 @@ void ImportRows::takeRow(TableSource& source, const Pass& pass, const TableRow& 
   if (us && examineAll(source, pass, row)) addAll(source, pass, *us, row);
 }
 
-// Puts the time in its place where it is a number of the array.
-void ImportRows::findTimeWithin(const Pass& pass, TableRow& row) {
-  if (!pass.first().timeWithin) return;
-  constexpr double kLargestExact = 9007199254740992.0;  // 2^53
-  const double number = row.values[*pass.first().timeWithin];
-  row.time = {.state = std::isfinite(number) ? CellState::kNumber : CellState::kNotFinite,
-              .number = number};
-  if (number == std::floor(number) && std::abs(number) < kLargestExact)
-    row.time.whole = static_cast<std::int64_t>(number);
-}
-
 void ImportRows::runPass(TableSource& source,
                          const Pass& pass,
                          std::uint64_t mostRows,
@@ -426,6 +544,9 @@ void ImportRows::runPass(TableSource& source,
   if (first.time)
     timeReader_.emplace(
         first.timeUnit, mapping_.time.startUs, mapping_.text.decimal, first.timeFactor);
+  if (timeReader_ && shiftUs_) timeReader_->setShiftUs(*shiftUs_);
+  rateHz_ = first.table ? first.rateHz : plan_.rateHz;
+  beginUs_ = first.table ? firstUs_.value_or(0) : mapping_.time.startUs.value_or(0);
   const bool isApart = !first.timeFile.empty();
   const auto times = isApart ? openTable(first.timeFile, mapping_.text) : nullptr;
   if (times) times->start({}, first.time);
@@ -437,7 +558,7 @@ void ImportRows::runPass(TableSource& source,
     if (progress && rowIndex_ % kRowsPerReport == 0 && !progress(source.fraction()))
       throw Cancelled();
     if (hasFrames) ++report_.rows;
-    findTimeWithin(pass, row);
+    findTimeWithin(first, row);
     if (times) row.time = times->next(timeRow) && timeRow.complete ? timeRow.time : TimeCell{};
     takeRow(source, pass, row);
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,10 +63,18 @@ class ImportRows {
   void takeRow(TableSource& source, const Pass& pass, const TableRow& row);
   bool examineAll(const TableSource& source, const Pass& pass, const TableRow& row);
   void addAll(const TableSource& source, const Pass& pass, std::int64_t us, const TableRow& row);
-  static void findTimeWithin(const Pass& pass, TableRow& row);
   bool wait(const TableSource& source, const Pass& pass, const TableRow& row);
   void finishWaiting(const TableSource& source, const Pass& pass, const TimeCell* next);
-  void noteRows(const TableSource& source);
+  void noteRows(const TableSource& source, bool areFrames);
+  std::shared_ptr<TableSource> orderedTable(const PlannedSeries& series, std::uint64_t mostRows);
+  std::int64_t shiftOf(const PlannedSeries& series, std::int64_t firstUs);
+  void finishSeries();
+  double furtherValue(const TableRow& row, std::size_t at, const PlannedValue& planned) const;
+  void addFurther(const TableSource& source,
+                  const PlannedSeries& series,
+                  std::int64_t us,
+                  const TableRow& row,
+                  std::size_t begin);
   void countMissing(const TableSource& source, const Pass& pass, const TableRow& row);
   void countFirstGap();
   std::optional<std::int64_t> timeOf(const TableSource& source, const TableRow& row);
@@ -109,7 +118,20 @@ class ImportRows {
   std::vector<std::int64_t> firstStampsUs_;
   std::optional<std::int64_t> firstUs_;  // of the frames
   std::int64_t lastFrameUs_ = 0;
+  std::optional<std::int64_t> frameShiftUs_;  // TimeReader::shiftUs() of the frames
+  // Of a further series.
+  struct Further {
+    std::size_t index = 0;  // in report_.series
+    GapDetector gaps;
+    std::int64_t firstUs = 0;
+    std::int64_t lastUs = 0;
+  };
+  std::map<const PlannedSeries*, Further> further_;
   // Of the pass that runs.
+  std::string place_;                    // of its rows, in front of their lines
+  std::optional<std::int64_t> shiftUs_;  // of the times of a SeriesFile
+  std::optional<double> rateHz_;         // of rows without times, and when they begin
+  std::int64_t beginUs_ = 0;
   std::optional<TimeReader> timeReader_;
   std::optional<std::int64_t> lastUs_;
   std::optional<WaitingRow> waiting_;

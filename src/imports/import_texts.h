@@ -70,6 +70,17 @@ constexpr Reason kNothingFits{
     "no columns fit the hand $1, which has %2 (as many columns are expected, or arrays of rows x "
     "%3); the file has %4"};
 constexpr Reason kNotUsed{"not used: %1"};
+// Further series.
+constexpr Reason kChoosesInstead{"of the columns that became series, %1"};
+constexpr Reason kSeriesName{
+    "series $1: a name is a small letter, then small letters, digits or _, 40 characters at most; "
+    "$2 would be one"};
+constexpr Reason kSeriesTwice{"series $1: the name is taken; give another one"};
+constexpr Reason kSeriesNoNumbers{"series $1: no column of numbers; there are %2"};
+constexpr Reason kSeriesNoTimes{
+    "series $1: no column of times was found; give the rate of its rows (--series-rate %1=HZ)"};
+constexpr Reason kSeriesTooWide{
+    "series $1: it has %2 columns, but a series has at most %3; save those that are wanted"};
 // Which axis, and which rows, are the frames.
 constexpr Reason kSameSizes{
     "the %1 axis of ~2 is taken for the frames, but the %3 one has the same size, %4; if the "

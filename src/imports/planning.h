@@ -5,7 +5,9 @@
 #include <initializer_list>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "palpate/core/error.h"
@@ -63,6 +65,25 @@ const SampleMapping& sampleMapping(const Planning& p, PlannedSeries::Kind kind);
 // The series of the joint angles or temperatures, without its time: as the mapping says, or by the
 // names of the columns; nothing where they are not there. Throws FormatError.
 std::optional<PlannedSeries> chooseSamples(Planning& p, PlannedSeries::Kind kind);
+
+// Adds the columns of numbers that nothing is made of as series with the times of the frames: an
+// array is one, columns of one prefix are one, the others are the series "table". Names that
+// `files` have are left to them. What holds no number in the first `mostRows` rows stays out.
+void chooseFurther(Planning& p, std::span<const SeriesFile> files, std::uint64_t mostRows);
+
+// The series of another file, and its notes and doubts in `plan`. Throws FormatError, FileError.
+PlannedSeries planSeriesFile(const SeriesFile& wanted,
+                             const HandDescription& hand,
+                             const ImportMapping& mapping,
+                             std::uint64_t mostRows,
+                             ImportPlan& plan);
+
+// Whether a series of the hand has this name.
+inline bool isHandSeries(std::string_view name) {
+  return name == "angles" || name == "temperatures";
+}
+// Whether a column says what a row is from: sensor, topic, device_id.
+bool saysOrigin(const TableColumn& column);
 
 // Reverses the axes of all arrays where their last one is the frames: by its name, or since the
 // hand fits only then (MATLAB's pad(frames, rows, columns), NumPy's rows x columns x frames).

@@ -99,6 +99,24 @@ std::string OutsideValues::summary() const {
   return counted(total(), "value") + " outside the hand's range: " + parts;
 }
 
+std::string ImportedSeries::text() const {
+  constexpr std::size_t kShown = 6;
+  std::string names;
+  for (std::size_t c = 0; c < std::min(kShown, description.columns.size()); ++c) {
+    const Column& column = description.columns[c];
+    names += (c > 0 ? ", " : "") + column.name;
+    if (!column.unit.empty()) names += " [" + column.unit + "]";
+  }
+  if (description.columns.size() > kShown) names += ", ..";
+  std::string text = "series " + description.name + ": " +
+                     counted(description.columns.size(), "column") + " (" + names + "), " +
+                     counted(samples, "sample");
+  if (samples > 1) text += ", " + fixedText(meanRateHz, 1) + " Hz";
+  if (gaps > 0)
+    text += ", " + counted(gaps, "gap") + " (longest " + fixedText(longestGapS, 3) + " s)";
+  return text;
+}
+
 std::string ImportReport::nulText() const {
   if (nulBytes.count == 0) return {};
   return counted(nulBytes.count, "byte") + " 0 left out (a power cut?), from line " +
@@ -114,6 +132,10 @@ std::string ImportReport::lossText() const {
   add(refused.summary(), refused.first);
   if (refused.notLater > 0) text += "; where times repeat, --rate keeps all rows";
   add(outside.summary(), outside.first);
+  if (notNumbers.count > 0)
+    add(counted(notNumbers.count, "cell") + " of series " +
+            (notNumbers.count == 1 ? "is not a number" : "are not numbers"),
+        notNumbers.first);
   if (missingFrames > 0)
     add(counted(missingFrames, "frame") + (missingFrames == 1 ? " is" : " are") +
             " missing by the numbers in the file",
@@ -132,7 +154,13 @@ ImportReport importRecording(const fs::path& data,
   requireImportable(data, hand, out);
   requireWritable(out, options.overwrite);
   const auto source = openTable(data, mapping.text);
-  const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
+  for (const SeriesFile& series : options.series) {
+    std::error_code ignored;
+    if (fs::equivalent(data, series.file, ignored))
+      throw FileError(series.file, "is the table itself: its columns become series anyway");
+    requireOther(series.file, out);
+  }
+  const ImportPlan plan = planImport(*source, hand, mapping, mapping.text, options.series);
   ImportReport report;
   RecordingMeta meta = handMeta(hand);
   meta["imported_from"] = data.filename().string();
@@ -148,6 +176,8 @@ ImportReport importRecording(const fs::path& data,
           writer.addFrame(frame);
         };
         sink.sample = [&](const Sample& sample) { writer.addSample(sample); };
+        for (const PlannedSeries& series : plan.series)
+          if (series.kind == PlannedSeries::Kind::kFurther) writer.addSeries(series.further);
         ImportRows rows(hand, mapping, plan, options.strict, std::move(sink));
         rows.run(*source, UINT64_MAX, progress);
         report = rows.report();
@@ -172,23 +202,24 @@ ImportReport importRecording(const fs::path& data,
 
 ImportPreview previewImport(const fs::path& data,
                             const HandDescription& hand,
-                            const ImportMapping& mapping) {
+                            const ImportMapping& mapping,
+                            const std::vector<SeriesFile>& series) {
   const auto source = openTable(data, mapping.text);
   ImportPreview preview;
   preview.form = source->form();
   preview.columns = source->columns();
   readPreviewRows(*source, preview);
   try {
-    const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
+    const ImportPlan plan = planImport(*source, hand, mapping, mapping.text, series, kPreviewRows);
     std::vector<std::int64_t> stampsUs;
     ImportSink sink;
     sink.frame = [&](const TactileFrame& frame) { stampsUs.push_back(frame.hostUs); };
     ImportRows rows(hand, mapping, plan, false, std::move(sink));
     rows.run(*source, kPreviewRows, {});
     preview.rateHz = timingOf(stampsUs).rateHz;
-    for (const PlannedSeries& series : plan.series)
+    for (const PlannedSeries& each : plan.series)
       preview.choices.insert(
-          preview.choices.end(), series.description.begin(), series.description.end());
+          preview.choices.end(), each.description.begin(), each.description.end());
     preview.time = plan.timeDescription;
     preview.sample = rows.report();
     preview.notes = preview.sample.notes;

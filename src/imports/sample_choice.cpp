@@ -83,7 +83,7 @@ std::vector<TableElement> samplesNamedAsIn(Planning& p,
   if (elements.size() == names.size() || elements.empty()) return elements;
   p.plan.notes.push_back(samplesText(kind) + ": " + one + " is there, but " +
                          std::to_string(names.size() - elements.size()) + " of the hand's " +
-                         std::to_string(names.size()) + " are not; not imported");
+                         std::to_string(names.size()) + " are not; not imported as such");
   return {};
 }
 
@@ -147,7 +147,7 @@ std::vector<TableElement> findSamples(Planning& p,
     if (!isFit(*group) && chosen == groups.end())
       notes.push_back(what + ": " + group->stem + " is " +
                       counted(group->elements.size(), "number") + ", but the hand has " +
-                      std::to_string(count) + "; not imported");
+                      std::to_string(count) + "; not imported as such");
     else if (isFit(*group))
       notes.push_back(what + ": " + chosen->stem + " is taken; " + group->stem +
                       " would fit as well");
@@ -161,7 +161,8 @@ std::vector<TableElement> findSamples(Planning& p,
     return chosen->elements;
   }
   if (groups.empty() && !others.empty())
-    notes.push_back(what + ": " + namesText(others) + " seem to be something else; not imported");
+    notes.push_back(what + ": " + namesText(others) +
+                    " seem to be something else; not imported as such");
   return {};
 }
 

@@ -346,14 +346,14 @@ void TimeChoice::find(PlannedSeries& series, const std::string& named) {
   }
   if (!series.time && isFrames && otherRows)
     refuse(otherRowsText(inQuotes(columns_[*otherRows].name), columns_[*otherRows], values) +
-           "; save as many times as frames, or give the rate of the rows (--rate)");
+           "; save as many times as frames, or give the rate of the rows (" + rateOption_ + ")");
   for (const TableColumn& column : columns_)
     if (!series.time && isFrames && isScalar(column) && !column.isNumeric && namesTime(column))
       refuseText(column);
   if (!series.time && isFrames)
     refuse("no column of times was found" +
            (rowNumber_.empty() ? "" : " (" + rowNumber_ + " counts the rows)") +
-           "; name that column (--time), or give the rate of the rows (--rate)");
+           "; name that column (--time), or give the rate of the rows (" + rateOption_ + ")");
   if (!series.time) return;
   const TableColumn& time = columns_[*series.time];
   if (!sameRows(time, values)) refuse(otherRowsText(inQuotes(time.name), time, values));
@@ -449,9 +449,10 @@ void TimeChoice::setTimeUnit(PlannedSeries& series) {
     const bool whole = std::all_of(
         values.begin(), values.end(), [](double value) { return value == std::floor(value); });
     if (countingOf(*series.time, at).isRowNumber)
-      refuse(inQuotes(column.name) +
-             " counts the rows (0, 1, 2, ..); give the rate of the rows (--rate), or its unit if "
-             "it is a time (--time-unit)");
+      refuse(inQuotes(column.name) + " counts the rows (0, 1, 2, ..); give the rate of the rows (" +
+             rateOption_ +
+             "), or its unit if it "
+             "is a time (--time-unit)");
     series.timeUnit = values.empty() ? TimeUnit::kSeconds : guessTimeUnit(values.back(), whole);
     origin = "guessed from the values; choose the unit if it is another";
     plan_.notes.push_back("time: the unit of " + inQuotes(column.name) + " is guessed to be " +

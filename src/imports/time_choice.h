@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "palpate/imports/import_mapping.h"
@@ -22,6 +23,8 @@ class TimeChoice {
   // Adds its notes, and the description of the time, to `plan`.
   TimeChoice(TableSource& source, const ImportMapping& mapping, ImportPlan& plan);
 
+  // The option that gives the rate of the rows, for messages.
+  void setRateOption(std::string option) { rateOption_ = std::move(option); }
   // Straightens vectors of times, joins columns that are parts of one time, and finds the column
   // that the mapping names: it is none of the taxels. Before the columns of the values are chosen.
   void prepare();
@@ -71,6 +74,7 @@ class TimeChoice {
   const std::vector<TableColumn>& columns_;
   const ImportMapping& mapping_;
   ImportPlan& plan_;
+  std::string rateOption_ = "--rate";
   std::string rowNumber_;  // a column that counts the rows
   std::optional<std::size_t> counter_;
   std::optional<std::size_t> time_;  // column of the frames

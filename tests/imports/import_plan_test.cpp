@@ -183,7 +183,7 @@ TEST(ImportPlan, AColumnNamedAsAnAxisIsItsAngle) {
                 "joint angles: the file gives no unit; the numbers are taken as deg",
                 "temperatures: the file gives no unit; the numbers are taken as degC"}));
   EXPECT_TRUE(hasNote(planOf("time_ms,p0,p1,p2,p3,opening", hand),
-                      "\"opening\" is there, but 1 of the hand's 2 are not; not imported"));
+                      "\"opening\" is there, but 1 of the hand's 2 are not; not imported as such"));
 }
 
 TEST(ImportPlan, SaysWhyColumnsHoldNoNumbers) {

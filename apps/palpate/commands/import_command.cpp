@@ -1,5 +1,8 @@
 // The command `palpate import DATA --hand HAND` imports a table of another program as a recording.
+#include <algorithm>
 #include <cstdio>
+#include <string_view>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
@@ -86,6 +89,45 @@ ImportMapping importMappingOf(const CommandLine& given) {
   return mapping;
 }
 
+// NAME and what stands behind it of "NAME=..".
+std::pair<std::string, std::string> namedValue(const char* option, const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw UsageError("--" + std::string(option) + " " + inQuotes(text) +
+                     " is not NAME=" + (option == std::string_view("series") ? "FILE" : "HZ"));
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// The tables of --series with the rates of --series-rate.
+std::vector<SeriesFile> seriesFilesOf(const CommandLine& given) {
+  std::vector<SeriesFile> files;
+  const auto named = [&](const std::string& name) {
+    return std::find_if(
+        files.begin(), files.end(), [&](const SeriesFile& each) { return each.name == name; });
+  };
+  for (const std::string& text : given.texts("series")) {
+    const auto [name, file] = namedValue("series", text);
+    if (const std::string valid = seriesName(name); valid != name)
+      throw UsageError(
+          "--series: " + inQuotes(name) +
+          " is no name of a series: a small letter, then small letters, digits or _ (" + valid +
+          ")");
+    if (named(name) != files.end())
+      throw UsageError("--series names " + inQuotes(name) + " twice; give each file its own name");
+    files.push_back({name, file, std::nullopt});
+  }
+  for (const std::string& text : given.texts("series-rate")) {
+    const auto [name, value] = namedValue("series-rate", text);
+    const auto rate = parseDouble(value);
+    if (named(name) == files.end())
+      throw UsageError("--series-rate: there is no --series " + inQuotes(name));
+    if (!rate || !(*rate >= 1e-6 && *rate <= 1e6))
+      throw UsageError("--series-rate: " + inQuotes(value) + " is not a rate of 1e-6 to 1e6 Hz");
+    named(name)->rateHz = *rate;
+  }
+  return files;
+}
+
 std::string secondsText(double seconds) { return fixedText(seconds, 3) + " s"; }
 
 void printImportPreview(const ImportPreview& preview) {
@@ -114,6 +156,7 @@ void printImportPreview(const ImportPreview& preview) {
     text += (preview.isWhole ? "all " : "the first ") + counted(sample.rows, "row") + ": " +
             counted(sample.frames, "frame") + " in " + secondsText(sample.durationS) + ", " +
             fixedText(sample.meanRateHz, 1) + " Hz, " + counted(sample.gaps, "gap") + "\n";
+    for (const ImportedSeries& series : sample.series) text += series.text() + "\n";
     if (sample.isPartial()) text += sample.lossText() + "\n";
   }
   std::string safe;
@@ -139,6 +182,23 @@ Json importJson(const fs::path& out, const ImportReport& report) {
       .set("frames", static_cast<std::int64_t>(report.frames))
       .set("joint_angles", static_cast<std::int64_t>(report.angles))
       .set("temperatures", static_cast<std::int64_t>(report.temperatures))
+      .set("series",
+           jsonList(report.series,
+                    [](const ImportedSeries& series) {
+                      return Json::object()
+                          .set("name", series.description.name)
+                          .set("columns",
+                               jsonList(series.description.columns,
+                                        [](const Column& column) {
+                                          return Json::object()
+                                              .set("name", column.name)
+                                              .set("unit", column.unit);
+                                        }))
+                          .set("samples", static_cast<std::int64_t>(series.samples))
+                          .set("mean_rate_hz", series.meanRateHz)
+                          .set("gaps", static_cast<std::int64_t>(series.gaps))
+                          .set("longest_gap_s", series.longestGapS);
+                    }))
       .set("duration_s", report.durationS)
       .set("mean_rate_hz", report.meanRateHz)
       .set("gaps", static_cast<std::int64_t>(report.gaps))
@@ -154,6 +214,10 @@ Json importJson(const fs::path& out, const ImportReport& report) {
                .set("below", static_cast<std::int64_t>(report.outside.below))
                .set("nan", static_cast<std::int64_t>(report.outside.notANumber))
                .set("first", report.outside.first))
+      .set("not_numbers",
+           Json::object()
+               .set("count", static_cast<std::int64_t>(report.notNumbers.count))
+               .set("first", report.notNumbers.first))
       .set("notes", jsonList(report.notes))
       .set("doubts", jsonList(report.doubts));
 }
@@ -184,7 +248,8 @@ int importCommand(const Arguments& words) {
                   "lines that microcontrollers print), NumPy's .npy and .npz, HDF5, MAT files; or "
                   "a folder with a file per frame or per matrix. A row is a frame. Columns "
                   "are found by names and shapes, or chosen: NAME, A..B, #3..#86 (by position, "
-                  "from 1), left*, m{m}[{y}][{x}] (matrix, row, column), table[0]..table[5]. Rows "
+                  "from 1), left*, m{m}[{y}][{x}] (matrix, row, column), table[0]..table[5]. Other "
+                  "columns of numbers become series beside the frames. Rows "
                   "that can't be used are left out and counted, and so are values outside of the "
                   "hand's range: exit code 3.",
        .options =
@@ -214,6 +279,12 @@ int importCommand(const Arguments& words) {
             {"start",
              "DATE",
              "date of the first row (2026-11-22T10:31:05Z); the day of times of day"},
+            {"series",
+             "NAME=FILE",
+             "another table becomes the series NAME, with the times of its rows; may be repeated"},
+            {"series-rate",
+             "NAME=HZ",
+             "rows of that table at equal intervals, where it has no times"},
             {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
             {"decimal", "NAME", "point (default) or comma"},
             {"header", "WORD", "a line of names is present, absent or detect (default)"},
@@ -232,9 +303,10 @@ int importCommand(const Arguments& words) {
     if (preview && given.has(option))
       throw UsageError("--preview writes nothing: leave out --" + std::string(option));
   const ImportMapping mapping = importMappingOf(given);
+  const std::vector<SeriesFile> series = seriesFilesOf(given);
   const HandDescription hand = *handOf(given);
   if (preview) {
-    const ImportPreview shown = previewImport(data, hand, mapping);
+    const ImportPreview shown = previewImport(data, hand, mapping, series);
     printImportPreview(shown);
     if (shown.problem.empty()) return shown.sample.isPartial() ? kPartlyDone : kDone;
     throw Error(shown.problem);
@@ -245,18 +317,21 @@ int importCommand(const Arguments& words) {
   if (const auto file = given.text("save-map")) requireWritable(*file, overwrite);
   const ImportReport report = [&] {
     ProgressLine progress("importing " + data.string(), given.quiet());
-    return importRecording(data,
-                           hand,
-                           mapping,
-                           out,
-                           {.strict = given.has("strict"), .overwrite = overwrite},
-                           progress.callback());
+    return importRecording(
+        data,
+        hand,
+        mapping,
+        out,
+        {.series = series, .strict = given.has("strict"), .overwrite = overwrite},
+        progress.callback());
   }();
   if (const auto file = given.text("save-map")) writeMapping(mapping, *file, overwrite);
   if (given.has("json")) {
     std::printf("%s\n", importJson(out, report).text().c_str());
   } else if (!given.quiet()) {
     std::printf("%s\n", escapedLine(importText(out, report)).c_str());
+    for (const ImportedSeries& each : report.series)
+      std::printf("%s\n", escapedLine(each.text()).c_str());
     for (const std::string& note : report.notes)
       std::printf("note: %s\n", escapedLine(note).c_str());
   }

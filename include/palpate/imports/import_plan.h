@@ -9,8 +9,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,12 +21,14 @@
 #include <palpate/imports/import_time.h>
 #include <palpate/imports/table_source.h>
 #include <palpate/model/hand_description.h>
+#include <palpate/model/series.h>
 
 namespace palpate {
 
 // Where one number of a row goes.
 struct PlannedValue {
-  // Place of the layout, axis or temperature sensor; empty: the number is not used.
+  // Place of the layout, axis, temperature sensor or column of a further series; empty: the number
+  // is not used.
   std::optional<std::size_t> target;
   double scale = 1.0;  // value = number * scale + offset
   double offset = 0.0;
@@ -44,9 +49,13 @@ struct PlannedTime {
 
 // One time series of the recording.
 struct PlannedSeries : PlannedTime {
-  enum class Kind { kFrames, kAngles, kTemperatures };
+  enum class Kind { kFrames, kAngles, kTemperatures, kFurther };
   Kind kind = Kind::kFrames;
+  SeriesDescription further;  // of kFurther: what it is in the recording
   std::filesystem::path file;
+  // A SeriesFile, opened: its rows may be in any order.
+  std::shared_ptr<TableSource> table;
+  std::optional<double> rateHz;      // of its rows, from the first frame on
   std::vector<std::size_t> columns;  // of the file
   std::vector<PlannedValue> values;  // one per number of these columns in a row
   // Of frames: which one of `values` is their number, which has no target.
@@ -69,12 +78,23 @@ struct ImportPlan {
   std::vector<std::string> doubts;  // why values may belong to other taxels, or some are missing
 };
 
+// Another table that becomes a series of the recording, with the times of its own rows.
+struct SeriesFile {
+  std::string name;  // of the series
+  std::filesystem::path file;
+  std::optional<double> rateHz;  // rows at equal intervals from the first frame on
+};
+
 // Throws Error: no column fits, with the shapes that the hand expects and what the file has; a
-// column that the mapping names is not there; a unit that can't be converted.
+// column that the mapping names is not there; a unit that can't be converted; a file of `files`
+// has no times or no numbers. Columns of numbers that are nothing else become further series,
+// unless their first `mostRows` rows hold no number.
 ImportPlan planImport(TableSource& source,
                       const HandDescription& hand,
                       const ImportMapping& mapping,
-                      const TableOptions& options);
+                      const TableOptions& options,
+                      std::span<const SeriesFile> files = {},
+                      std::uint64_t mostRows = UINT64_MAX);
 
 // The shapes of the hand's matrices, for messages: "1 matrix of 16 x 16, 256 taxels".
 std::string shapeText(const SensorLayout& layout);

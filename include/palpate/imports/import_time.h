@@ -67,6 +67,9 @@ class TimeReader {
 
   // Nothing when the cell holds no time, or one that a recording can't hold.
   std::optional<std::int64_t> us(const TimeCell& cell);
+  // What is added to every time [us]; known after the first us(), unless it is set before.
+  std::optional<std::int64_t> shiftUs() const noexcept { return shiftUs_; }
+  void setShiftUs(std::int64_t shiftUs) noexcept { shiftUs_ = shiftUs; }
   // The row of the last us() is taken: the next row is compared with it.
   void keep() noexcept { keptWhole_ = lastWhole_; }
   // The whole number of a cell, if it is one.

@@ -1,13 +1,14 @@
 // Imports a table of another program (TableSource) as a recording, by a mapping (ImportMapping):
-// a row is a frame, and where the table has them a sample of joint angles and of temperatures. The
-// table is read once, in bounded memory; the recording is whole or not there.
+// a row is a frame, and where the table has them a sample of joint angles, of temperatures, and of
+// further series: columns of numbers that are nothing else. Other tables can become series, too
+// (SeriesFile). The table is read once, in bounded memory; the recording is whole or not there.
 //
 // A row is refused, and counted, when it has another number of cells than the table has columns, a
 // text where a number is needed, a cell missing among others, or a time that is not later than that
 // of the row before. Bytes 0 in a text are left out and counted. Taxels above full scale, below 0
 // or NaN are imported and counted; places without a taxel are not looked at. A row without any
 // value of a series holds no sample of it: programs that join series of different rates leave such
-// cells empty.
+// cells empty. A further series never refuses a row: what is no number is missing in its sample.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,7 @@
 #include <palpate/imports/import_plan.h>
 #include <palpate/imports/table_source.h>
 #include <palpate/model/hand_description.h>
+#include <palpate/model/series.h>
 
 namespace palpate {
 
@@ -55,8 +57,28 @@ struct OutsideValues {
   std::string summary() const;
 };
 
+// A further series of a recording.
+struct ImportedSeries {
+  SeriesDescription description;
+  std::uint64_t samples = 0;
+  double meanRateHz = 0.0;  // (samples - 1) / duration; 0 with fewer than two
+  std::uint64_t gaps = 0;   // between samples (GapDetector)
+  double longestGapS = 0.0;
+  // "series wrench: 6 columns (fx [N], fy [N], ..), 1200 samples, 100 Hz".
+  std::string text() const;
+};
+
+// Cells of further series that hold neither a number nor NaN: missing values in the recording.
+struct NotNumbers {
+  std::uint64_t count = 0;
+  std::string first;  // "line 12, column 3: \"abc\""
+};
+
 struct ImportOptions {
-  // The first row that is refused, or has a NaN, ends the import with an error.
+  // Tables of which each becomes a series.
+  std::vector<SeriesFile> series = {};
+  // The first row that is refused, or has a NaN (but in further series) or a cell of a series that
+  // is not a number, ends the import with an error.
   bool strict = false;
   Overwrite overwrite = Overwrite::kRefuse;
 };
@@ -66,7 +88,9 @@ struct ImportReport {
   std::uint64_t frames = 0;
   std::uint64_t angles = 0;        // samples
   std::uint64_t temperatures = 0;  // samples
-  RefusedRows refused;
+  std::vector<ImportedSeries> series;
+  RefusedRows refused;  // of all tables
+  NotNumbers notNumbers;
   OutsideValues outside;
   NulBytes nulBytes;        // left out of a text
   double durationS = 0.0;   // first to last frame [s]
@@ -87,7 +111,9 @@ struct ImportReport {
 
   // Whether something was left out, or values don't belong to the hand.
   bool isPartial() const noexcept {
-    return refused.total() + outside.total() + nulBytes.count + missingFrames + doubts.size() > 0;
+    return refused.total() + outside.total() + notNumbers.count + nulBytes.count + missingFrames +
+               doubts.size() >
+           0;
   }
   // "4096 bytes 0 left out (a power cut?), from line 10"; empty without any.
   std::string nulText() const;
@@ -127,6 +153,7 @@ constexpr std::size_t kShownPreviewRows = 8;
 // reported in `problem`.
 ImportPreview previewImport(const std::filesystem::path& data,
                             const HandDescription& hand,
-                            const ImportMapping& mapping);
+                            const ImportMapping& mapping,
+                            const std::vector<SeriesFile>& series = {});
 
 }  // namespace palpate

@@ -55,6 +55,9 @@ QString textOf(const ImportReport& report, const QString& out) {
   if (report.absentFrames > 0)
     text += ", " + QString::fromStdString(counted(report.absentFrames, "frame")) +
             " without an active taxel are not in the list";
+  for (const ImportedSeries& series : report.series)
+    text += ", series " + QString::fromStdString(series.description.name) + " (" +
+            QString::fromStdString(counted(series.samples, "sample")) + ")";
   if (report.isPartial()) text += ", " + inWindowWords(QString::fromStdString(report.lossText()));
   return text;
 }
