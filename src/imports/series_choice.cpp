@@ -10,10 +10,10 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
-#include "recording/import/cell_text.h"
-#include "recording/import/column_unit.h"
-#include "recording/import/column_words.h"
-#include "recording/import/planning.h"
+#include "imports/cell_text.h"
+#include "imports/column_unit.h"
+#include "imports/column_words.h"
+#include "imports/planning.h"
 
 namespace palpate {
 namespace {

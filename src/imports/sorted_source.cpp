@@ -1,4 +1,4 @@
-#include "recording/import/sorted_source.h"
+#include "imports/sorted_source.h"
 
 #include <algorithm>
 #include <cmath>

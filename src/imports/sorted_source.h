@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "palpate/recording/import_plan.h"
-#include "palpate/recording/import_time.h"
+#include "palpate/imports/import_plan.h"
+#include "palpate/imports/import_time.h"
 
 namespace palpate {
 
