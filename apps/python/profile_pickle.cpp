@@ -46,6 +46,7 @@ class PickleFolder {
 // All samples in memory, so that the file isn't needed any more.
 Profile inMemory(const Profile& profile, ProfileInfo info) {
   ProfileBuilder builder(profile.hand());
+  builder.setBaselines(profile.baselines());
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     profile.readFrame(i, frame);
@@ -63,7 +64,8 @@ Profile inMemory(const Profile& profile, ProfileInfo info) {
 py::tuple pickledProfile(const Profile& profile) {
   const std::string bytes = unlocked([&](const Progress& progress) {
     const PickleFolder folder;
-    saveRecording(profile, {}, folder.recording(), Overwrite::kRefuse, progress);
+    saveRecording(
+        profile, baselineEvents(profile.baselines()), folder.recording(), Overwrite::kRefuse, progress);
     std::ifstream in(folder.recording(), std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(in), {});
   });

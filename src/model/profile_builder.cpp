@@ -91,10 +91,8 @@ class Series {
 
 class ProfileBuilder::Storage final : public ProfileStorage {
  public:
-  explicit Storage(bool readings) : readings_(readings) {}
-
   std::size_t numFrames() const override { return numFrames_; }
-  bool givesReadings() const override { return readings_; }
+  bool givesReadings() const override { return hasReadings; }
   std::int64_t frameTimeUs(std::size_t frame) const override {
     return chunks_[frame / kFramesPerChunk].hostUs[frame % kFramesPerChunk];
   }
@@ -103,7 +101,7 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     const std::size_t i = frame % kFramesPerChunk;
     out.deviceUs = i < chunk.deviceUs.size() ? chunk.deviceUs[i] : std::nullopt;
     const auto bytes = std::span(chunk.bytes).subspan(chunk.begin[i]);
-    if (readings_)
+    if (hasReadings)
       decodeFrame(bytes, chunk.coding[i], std::span(out.readings));
     else
       decodeFrame(bytes, chunk.coding[i], out);
@@ -141,9 +139,9 @@ class ProfileBuilder::Storage final : public ProfileStorage {
   std::deque<Series> series{Series({kHandSeriesNames[kAngleSeries], {}, {}, {}}),
                             Series({kHandSeriesNames[kTemperatureSeries], {}, {}, {}})};
   bool allCounts = true;
+  bool hasReadings = false;
 
  private:
-  const bool readings_;
   std::deque<FrameChunk> chunks_;
   std::size_t numFrames_ = 0;
 };
@@ -151,7 +149,7 @@ class ProfileBuilder::Storage final : public ProfileStorage {
 ProfileBuilder::ProfileBuilder(std::shared_ptr<const SensorLayout> layout)
     : layout_(std::move(layout)) {
   if (!layout_) throw std::invalid_argument("ProfileBuilder: no sensor layout");
-  storage_ = std::make_shared<Storage>(layout_->decidesTouch());
+  storage_ = std::make_shared<Storage>();
 }
 ProfileBuilder::ProfileBuilder(HandDescription hand) : ProfileBuilder(hand.layout) {
   hand_ = std::move(hand);
@@ -159,9 +157,11 @@ ProfileBuilder::ProfileBuilder(HandDescription hand) : ProfileBuilder(hand.layou
 ProfileBuilder::~ProfileBuilder() = default;
 ProfileBuilder::ProfileBuilder(ProfileBuilder&&) noexcept = default;
 
-void ProfileBuilder::require(std::int64_t hostUs, std::span<const float> values) const {
-  if (values.size() != layout_->numReadings())
-    throw std::invalid_argument("frame: expected " + std::to_string(layout_->numReadings()) +
+void ProfileBuilder::require(std::int64_t hostUs,
+                             std::span<const float> values,
+                             std::size_t count) const {
+  if (values.size() != count)
+    throw std::invalid_argument("frame: expected " + std::to_string(count) +
                                 " values, got " + std::to_string(values.size()));
   const auto last = storage_->lastFrameUs();
   if (last && hostUs <= *last)
@@ -172,14 +172,26 @@ void ProfileBuilder::require(std::int64_t hostUs, std::span<const float> values)
 void ProfileBuilder::addFrame(std::int64_t hostUs,
                               std::span<const float> values,
                               std::optional<std::int64_t> deviceUs) {
-  require(hostUs, values);
+  require(hostUs, values, layout_->numCells());
+  if (storage_->hasReadings) throw std::invalid_argument("frame: values among readings");
   storage_->addFrame(hostUs, values, deviceUs);
 }
 
+void ProfileBuilder::addReadings(std::int64_t hostUs,
+                                 std::span<const float> readings,
+                                 std::optional<std::int64_t> deviceUs) {
+  require(hostUs, readings, layout_->numReadings());
+  if (!layout_->decidesTouch() || (numFrames() > 0 && !storage_->hasReadings))
+    throw std::invalid_argument("frame: readings among values, or of a hand without such");
+  storage_->hasReadings = true;
+  storage_->addFrame(hostUs, readings, deviceUs);
+}
+
 void ProfileBuilder::addFrame(const TactileFrame& frame) {
-  if (layout_->decidesTouch()) return addFrame(frame.hostUs, frame.readings, frame.deviceUs);
-  require(frame.hostUs, frame.values);
-  if (!frame.filtered.empty()) require(frame.hostUs, frame.filtered);
+  if (!frame.readings.empty()) return addReadings(frame.hostUs, frame.readings, frame.deviceUs);
+  require(frame.hostUs, frame.values, layout_->numCells());
+  if (!frame.filtered.empty()) require(frame.hostUs, frame.filtered, layout_->numCells());
+  if (storage_->hasReadings) throw std::invalid_argument("frame: values among readings");
   storage_->addFrame(frame.hostUs, frame, frame.deviceUs);
 }
 
@@ -212,7 +224,7 @@ std::optional<std::int64_t> ProfileBuilder::lastSampleUs(std::size_t series) con
 
 Profile ProfileBuilder::finish(ProfileInfo info) {
   const std::shared_ptr<Storage> storage = std::exchange(
-      storage_, std::make_shared<Storage>(layout_->decidesTouch()));
+      storage_, std::make_shared<Storage>());
   info.valueType = storage->allCounts ? ValueType::kCounts : ValueType::kFloat;
   const std::size_t axes = storage->series[kAngleSeries].width();
   const std::size_t sensors = storage->series[kTemperatureSeries].width();

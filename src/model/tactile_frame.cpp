@@ -31,6 +31,8 @@ void TactileFrame::setFiltered(std::vector<float> all, const std::vector<bool>& 
                                 std::to_string(active.size()) + " marks for " +
                                 std::to_string(layout->numCells()) + " places");
   filtered.clear();
+  readings.clear();
+  baseline.reset();
   bool same = true;
   for (std::size_t i = 0; i < all.size() && same; ++i) same = active[i] || all[i] == 0.0F;
   if (!same) filtered = all;

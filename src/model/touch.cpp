@@ -166,6 +166,13 @@ Baselines baselinesOf(std::span<const Event> events,
   return baselines;
 }
 
+std::vector<Event> baselineEvents(const Baselines& baselines) {
+  std::vector<Event> events;
+  for (const auto& [timeUs, baseline] : baselines)
+    events.push_back(baselineEvent(*baseline, timeUs));
+  return events;
+}
+
 SensorLayout withoutTouchRules(const SensorLayout& layout) {
   std::vector<MatrixLayout> matrices = layout.matrices();
   for (MatrixLayout& matrix : matrices) matrix.touch = {};

@@ -37,6 +37,7 @@ Profile cropped(const Profile& profile,
     throw std::out_of_range("no frames " + std::to_string(begin) + ".." + std::to_string(end) +
                             ", there are " + std::to_string(profile.numFrames()));
   ProfileBuilder builder(profile.hand());
+  builder.setBaselines(profile.baselines());
   TactileFrame frame;
   for (std::size_t i = begin; i <= end; ++i) {
     const double done = static_cast<double>(i - begin) / static_cast<double>(end - begin + 1);
@@ -61,6 +62,14 @@ std::vector<Event> eventsWithin(std::span<const Event> events, const Profile& pr
   if (profile.numFrames() == 0) return within;
   const std::int64_t beginUs = profile.frameTimeUs(0);
   const std::int64_t endUs = profile.frameTimeUs(profile.numFrames() - 1);
+  // The baseline that holds at the begin.
+  const Event* baseline = nullptr;
+  for (const Event& event : events)
+    if (event.kind == "baseline" && event.tUs < beginUs) baseline = &event;
+  if (baseline) {
+    within.push_back(*baseline);
+    within.back().tUs = within.back().t1Us = beginUs;
+  }
   for (const Event& event : events) {
     if (event.tUs > endUs || event.t1Us < beginUs) continue;
     within.push_back(event);

@@ -122,8 +122,10 @@ TEST(Touch, RulesComeBackFromTheirText) {
 
 TEST(Touch, AProfileKeepsReadingsAndIsSeenOverABaseline) {
   ProfileBuilder builder(layoutOf({.isSigned = true, .threshold = 1.0F}));
-  builder.addFrame(1, Values{-4.0F, 0.5F, 2.0F});
-  EXPECT_THROW(builder.addFrame(2, Values{1.0F}), std::invalid_argument);
+  builder.addReadings(1, Values{-4.0F, 0.5F, 2.0F});
+  EXPECT_THROW(builder.addReadings(2, Values{1.0F}), std::invalid_argument);
+  EXPECT_THROW(builder.addFrame(2, Values{1.0F, 2.0F, 3.0F}), std::invalid_argument)
+      << "values among readings";
   const Profile profile = builder.finish({});
   EXPECT_TRUE(profile.givesReadings());
   EXPECT_EQ(profile.frame(0).values, (Values{4.0F, 0.0F, 2.0F}));

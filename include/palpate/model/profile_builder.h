@@ -26,13 +26,18 @@ class ProfileBuilder {
   std::size_t addSeries(SeriesDescription description);
 
   // The functions below append one sample. Its time [us since 1970] must be later than that of the
-  // previous one. The number of values must be that of the layout (of its readings, where it decides touch), of the series'
+  // previous one. The number of values must be that of the layout (frames: places or readings), of the series'
   // description, or of its first sample (angles, temperatures). Values must be finite; those of a
   // series beside the hand's may be NaN. They throw std::invalid_argument that names the violated
   // rule.
   void addFrame(std::int64_t hostUs,
                 std::span<const float> values,
                 std::optional<std::int64_t> deviceUs = {});
+  // Readings whose touch is decided when they are read (model/touch.h); a profile has readings, or
+  // values.
+  void addReadings(std::int64_t hostUs,
+                   std::span<const float> readings,
+                   std::optional<std::int64_t> deviceUs = {});
   // Appends a frame of another profile with its readings, or its filtered values, if any.
   void addFrame(const TactileFrame& frame);
   void addSample(std::size_t series,
@@ -68,7 +73,7 @@ class ProfileBuilder {
 
  private:
   class Storage;
-  void require(std::int64_t hostUs, std::span<const float> values) const;
+  void require(std::int64_t hostUs, std::span<const float> values, std::size_t count) const;
   std::shared_ptr<const SensorLayout> layout_;
   std::optional<HandDescription> hand_;
   std::shared_ptr<Storage> storage_;

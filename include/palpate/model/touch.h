@@ -51,6 +51,9 @@ Baselines baselinesOf(std::span<const Event> events,
                       const SensorLayout& layout,
                       std::size_t* wrong = nullptr);
 
+// Their events.
+std::vector<Event> baselineEvents(const Baselines& baselines);
+
 // The layout of frames whose touch is decided: the same without rules.
 SensorLayout withoutTouchRules(const SensorLayout& layout);
 

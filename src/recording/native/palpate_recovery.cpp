@@ -608,6 +608,9 @@ void buildProfile(const fs::path& path,
                                       storage->width(Stream::kTemperatures));
   recovery.profile.emplace(
       std::move(info), std::move(hand), std::move(storage), std::move(further));
+  if (recovery.profile->givesReadings())
+    recovery.profile =
+        recovery.profile->withBaselines(baselinesOf(recovery.events, recovery.profile->layout()));
   if (recovery.whole() && !recovery.beingWritten)
     recovery.damagedRows += damagedSeconds(found, *recovery.profile, recovery.unfinished, progress);
   else

@@ -621,7 +621,15 @@ void writePalpate(const Profile& profile,
           ? profile.hand().layout
           : std::make_shared<const SensorLayout>(withoutTouchRules(profile.layout())),
       writtenMeta(profile.info(), profile.hand(), meta),
-      [&](PalpateWriter& writer) { writeAll(profile, events, writer, progress); },
+      [&](PalpateWriter& writer) {
+        // The summaries are those of the file as it will be read.
+        writeAll(profile.givesReadings()
+                     ? profile.withBaselines(baselinesOf(events, profile.layout()))
+                     : profile,
+                 events,
+                 writer,
+                 progress);
+      },
       overwrite);
 }
 
