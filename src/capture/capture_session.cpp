@@ -267,7 +267,7 @@ void CaptureSession::note(const Event& event) {
 void CaptureSession::onFrame(TactileFrame&& frame) {
   if (!frame.readings.empty()) {
     const std::lock_guard lock(baselineMutex_);
-    decideTouch(frame, baseline_);
+    decideTouch(frame, baseline_ ? baseline_ : frame.baseline);  // a replay has its own
   }
   const bool saturated = numSaturated(hand_, frame) > 0;
   if (scansItself_ && frame.layout != expectedFor_) {
