@@ -64,8 +64,11 @@ Profile inMemory(const Profile& profile, ProfileInfo info) {
 py::tuple pickledProfile(const Profile& profile) {
   const std::string bytes = unlocked([&](const Progress& progress) {
     const PickleFolder folder;
-    saveRecording(
-        profile, baselineEvents(profile.baselines()), folder.recording(), Overwrite::kRefuse, progress);
+    saveRecording(profile,
+                  baselineEvents(profile.baselines()),
+                  folder.recording(),
+                  Overwrite::kRefuse,
+                  progress);
     std::ifstream in(folder.recording(), std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(in), {});
   });

@@ -224,8 +224,9 @@ void CaptureSession::takeBaseline() {
   {
     const std::lock_guard lock(baselineMutex_);
     if (recent_.size() < 2)
-      throw Error("a baseline needs readings of a hand that decides touch by them "
-                  "(components, signed, touch_threshold or touch_sigma in its hand.json)");
+      throw Error(
+          "a baseline needs readings of a hand that decides touch by them "
+          "(components, signed, touch_threshold or touch_sigma in its hand.json)");
     auto baseline = std::make_shared<const Baseline>(
         baselineOf(std::vector<SharedFrame>(recent_.begin(), recent_.end())));
     event = baselineEvent(*baseline, nowUs());

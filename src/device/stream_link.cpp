@@ -235,10 +235,9 @@ void StreamLink::take(const StreamItem& item) {
       return sink_->onSample(
           {stampAfter(session_.lastAnglesUs), {item.numbers.begin(), item.numbers.end()}});
     case StreamItemKind::kTemperatures:
-      return sink_->onSample(
-          {stampAfter(session_.lastTemperaturesUs),
-           {item.numbers.begin(), item.numbers.end()},
-           kTemperatureSeries});
+      return sink_->onSample({stampAfter(session_.lastTemperaturesUs),
+                              {item.numbers.begin(), item.numbers.end()},
+                              kTemperatureSeries});
     case StreamItemKind::kDescription:
       return takeDescription(item.text);
   }

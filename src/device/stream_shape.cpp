@@ -122,7 +122,8 @@ std::string StreamShape::arrange(std::span<float> values, std::size_t count) con
   std::size_t from = 0;
   for (std::size_t m = 0; m < fullScales_.size(); ++m) {
     const MatrixLayout& matrix = layout_->matrix(m);
-    const std::size_t to = from + (count == numPlaces_ ? matrix.numReadings() : readingsOfTaxels(matrix));
+    const std::size_t to =
+        from + (count == numPlaces_ ? matrix.numReadings() : readingsOfTaxels(matrix));
     const float most = fullScales_[m];
     const float least = matrix.touch.isSigned ? -most : 0.0F;
     const auto isGood = [=](float value) { return value >= least && value <= most; };
@@ -135,8 +136,10 @@ std::string StreamShape::arrange(std::span<float> values, std::size_t count) con
         continue;
       const bool isNumber = std::isfinite(values[i]);
       if (outside.empty())
-        outside = "value " + std::to_string(i + 1) + " is " + numberText(values[i]) +
-                  (isNumber ? ", not in " + numberText(least) + ".." + numberText(most) + " " + unit_ : ": 0 is kept");
+        outside =
+            "value " + std::to_string(i + 1) + " is " + numberText(values[i]) +
+            (isNumber ? ", not in " + numberText(least) + ".." + numberText(most) + " " + unit_
+                      : ": 0 is kept");
       if (!isNumber) values[i] = 0.0F;
     }
     from = to;

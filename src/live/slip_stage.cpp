@@ -113,7 +113,8 @@ void SlipStage::onFrame(LiveResults& results, std::vector<Event>& out) {
   applyReferenceRequests(*frame.layout);
   setOpens(ordered_ || (opensByItself && opensByItself()));
   jointsDeg_.clear();
-  if (results.angles) jointsDeg_.assign(results.angles->values.begin(), results.angles->values.end());
+  if (results.angles)
+    jointsDeg_.assign(results.angles->values.begin(), results.angles->values.end());
   results.slip.resize(detectors_.size());
   for (std::size_t m = 0; m < detectors_.size(); ++m) {
     results.slip[m] = detectors_[m].update(frame.matrix(m), frame.hostUs, jointsDeg_);

@@ -161,8 +161,8 @@ void ProfileBuilder::require(std::int64_t hostUs,
                              std::span<const float> values,
                              std::size_t count) const {
   if (values.size() != count)
-    throw std::invalid_argument("frame: expected " + std::to_string(count) +
-                                " values, got " + std::to_string(values.size()));
+    throw std::invalid_argument("frame: expected " + std::to_string(count) + " values, got " +
+                                std::to_string(values.size()));
   const auto last = storage_->lastFrameUs();
   if (last && hostUs <= *last)
     throw std::invalid_argument("frame: time must be later than the last frame's");
@@ -223,8 +223,7 @@ std::optional<std::int64_t> ProfileBuilder::lastSampleUs(std::size_t series) con
 }
 
 Profile ProfileBuilder::finish(ProfileInfo info) {
-  const std::shared_ptr<Storage> storage = std::exchange(
-      storage_, std::make_shared<Storage>());
+  const std::shared_ptr<Storage> storage = std::exchange(storage_, std::make_shared<Storage>());
   info.valueType = storage->allCounts ? ValueType::kCounts : ValueType::kFloat;
   const std::size_t axes = storage->series[kAngleSeries].width();
   const std::size_t sensors = storage->series[kTemperatureSeries].width();

@@ -23,8 +23,7 @@ struct MatrixReadings {
     return readings[first + i] - (baseline ? baseline->rest[first + i] : 0.0F);
   }
   float limit(std::size_t i) const {
-    const float noise =
-        baseline && !baseline->noise.empty() ? baseline->noise[first + i] : 0.0F;
+    const float noise = baseline && !baseline->noise.empty() ? baseline->noise[first + i] : 0.0F;
     return std::max(layout.touch.threshold, layout.touch.sigmas * noise);
   }
 };
@@ -39,11 +38,10 @@ void requireSize(std::size_t size, std::size_t wanted, const char* what) {
 
 std::shared_ptr<const Baseline> baselineAt(const Baselines& baselines, std::int64_t timeUs) {
   if (baselines.empty()) return nullptr;
-  const auto later =
-      std::upper_bound(baselines.begin(),
-                       baselines.end(),
-                       timeUs,
-                       [](std::int64_t us, const auto& each) { return us < each.first; });
+  const auto later = std::upper_bound(
+      baselines.begin(), baselines.end(), timeUs, [](std::int64_t us, const auto& each) {
+        return us < each.first;
+      });
   return (later == baselines.begin() ? later : std::prev(later))->second;
 }
 
@@ -69,8 +67,7 @@ void decideTouch(TactileFrame& frame, std::shared_ptr<const Baseline> baseline) 
       const std::size_t z = place * step + step - 1;
       shown[place] = of.difference(z);
       float length = rule.isSigned ? std::abs(shown[place]) : shown[place];
-      if (step == 3)
-        length = std::hypot(of.difference(z - 2), of.difference(z - 1), shown[place]);
+      if (step == 3) length = std::hypot(of.difference(z - 2), of.difference(z - 1), shown[place]);
       float limit = of.limit(z);
       for (std::size_t k = place * step; k < z; ++k) limit = std::max(limit, of.limit(k));
       // Something that only shears is touched, too.
@@ -199,7 +196,9 @@ SensorLayout withTouchRules(const SensorLayout& layout, std::string_view text) {
   for (std::size_t m = 0; m < matrices.size(); ++m) {
     const Json rule = rules.at(m);
     const std::int64_t components = rule.at("components").asInteger();
-    matrices[m].touch = {components == 3 ? 3 : components == 1 ? 1 : 0,
+    matrices[m].touch = {components == 3   ? 3
+                         : components == 1 ? 1
+                                           : 0,
                          rule.at("signed").asBool(),
                          static_cast<float>(rule.at("threshold").asDouble()),
                          static_cast<float>(rule.at("sigmas").asDouble())};

@@ -91,8 +91,8 @@ void GraspCollector::addFrame(std::shared_ptr<const TactileFrame> frame) {
 }
 
 void GraspCollector::addAngles(Sample angles) {
-  if (!angles_.empty() &&
-      (angles.hostUs <= angles_.back().hostUs || angles.values.size() != angles_.back().values.size()))
+  if (!angles_.empty() && (angles.hostUs <= angles_.back().hostUs ||
+                           angles.values.size() != angles_.back().values.size()))
     return;
   // After the last kept frame only the newest sample is needed, for the frames that are kept next.
   const bool beyond = contactFrames_ > options_.maxFrames && angles_.size() > 1 &&

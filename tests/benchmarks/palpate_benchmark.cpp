@@ -91,8 +91,7 @@ void makeDay(const fs::path& path) {
   palpate::PalpateWriter writer(path, hand.layout, {}, options);
   palpate::TactileFrame frame(hand.layout);
   palpate::Sample angles{0, std::vector<double>(7)};
-  palpate::Sample temperatures{
-      0, std::vector<double>(9, 30.0), palpate::kTemperatureSeries};
+  palpate::Sample temperatures{0, std::vector<double>(9, 30.0), palpate::kTemperatureSeries};
   std::mt19937 random(1);
   constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
   int nextAngles = 0;

@@ -230,7 +230,8 @@ TEST(GraspEasing, NothingIsFastAfterAJointWasBlocked) {
   bench.machine.begin(request, bench.us, 42, touchOfBall());
   std::optional<MoveJoints> last;
   double fastest = 0.0;
-  for (int i = 0; i < 800 && !(fastest > 50.0 && last && bench.machine.phase() == GraspPhase::kIdle);
+  for (int i = 0;
+       i < 800 && !(fastest > 50.0 && last && bench.machine.phase() == GraspPhase::kIdle);
        ++i) {
     bench.frames(1, 3.0F);
     bench.machine.onTime(bench.us);

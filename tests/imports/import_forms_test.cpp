@@ -37,7 +37,8 @@ TEST(ImportForms, BytesZeroOfAPowerCutAreLeftOutAndCounted) {
   EXPECT_EQ(within.report.nulBytes.count, 100u);
   EXPECT_EQ(within.report.nulBytes.line, 4u);
   const std::string strict = testing::errorOf([&] {
-    importText(folder, before + block, pad(1, 2), {}, {.strict = true, .overwrite = Overwrite::kReplace});
+    importText(
+        folder, before + block, pad(1, 2), {}, {.strict = true, .overwrite = Overwrite::kReplace});
   });
   EXPECT_NE(strict.find("5000000 bytes 0"), std::string::npos) << strict;
 }

@@ -52,7 +52,8 @@ TEST(LiveMeasurement, TheProfileHasWhatArrived) {
   LiveMeasurement measurement(sdh2(), {.seconds = 1.0});
   const std::size_t sensors = sdh2().temperatureSensors.size();
   for (int i = 0; i <= 10; ++i) {
-    measurement.add(Sample{kBeginUs + i * kPeriodUs, std::vector(sensors, 20.0 + i), kTemperatureSeries});
+    measurement.add(
+        Sample{kBeginUs + i * kPeriodUs, std::vector(sensors, 20.0 + i), kTemperatureSeries});
     measurement.add(anglesAt(i * kPeriodUs, 5.0));
     measurement.add(frameAt(i * kPeriodUs, static_cast<float>(i)));
   }

@@ -55,16 +55,15 @@ TEST(Touch, AReadingWithoutASignMustBeAboveItsRest) {
 
 TEST(Touch, TheNoiseSetsTheThresholdWhereItIsLarger) {
   const TouchRule rule{.threshold = 3.0F, .sigmas = 4.0F};
-  const TactileFrame frame = frameOf(
-      rule, {5.0F, 5.0F, 5.0F}, restAt({0.0F, 0.0F, 0.0F}, {0.5F, 1.0F, 1.5F}));
+  const TactileFrame frame =
+      frameOf(rule, {5.0F, 5.0F, 5.0F}, restAt({0.0F, 0.0F, 0.0F}, {0.5F, 1.0F, 1.5F}));
   EXPECT_EQ(frame.values, (Values{5.0F, 5.0F, 0.0F}));
 }
 
 TEST(Touch, OfThreeComponentsTheLengthDecidesAndZPresses) {
-  const TactileFrame frame =
-      frameOf({.components = 3, .isSigned = true, .threshold = 4.9F},
-              {3.0F, 4.0F, 0.0F, 1.0F, 2.0F, 2.0F, 0.0F, 0.0F, -6.0F},
-              restAt({0, 0, 0, 0, 0, 0, 0, 0, 1}));
+  const TactileFrame frame = frameOf({.components = 3, .isSigned = true, .threshold = 4.9F},
+                                     {3.0F, 4.0F, 0.0F, 1.0F, 2.0F, 2.0F, 0.0F, 0.0F, -6.0F},
+                                     restAt({0, 0, 0, 0, 0, 0, 0, 0, 1}));
   EXPECT_GT(frame.values[0], 0.0F) << "it only shears";
   EXPECT_LT(frame.values[0], 1e-30F);
   EXPECT_EQ(frame.values[1], 0.0F) << "its length is 3";
@@ -77,8 +76,8 @@ TEST(Touch, OfThreeComponentsTheLengthDecidesAndZPresses) {
 TEST(Touch, TheBaselineIsMeanAndDeviation) {
   std::vector<std::shared_ptr<const TactileFrame>> frames;
   for (const float value : {1.0F, 2.0F, 6.0F})
-    frames.push_back(std::make_shared<TactileFrame>(
-        frameOf({.isSigned = true}, {value, -value, 4.0F})));
+    frames.push_back(
+        std::make_shared<TactileFrame>(frameOf({.isSigned = true}, {value, -value, 4.0F})));
   const Baseline baseline = baselineOf(frames);
   EXPECT_EQ(baseline.rest, (Values{3.0F, -3.0F, 4.0F}));
   // Of 1, 2, 6: squares 4 + 1 + 9 = 14, over 2.
@@ -115,9 +114,9 @@ TEST(Touch, RulesComeBackFromTheirText) {
   EXPECT_FALSE(plain.decidesTouch());
   EXPECT_EQ(withTouchRules(plain, touchRulesText(layout)), layout);
   EXPECT_THROW(withTouchRules(plain, "[]"), Error);
-  EXPECT_THROW(withTouchRules(plain,
-                              R"([{"components": 2, "signed": true, "threshold": 0, "sigmas": 0}])"),
-               Error);
+  EXPECT_THROW(
+      withTouchRules(plain, R"([{"components": 2, "signed": true, "threshold": 0, "sigmas": 0}])"),
+      Error);
 }
 
 TEST(Touch, AProfileKeepsReadingsAndIsSeenOverABaseline) {

@@ -162,7 +162,8 @@ TEST(DamagedFiles, aFlippedBitAnywhereGivesOneErrorOrTheSameData) {
       ++opened;
       ASSERT_EQ(profile.numFrames(), 2u) << bit;
       EXPECT_EQ(profile.frame(1).values, (std::vector<float>{0, 0, 100, 0, 1000, 0})) << bit;
-      EXPECT_EQ(profile.angles(0).values, (std::vector<double>{60, -10, 10, -90, 0, -10, 10})) << bit;
+      EXPECT_EQ(profile.angles(0).values, (std::vector<double>{60, -10, 10, -90, 0, -10, 10}))
+          << bit;
     } catch (const FormatError&) {
     }
   }

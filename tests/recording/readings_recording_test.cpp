@@ -1,8 +1,7 @@
 // Recordings of sensors whose readings have a sign, three components, or noise at rest.
-#include "palpate/model/touch.h"
-
 #include "palpate/model/hand_file.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/model/touch.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/recording.h"

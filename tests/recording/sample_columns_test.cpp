@@ -42,7 +42,8 @@ TEST(SampleColumns, withoutSamplesTheyAreThoseOfTheHand) {
   EXPECT_EQ(angles.values(0), (std::vector<double>{1.0, 2.0, 3.0}));
   EXPECT_EQ(angles.columns.size(), 3u);
   EXPECT_EQ(writtenSamples(empty, kAngleSeries).columns.size(), empty.hand().axes.size());
-  EXPECT_EQ(writtenSamples(built, kTemperatureSeries).columns.size(), built.hand().temperatureSensors.size());
+  EXPECT_EQ(writtenSamples(built, kTemperatureSeries).columns.size(),
+            built.hand().temperatureSensors.size());
 }
 
 TEST(SampleColumns, anEventOfNoMatrixHasTheGivenNumber) {

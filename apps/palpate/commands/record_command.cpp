@@ -128,7 +128,8 @@ void takeBaseline(CaptureSession& session,
       throw Error("interrupted before the baseline was taken: nothing was recorded");
     if (const SharedFrame frame = session.takeFrame(); frame && !firstUs) firstUs = frame->hostUs;
     if (firstUs && static_cast<double>(session.nowUs() - *firstUs) >= seconds * kUsPerS) break;
-    if (!firstUs && static_cast<double>(systemClock().monotonicUs() - beginUs) > firstFrameS * kUsPerS)
+    if (!firstUs &&
+        static_cast<double>(systemClock().monotonicUs() - beginUs) > firstFrameS * kUsPerS)
       throw Error("no frame arrived for the baseline");
   }
   session.takeBaseline();

@@ -69,10 +69,10 @@ class CaptureSession : private DeviceSink {
   void stop() noexcept;
   bool started() const noexcept { return started_.load(); }
 
-  // Takes the readings of the last CaptureOptions::baselineS, at least two frames, for the readings at rest (of a hand
-  // that decides touch by its readings): what follows is seen over them, and the event "baseline"
-  // is shown and recorded. Each recording of such a hand begins with the event of its baseline. Throws Error where there are
-  // no such readings. Safe from any thread.
+  // Takes the readings of the last CaptureOptions::baselineS, at least two frames, for the readings
+  // at rest (of a hand that decides touch by its readings): what follows is seen over them, and the
+  // event "baseline" is shown and recorded. Each recording of such a hand begins with the event of
+  // its baseline. Throws Error where there are no such readings. Safe from any thread.
   void takeBaseline();
 
   // As Recorder::start(). The recording also contains the device's properties (serial number,

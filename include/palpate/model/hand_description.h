@@ -100,8 +100,8 @@ HandDescription withSeriesOf(HandDescription hand,
                              std::size_t numAxes,
                              std::size_t numTemperatureSensors);
 
-// The series of the hand itself: kAngleSeries with a column per axis, kTemperatureSeries with one per
-// sensor.
+// The series of the hand itself: kAngleSeries with a column per axis, kTemperatureSeries with one
+// per sensor.
 std::vector<SeriesDescription> seriesOf(const HandDescription& hand);
 
 // The sizes of the matrices, equal ones counted: "3 x 14x6, 3 x 13x6" (rows x columns).

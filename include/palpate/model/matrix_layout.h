@@ -23,7 +23,7 @@ using Mask = std::vector<std::uint8_t>;
 
 // How readings of a matrix say that a taxel is touched.
 struct TouchRule {
-  int components = 1;     // per taxel: 1, or 3: x (along columns), y (along rows), z into the surface
+  int components = 1;  // per taxel: 1, or 3: x (along columns), y (along rows), z into the surface
   bool isSigned = false;  // readings may be below 0
   // A taxel is touched when its reading differs from its baseline by more than `threshold`, and by
   // more than `sigmas` standard deviations of its noise at rest [unit of the hand].

@@ -26,10 +26,10 @@ class ProfileBuilder {
   std::size_t addSeries(SeriesDescription description);
 
   // The functions below append one sample. Its time [us since 1970] must be later than that of the
-  // previous one. The number of values must be that of the layout (frames: places or readings), of the series'
-  // description, or of its first sample (angles, temperatures). Values must be finite; those of a
-  // series beside the hand's may be NaN. They throw std::invalid_argument that names the violated
-  // rule.
+  // previous one. The number of values must be that of the layout (frames: places or readings), of
+  // the series' description, or of its first sample (angles, temperatures). Values must be finite;
+  // those of a series beside the hand's may be NaN. They throw std::invalid_argument that names the
+  // violated rule.
   void addFrame(std::int64_t hostUs,
                 std::span<const float> values,
                 std::optional<std::int64_t> deviceUs = {});

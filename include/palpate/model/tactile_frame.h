@@ -64,8 +64,8 @@ struct TactileFrame {
   }
   ConstMatrixMap allValues(std::size_t index) const;
   // Takes the output of filters: `all` goes to `filtered`, and where `active` is set also to
-  // `values`; the other `values` become 0. There are no readings any more. `filtered` stays empty when both would be equal. Throws
-  // std::invalid_argument when a length differs from the layout's.
+  // `values`; the other `values` become 0. There are no readings any more. `filtered` stays empty
+  // when both would be equal. Throws std::invalid_argument when a length differs from the layout's.
   void setFiltered(std::vector<float> all, const std::vector<bool>& active);
   // Returns whether all `values` are whole numbers of counts, 0..maxCounts.
   bool isCounts(float maxCounts = 4095.0F) const noexcept;

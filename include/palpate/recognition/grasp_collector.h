@@ -17,8 +17,8 @@
 
 #include <palpate/model/gap_detector.h>
 #include <palpate/model/hand_description.h>
-#include <palpate/model/series.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/series.h>
 #include <palpate/recognition/grasp_features.h>
 
 namespace palpate {

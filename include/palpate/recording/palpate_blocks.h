@@ -57,8 +57,8 @@ std::size_t sampleWidth(const Block& block) noexcept;
 
 // The stamps of the items of a block [us since 1970], and where the values of each begin in its
 // data. `numValues` is the number of values per item: places of the layout, or columns of
-// the series. indexBlock() returns false when the data is not what the fields say; it never throws on
-// damaged data.
+// the series. indexBlock() returns false when the data is not what the fields say; it never throws
+// on damaged data.
 struct BlockIndex {
   std::vector<std::int64_t> hostUs;
   std::vector<std::optional<std::int64_t>> deviceUs;

@@ -32,7 +32,7 @@ constexpr std::size_t kMaxBlockBytes = 4000;
 
 // Bounds of what is read, so that a hostile file costs little time and memory.
 constexpr std::size_t kMaxMatrices = 64;
-constexpr std::size_t kMaxPlaces = 65'536;    // of all matrices together
+constexpr std::size_t kMaxPlaces = 65'536;             // of all matrices together
 constexpr std::size_t kMaxSampleValues = kMaxColumns;  // of a series
 constexpr std::size_t kMaxStreams = 1 + kMaxSeries;
 

@@ -14,8 +14,8 @@
 #include <palpate/core/progress.h>
 #include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
-#include <palpate/model/series.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/series.h>
 #include <palpate/model/tactile_frame.h>
 #include <palpate/recording/recording_data.h>
 
@@ -53,11 +53,11 @@ class PalpateWriter {
   std::size_t addSeries(const SeriesDescription& description);
 
   // Each appends in order of time and commits when the interval has passed since the last commit.
-  // Throw std::invalid_argument (wrong size, not finite, no such series, time not later than before): nothing was
-  // added. Throw FileError (the disk is full, ..): what was committed before is safe; later
-  // samples, also that of this call, are kept in memory, and the next commit that is due writes
-  // them. Only when kMaxPendingBytes are kept does a call refuse its sample: pendingFull() is then
-  // true.
+  // Throw std::invalid_argument (wrong size, not finite, no such series, time not later than
+  // before): nothing was added. Throw FileError (the disk is full, ..): what was committed before
+  // is safe; later samples, also that of this call, are kept in memory, and the next commit that is
+  // due writes them. Only when kMaxPendingBytes are kept does a call refuse its sample:
+  // pendingFull() is then true.
   void addFrame(const TactileFrame& frame);
   void addSample(const Sample& sample);
   void addEvent(const Event& event);

@@ -166,10 +166,11 @@ void BlockPacker::flush() {
 }
 
 bool plausible(const Block& block) noexcept {
-  return static_cast<std::size_t>(block.stream) < kMaxStreams && static_cast<int>(valueCoding(block.coding)) <= 4 &&
-         block.first >= 0 && block.first <= std::numeric_limits<std::int64_t>::max() - kMostItems &&
-         block.n >= 1 && block.n <= kMostItems && block.t0Us >= -kLatestUs &&
-         block.t1Us <= kLatestUs && block.t1Us >= block.t0Us &&
+  return static_cast<std::size_t>(block.stream) < kMaxStreams &&
+         static_cast<int>(valueCoding(block.coding)) <= 4 && block.first >= 0 &&
+         block.first <= std::numeric_limits<std::int64_t>::max() - kMostItems && block.n >= 1 &&
+         block.n <= kMostItems && block.t0Us >= -kLatestUs && block.t1Us <= kLatestUs &&
+         block.t1Us >= block.t0Us &&
          static_cast<std::size_t>(block.n) * kItemHeadBytes < block.data.size() &&
          block.data.size() <= (block.n == 1 ? kLongestItem : kMaxBlockBytes);
 }
@@ -225,7 +226,8 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
     }
     if (size > bytes.size() - at) return false;
     if (coding != BlockCoding::kCountsRuns &&
-        !allFinite(bytes.subspan(at, size), coding, numValues, block.stream > Stream::kTemperatures))
+        !allFinite(
+            bytes.subspan(at, size), coding, numValues, block.stream > Stream::kTemperatures))
       return false;
     at += size;
   }

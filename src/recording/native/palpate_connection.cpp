@@ -165,11 +165,10 @@ void PalpateConnection::open(const fs::path& path) {
     throw FormatError(path, "is an SQLite file, but not a palpate recording");
   const std::int64_t version = database_->integerOf("PRAGMA user_version");
   if (version < kPalpateVersion || version > kPalpateVersionWithSeries)
-    throw FormatError(path,
-                      "has version " + std::to_string(version) +
-                          " of the format; this program reads versions " +
-                          std::to_string(kPalpateVersion) + " to " +
-                          std::to_string(kPalpateVersionWithSeries));
+    throw FormatError(
+        path,
+        "has version " + std::to_string(version) + " of the format; this program reads versions " +
+            std::to_string(kPalpateVersion) + " to " + std::to_string(kPalpateVersionWithSeries));
   checkTables(*database_);
   meta_ = readMeta(*database_);
   const bool finished = meta_["finished"] == "1";

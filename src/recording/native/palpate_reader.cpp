@@ -213,8 +213,7 @@ Recording readPalpate(const fs::path& path, const Progress& progress) {
   const bool overBaselines = storage->givesReadings();
   Profile profile = profileOf(std::move(storage));
   if (overBaselines)
-    profile =
-        profile.withBaselines(baselinesOf(events.events, profile.layout(), &damage.events));
+    profile = profile.withBaselines(baselinesOf(events.events, profile.layout(), &damage.events));
   return {.profile = std::move(profile),
           .events = std::move(events.events),
           .meta = std::move(meta),

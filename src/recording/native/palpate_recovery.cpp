@@ -355,8 +355,9 @@ void readBySql(const fs::path& path,
   found.meta = access.meta();
   recovery.damagedRows += found.meta.damaged;
   attemptRecovery(recovery, [&] { readBlocks(database, found, recovery, progress); });
-  attemptRecovery(recovery,
-                  [&] { found.layout = std::make_shared<SensorLayout>(readLayout(database, found.meta)); });
+  attemptRecovery(recovery, [&] {
+    found.layout = std::make_shared<SensorLayout>(readLayout(database, found.meta));
+  });
   attemptRecovery(recovery, [&] {
     found.series = readSeries(database);
     recovery.damagedRows += found.series.damaged;

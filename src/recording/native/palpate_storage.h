@@ -101,7 +101,7 @@ class BlockStorage : public ProfileStorage {
   std::array<Entries, kMaxStreams> streams_;
   mutable std::mutex mutex_;  // over loader and cache
   mutable BlockCache<std::shared_ptr<const OpenBlock>> cache_{kCachedBytes};  // by id
-  mutable std::unordered_map<std::int64_t, FormatError> damaged_;  // by id: not read again
+  mutable std::unordered_map<std::int64_t, FormatError> damaged_;           // by id: not read again
   mutable std::array<std::shared_ptr<const OpenBlock>, kMaxStreams> last_;  // read last, per stream
 };
 

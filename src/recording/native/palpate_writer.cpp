@@ -94,12 +94,10 @@ PublishedFile publishEmpty(const fs::path& path,
                            const SensorLayout& layout,
                            const RecordingMeta& meta) {
   SqliteDatabase database(":memory:", SqliteDatabase::Mode::kCreate);
-  database.execute("PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE; PRAGMA application_id=" +
-                   std::to_string(kPalpateApplicationId) +
-                   "; PRAGMA user_version=" +
-                   std::to_string(layout.decidesTouch() ? kPalpateVersionWithSeries
-                                                        : kPalpateVersion) +
-                   ";");
+  database.execute(
+      "PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE; PRAGMA application_id=" +
+      std::to_string(kPalpateApplicationId) + "; PRAGMA user_version=" +
+      std::to_string(layout.decidesTouch() ? kPalpateVersionWithSeries : kPalpateVersion) + ";");
   database.execute("BEGIN IMMEDIATE");
   createTables(database);
   insertMeta(database, "format", "palpate");
@@ -473,9 +471,8 @@ void PalpateWriter::addFrame(const TactileFrame& frame) {
   const bool hasReadings = impl_->layout->decidesTouch();
   const std::vector<float>& stored = hasReadings ? frame.readings : frame.values;
   if (stored.size() != impl_->layout->numReadings())
-    throw std::invalid_argument("frame: expected " +
-                                std::to_string(impl_->layout->numReadings()) + " values, got " +
-                                std::to_string(stored.size()));
+    throw std::invalid_argument("frame: expected " + std::to_string(impl_->layout->numReadings()) +
+                                " values, got " + std::to_string(stored.size()));
   if (frame.allValues().size() != frame.values.size())
     throw std::invalid_argument("frame: another number of filtered values than of values");
   const std::vector<float>& all = hasReadings ? stored : frame.allValues();
