@@ -211,17 +211,14 @@ Profile filteredProfile(const Profile& source,
   info.valueType = ValueType::kFloat;
   const double rateHz = recipe.dependsOnRate() ? timingOf(source).rateHz : 0.0;
   recipe.validateForRate(rateHz);
-  if (const auto memory = filterLengthFrames(recipe, rateHz > 0.0 ? rateHz : kUsualRateHz))
-    return Profile(
-        info,
-        source.hand(),
-        std::make_shared<FilteredFrames>(source, recipe, std::move(options.restartsUs), *memory),
-        source.furtherSeries());
-  return Profile(info,
-                 source.hand(),
-                 std::make_shared<ComputedFrames>(
-                     source, computedWhole(source, recipe, options.restartsUs, progress)),
-                 source.furtherSeries());
+  const auto frames = [&]() -> std::shared_ptr<const ProfileStorage> {
+    if (const auto memory = filterLengthFrames(recipe, rateHz > 0.0 ? rateHz : kUsualRateHz))
+      return std::make_shared<FilteredFrames>(
+          source, recipe, std::move(options.restartsUs), *memory);
+    return std::make_shared<ComputedFrames>(
+        source, computedWhole(source, recipe, options.restartsUs, progress));
+  }();
+  return Profile(info, source.hand(), frames, source.furtherSeries());
 }
 
 }  // namespace palpate

@@ -9,6 +9,16 @@
 namespace palpate {
 namespace {
 
+// The name of a column as a key. It has no control characters.
+std::string escaped(const std::string& name) {
+  std::string key;
+  for (const char letter : name) {
+    if (letter == '"' || letter == '\\') key += '\\';
+    key += letter;
+  }
+  return key;
+}
+
 void addSignals(JsonLine& json, const CharacteristicSignals& signals) {
   json.number("mean", signals.mean);
   json.number("filtered_mean", signals.filteredMean);
@@ -99,6 +109,16 @@ void appendSignalJson(std::string& out,
   }
   if (results.angles) json.numbers("angles_deg", results.angles->values);
   if (results.temperatures) json.numbers("temperatures_degc", results.temperatures->values);
+  if (!results.further.empty()) {
+    json.begin("series");
+    for (const FurtherSample& each : results.further) {
+      json.begin(each.series->name);
+      for (std::size_t i = 0; i < each.sample.values.size(); ++i)
+        json.number(escaped(each.series->columns[i].name), each.sample.values[i]);
+      json.end();
+    }
+    json.end();
+  }
   if (link) addLink(json, *link);
   json.end();
 }

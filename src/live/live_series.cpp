@@ -46,6 +46,14 @@ double LiveSeries::valueOf(Entry& entry, const SignalSample& sample) {
     }
     case SeriesChoice::Kind::kForce:
       return valueIn(sample.forcesN, choice.index);
+    case SeriesChoice::Kind::kColumn:
+      for (const FurtherSample& each : sample.further) {
+        if (each.series->name != choice.series) continue;
+        const auto& columns = each.series->columns;
+        for (std::size_t i = 0; i < columns.size(); ++i)
+          if (columns[i].name == choice.column) return valueIn(each.sample.values, i);
+      }
+      return kNoValue;
     case SeriesChoice::Kind::kFormula:  // only of recordings
       return kNoValue;
     case SeriesChoice::Kind::kTaxels:

@@ -117,6 +117,8 @@ void ProcessingChain::reset() {
   items_.clear();
   angles_.reset();
   temperatures_.reset();
+  further_.clear();
+  furtherSeries_ = options_.furtherSeries;
   newest_.take();
   const std::lock_guard lock(mutex_);
   stats_ = {};
@@ -129,10 +131,36 @@ void ProcessingChain::process(const CaptureItem& item) {
   } else if (const auto* sample = std::get_if<Sample>(&item)) {
     if (sample->series == kAngleSeries) angles_ = *sample;
     if (sample->series == kTemperatureSeries) temperatures_ = *sample;
+    if (sample->series >= kHandSeries) takeFurther(*sample);
     for (const auto& stage : stages_) stage->onSample(*sample);
   } else {
     for (const auto& stage : stages_) stage->onEvent(std::get<Event>(item));
   }
+}
+
+void ProcessingChain::takeFurther(const Sample& sample) {
+  const auto at = std::ranges::lower_bound(
+      further_, sample.series, {}, [](const FurtherSample& each) { return each.sample.series; });
+  const bool known = at != further_.end() && at->sample.series == sample.series;
+  if (known && at->series->columns.size() == sample.values.size()) {
+    at->sample = sample;
+    return;
+  }
+  const std::size_t index = sample.series - kHandSeries;
+  const auto all = furtherSeries_ ? furtherSeries_() : std::vector<SeriesDescription>();
+  SeriesDescription series;
+  if (index < all.size()) series = all[index];
+  if (series.name.empty()) series.name = "series_" + std::to_string(sample.series);
+  if (series.columns.size() != sample.values.size()) {
+    series.columns.clear();
+    for (std::size_t i = 1; i <= sample.values.size(); ++i)
+      series.columns.push_back({std::to_string(i), {}});
+  }
+  FurtherSample taken{std::make_shared<const SeriesDescription>(std::move(series)), sample};
+  if (known)
+    *at = std::move(taken);
+  else
+    further_.insert(at, std::move(taken));
 }
 
 void ProcessingChain::processFrame(const SharedFrame& frame) {
@@ -141,6 +169,7 @@ void ProcessingChain::processFrame(const SharedFrame& frame) {
   results.frame = frame;
   results.angles = angles_;
   results.temperatures = temperatures_;
+  results.further = further_;
   found_.clear();
   for (const auto& stage : stages_) stage->onFrame(results, found_);
   const auto tookUs = static_cast<double>(systemClock().monotonicUs() - fromUs);
@@ -161,6 +190,8 @@ void ProcessingChain::runOver(const Profile& profile,
                               const Progress& progress) {
   if (thread_.joinable()) throw std::logic_error("ProcessingChain::runOver: it is running");
   reset();
+  furtherSeries_ = [further = std::vector(profile.series().begin() + kHandSeries,
+                                          profile.series().end())] { return further; };
   std::stable_sort(
       events.begin(), events.end(), [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
   InTimeOrder order(profile, events);

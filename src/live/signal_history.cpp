@@ -44,8 +44,11 @@ std::size_t KeptTaxels::bytes() const noexcept {
 }
 
 std::size_t SignalSample::bytes() const noexcept {
-  return sizeof(SignalSample) + rows.size() * sizeof(CharacteristicSignals) + taxels.bytes() +
-         (anglesDeg.size() + temperatures.size() + forcesN.size()) * sizeof(double);
+  std::size_t numFurther = 0;
+  for (const FurtherSample& each : further) numFurther += each.sample.values.size();
+  return sizeof(SignalSample) + further.size() * sizeof(FurtherSample) +
+         rows.size() * sizeof(CharacteristicSignals) + taxels.bytes() +
+         (anglesDeg.size() + temperatures.size() + forcesN.size() + numFurther) * sizeof(double);
 }
 
 SignalHistory::SignalHistory(const SignalHistoryOptions& options) : options_(options) {
@@ -72,6 +75,7 @@ void SignalHistory::add(const LiveResults& results) {
   sample->taxels = KeptTaxels(results.frame->allValues());
   if (results.angles) sample->anglesDeg = results.angles->values;
   if (results.temperatures) sample->temperatures = results.temperatures->values;
+  sample->further = results.further;
   if (results.pressure) {
     sample->forcesN.reserve(results.pressure->matrices.size() + 1);
     for (const MatrixPressure& matrix : results.pressure->matrices)

@@ -38,7 +38,7 @@ namespace {
 constexpr double kFormulaNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kTime = "t";
 constexpr std::size_t kValuesPerReport = 4096;
-constexpr const char* kCallVariable = "derivative_";
+constexpr const char* kCallVariable = "_call";  // no signal's name begins so
 
 bool ofName(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
@@ -316,17 +316,13 @@ void refuseUnknownFunctions(const std::string& text, const std::string& parsed) 
 // The times of the last sample before a run of samples that can't be read and of the first one
 // behind it, from the first frame [s].
 TimeSpan readableAround(const Profile& profile,
-                        SeriesChoice::Kind kind,
+                        const SeriesChoice& choice,
                         const UnreadableSamples::Run& run) {
-  const bool ofAngles = kind == SeriesChoice::Kind::kAngle;
-  const bool ofTemperatures = kind == SeriesChoice::Kind::kTemperature;
-  const std::size_t count = ofAngles         ? profile.numAngles()
-                            : ofTemperatures ? profile.numTemperatures()
-                                             : profile.numFrames();
+  const auto column = columnOf(profile, choice);
+  const std::size_t count = column ? profile.numSamples(column->series) : profile.numFrames();
   const auto timeS = [&](std::size_t sample) {
-    const std::int64_t us = ofAngles         ? profile.angleTimeUs(sample)
-                            : ofTemperatures ? profile.temperatureTimeUs(sample)
-                                             : profile.frameTimeUs(sample);
+    const std::int64_t us =
+        column ? profile.sampleTimeUs(column->series, sample) : profile.frameTimeUs(sample);
     return static_cast<double>(us - profile.frameTimeUs(0)) / 1e6;
   };
   constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -527,12 +523,23 @@ Series formulaSeries(const Profile& profile,
   if (profile.numFrames() == 0) throw std::invalid_argument("there are no frames");
   std::vector<SeriesChoice> choices;
   for (const std::string& name : formula.names()) {
-    const auto choice = signalNamed(name, profile.layout());
-    if (!choice)
+    const auto choice = signalNamed(name, profile);
+    if (!choice) {
+      std::string further;
+      for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
+        const SeriesDescription& series = profile.series()[i];
+        further += nameOf({.kind = SeriesChoice::Kind::kColumn,
+                           .series = series.name,
+                           .column = series.columns.front().name},
+                          profile.layout()) +
+                   ", ";
+      }
       throw std::invalid_argument("formula \"" + shortened(formula.text()) +
                                   "\": there is no signal \"" + shortened(name) +
                                   "\"; there are m0_mean, m0_sum, .., hand_max, m0_x2_y9, angle0, "
-                                  "temperature0, t");
+                                  "temperature0, " +
+                                  further + "t");
+    }
     if (!hasSeries(profile, *choice))
       throw std::invalid_argument("formula \"" + shortened(formula.text()) +
                                   "\": the recording has no " + shortened(name));
@@ -577,8 +584,9 @@ Series formulaSeries(const Profile& profile,
                                      unreadable ? &ofSignal : nullptr);
     if (fault.empty()) fault = ofSignal.firstFault;
     for (const UnreadableSamples::Run& run : ofSignal.runs)
-      lost.push_back(readableAround(profile, choices[i].kind, run));
-    values.push_back(resampled(series, timeS, std::numeric_limits<double>::infinity()));
+      lost.push_back(readableAround(profile, choices[i], run));
+    values.push_back(choices[i].kind == SeriesChoice::Kind::kColumn ? heldAt(series, timeS)
+                                                                    : resampled(series, timeS));
   }
   const std::vector<double> computed =
       formula.evaluate(timeS, values, longestS, part(choices.size()));

@@ -19,25 +19,45 @@ constexpr std::size_t kSamplesPerReport = 512;
 
 using ProfileSeriesKind = SeriesChoice::Kind;
 
-std::size_t countOf(const Profile& profile, ProfileSeriesKind kind) {
-  if (kind == ProfileSeriesKind::kAngle) return profile.numAngles();
-  if (kind == ProfileSeriesKind::kTemperature) return profile.numTemperatures();
-  return profile.numFrames();
+bool isOfSamples(ProfileSeriesKind kind) {
+  return kind == ProfileSeriesKind::kAngle || kind == ProfileSeriesKind::kTemperature ||
+         kind == ProfileSeriesKind::kColumn;
 }
 
-// Time 0 of all series: the first frame; without frames, the first angles or temperatures.
+// The samples that a choice is made of: those of a series, or the frames.
+class Samples {
+ public:
+  Samples(const Profile& profile, const SeriesChoice& choice)
+      : profile_(profile), column_(columnOf(profile, choice)) {
+    if (column_)
+      count_ = profile.numSamples(column_->series);
+    else if (!isOfSamples(choice.kind))
+      count_ = profile.numFrames();
+  }
+
+  const std::optional<SeriesColumn>& column() const { return column_; }
+  std::size_t count() const { return count_; }
+  std::int64_t timeUs(std::size_t i) const {
+    return column_ ? profile_.sampleTimeUs(column_->series, i) : profile_.frameTimeUs(i);
+  }
+  // Of samples that there are.
+  std::size_t at(std::int64_t timeUs) const {
+    return *(column_ ? profile_.sampleAt(column_->series, timeUs) : profile_.frameAt(timeUs));
+  }
+
+ private:
+  const Profile& profile_;
+  std::optional<SeriesColumn> column_;
+  std::size_t count_ = 0;
+};
+
+// Time 0 of all series: the first frame; without frames, the first sample of the first series that
+// has one.
 std::int64_t originUs(const Profile& profile) {
   if (profile.numFrames() > 0) return profile.frameTimeUs(0);
-  if (profile.numAngles() > 0) return profile.angleTimeUs(0);
-  return profile.numTemperatures() > 0 ? profile.temperatureTimeUs(0) : 0;
-}
-
-std::optional<std::size_t> sampleAt(const Profile& profile,
-                                    ProfileSeriesKind kind,
-                                    std::int64_t timeUs) {
-  if (kind == ProfileSeriesKind::kAngle) return profile.angleSampleAt(timeUs);
-  if (kind == ProfileSeriesKind::kTemperature) return profile.temperatureSampleAt(timeUs);
-  return profile.frameAt(timeUs);
+  for (std::size_t s = 0; s < profile.series().size(); ++s)
+    if (profile.numSamples(s) > 0) return profile.sampleTimeUs(s, 0);
+  return 0;
 }
 
 std::int64_t usOf(const Profile& profile, double seconds) {
@@ -46,15 +66,14 @@ std::int64_t usOf(const Profile& profile, double seconds) {
                       kUsPerS);
 }
 
-double valueAt(const std::vector<double>& values, std::size_t index) {
-  return index < values.size() ? values[index] : std::numeric_limits<double>::quiet_NaN();
-}
-
 // Reads the samples of a series one after the other.
 class Reader {
  public:
   Reader(const Profile& profile, const SeriesChoice& choice)
-      : profile_(profile), choice_(choice), originUs_(originUs(profile)) {}
+      : profile_(profile),
+        choice_(choice),
+        samples_(profile, choice),
+        originUs_(originUs(profile)) {}
 
   // NaN, and the sample added to `unreadable`, where it can't be read.
   std::pair<double, double> read(std::size_t sample, UnreadableSamples* unreadable) {
@@ -63,38 +82,20 @@ class Reader {
     } catch (const Error& error) {
       if (!unreadable) throw;
       unreadable->add(sample, error.what());
-      return {seconds(timeUs(sample)), std::numeric_limits<double>::quiet_NaN()};
+      return {seconds(samples_.timeUs(sample)), std::numeric_limits<double>::quiet_NaN()};
     }
   }
 
  private:
-  std::int64_t timeUs(std::size_t sample) const {
-    if (choice_.kind == ProfileSeriesKind::kAngle) return profile_.angleTimeUs(sample);
-    if (choice_.kind == ProfileSeriesKind::kTemperature) return profile_.temperatureTimeUs(sample);
-    return profile_.frameTimeUs(sample);
-  }
-
   std::pair<double, double> read(std::size_t sample) {
-    switch (choice_.kind) {
-      case ProfileSeriesKind::kAngle: {
-        const Sample angles = profile_.angles(sample);
-        return {seconds(angles.hostUs), valueAt(angles.values, choice_.index)};
-      }
-      case ProfileSeriesKind::kTemperature: {
-        const Sample temperatures = profile_.temperatures(sample);
-        const double degC = valueAt(temperatures.values, choice_.index);
-        return {seconds(temperatures.hostUs),
-                degC == 0.0 ? std::numeric_limits<double>::quiet_NaN() : degC};
-      }
-      case ProfileSeriesKind::kTaxels:
-        profile_.readFrame(sample, frame_);
-        return {seconds(frame_.hostUs), meanOf(frame_, choice_.taxels)};
-      case ProfileSeriesKind::kMatrix:
-      case ProfileSeriesKind::kForce:    // no profile has it: hasSeries()
-      case ProfileSeriesKind::kFormula:  // readFormula() computes it
-        break;
+    if (const auto& column = samples_.column()) {
+      const Sample read = profile_.sample(column->series, sample);
+      return {seconds(read.hostUs), valueIn(read, *column)};
     }
     profile_.readFrame(sample, frame_);
+    if (choice_.kind == ProfileSeriesKind::kTaxels)
+      return {seconds(frame_.hostUs), meanOf(frame_, choice_.taxels)};
+    // No profile has kForce (hasSeries()), and readFormula() computes kFormula.
     const std::size_t m = choice_.index;
     const CharacteristicSignals values = m == frame_.layout->numMatrices()
                                              ? wholeFrameSignals(frame_)
@@ -106,6 +107,7 @@ class Reader {
 
   const Profile& profile_;
   const SeriesChoice& choice_;
+  Samples samples_;
   std::int64_t originUs_;
   TactileFrame frame_;
 };
@@ -136,7 +138,7 @@ bool hasFormula(const Profile& profile, const std::string& text) {
     const Formula formula(text);
     return std::all_of(
         formula.names().begin(), formula.names().end(), [&](const std::string& name) {
-          const auto choice = signalNamed(name, profile.layout());
+          const auto choice = signalNamed(name, profile);
           return choice && hasSeries(profile, *choice);
         });
   } catch (const std::invalid_argument&) {
@@ -197,20 +199,42 @@ double meanOf(const TactileFrame& frame, const TaxelSelection& taxels) {
   return count == 0 ? 0.0 : sum / static_cast<double>(count);
 }
 
+std::optional<SeriesColumn> columnOf(const Profile& profile, const SeriesChoice& choice) {
+  const auto ofHand = [&](std::size_t series) -> std::optional<SeriesColumn> {
+    if (profile.numSamples(series) == 0 || choice.index >= profile.series()[series].columns.size())
+      return std::nullopt;
+    return SeriesColumn{series, choice.index};
+  };
+  if (choice.kind == ProfileSeriesKind::kAngle) return ofHand(kAngleSeries);
+  if (choice.kind == ProfileSeriesKind::kTemperature) return ofHand(kTemperatureSeries);
+  if (choice.kind != ProfileSeriesKind::kColumn) return std::nullopt;
+  const auto series = profile.seriesNamed(choice.series);
+  if (!series) return std::nullopt;
+  const auto& columns = profile.series()[*series].columns;
+  const auto column =
+      std::ranges::find_if(columns, [&](const Column& c) { return c.name == choice.column; });
+  if (column == columns.end()) return std::nullopt;
+  return SeriesColumn{*series, static_cast<std::size_t>(column - columns.begin())};
+}
+
+double valueIn(const Sample& sample, const SeriesColumn& column) {
+  constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+  if (column.column >= sample.values.size()) return kNotKnown;
+  const double value = sample.values[column.column];
+  return column.series == kTemperatureSeries && value == 0.0 ? kNotKnown : value;
+}
+
 bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
-  if (countOf(profile, choice.kind) == 0) return false;
+  if (isOfSamples(choice.kind)) return columnOf(profile, choice).has_value();
+  if (profile.numFrames() == 0) return false;
   switch (choice.kind) {
-    case ProfileSeriesKind::kAngle:
-      return choice.index < profile.hand().axes.size();
-    case ProfileSeriesKind::kTemperature:
-      return choice.index < profile.hand().temperatureSensors.size();
     case ProfileSeriesKind::kTaxels:
       return !choice.taxels.empty() && TaxelSelection(profile.layout()).sameSensor(choice.taxels);
     case ProfileSeriesKind::kForce:
       return false;
     case ProfileSeriesKind::kFormula:
       return hasFormula(profile, choice.formula);
-    case ProfileSeriesKind::kMatrix:
+    default:
       break;
   }
   return choice.index <= profile.layout().numMatrices();
@@ -220,9 +244,9 @@ std::size_t numSamples(const Profile& profile,
                        const SeriesChoice& choice,
                        double fromS,
                        double toS) {
-  if (countOf(profile, choice.kind) == 0 || !(fromS <= toS)) return 0;
-  return *sampleAt(profile, choice.kind, usOf(profile, toS)) -
-         *sampleAt(profile, choice.kind, usOf(profile, fromS)) + 1;
+  const Samples samples(profile, choice);
+  if (samples.count() == 0 || !(fromS <= toS)) return 0;
+  return samples.at(usOf(profile, toS)) - samples.at(usOf(profile, fromS)) + 1;
 }
 
 Series readSeries(const Profile& profile,
@@ -233,9 +257,9 @@ Series readSeries(const Profile& profile,
                   UnreadableSamples* unreadable) {
   requireSeries(profile, choice);
   if (!(fromS <= toS)) return {};
-  const std::size_t begin = *sampleAt(profile, choice.kind, usOf(profile, fromS));
-  const std::size_t end = std::min(*sampleAt(profile, choice.kind, usOf(profile, toS)) + 2,
-                                   countOf(profile, choice.kind));
+  const Samples samples(profile, choice);
+  const std::size_t begin = samples.at(usOf(profile, fromS));
+  const std::size_t end = std::min(samples.at(usOf(profile, toS)) + 2, samples.count());
   return readSamples(profile, choice, begin, end, progress, unreadable);
 }
 
@@ -263,7 +287,7 @@ void visitSeries(const Profile& profile,
     }
     return;
   }
-  readAll(profile, choice, 0, countOf(profile, choice.kind), progress, unreadable, sink);
+  readAll(profile, choice, 0, Samples(profile, choice).count(), progress, unreadable, sink);
 }
 
 Series readSpread(const Profile& profile,
@@ -275,11 +299,12 @@ Series readSpread(const Profile& profile,
   if (numSteps == 0) throw std::invalid_argument("readSpread: no step");
   Series series;
   const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
+  const Samples samples(profile, choice);
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i <= numSteps; ++i) {
     const double done = static_cast<double>(i) / static_cast<double>(numSteps);
     if (progress && !progress(done)) throw Cancelled();
-    const std::size_t sample = *sampleAt(profile, choice.kind, usOf(profile, durationS * done));
+    const std::size_t sample = samples.at(usOf(profile, durationS * done));
     if (last && sample <= *last) continue;
     last = sample;
     const Series one = readSamples(profile, choice, sample, sample + 1, {}, unreadable);

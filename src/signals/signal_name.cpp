@@ -46,6 +46,16 @@ std::optional<SignalName> signalAt(bool hand,
   return name;
 }
 
+// "wrist_fz"
+std::string columnName(const std::string& series, const std::string& column) {
+  std::string name = series + "_";
+  for (const char letter : column) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+    if (plain || name.back() != '_') name += plain ? letter : '_';
+  }
+  return name;
+}
+
 bool partOfName(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
 }
@@ -86,6 +96,19 @@ std::optional<SeriesChoice> signalNamed(std::string_view name, const SensorLayou
   return choice;
 }
 
+std::optional<SeriesChoice> signalNamed(std::string_view name, const Profile& profile) {
+  if (auto ofHand = signalNamed(name, profile.layout())) return ofHand;
+  for (std::size_t s = kHandSeries; s < profile.series().size(); ++s) {
+    const SeriesDescription& series = profile.series()[s];
+    if (!name.starts_with(series.name)) continue;
+    for (const Column& column : series.columns)
+      if (columnName(series.name, column.name) == name)
+        return SeriesChoice{
+            .kind = SignalNameKind::kColumn, .series = series.name, .column = column.name};
+  }
+  return std::nullopt;
+}
+
 std::string nameOf(const SeriesChoice& choice, const SensorLayout& layout) {
   const std::string number = std::to_string(choice.index);
   switch (choice.kind) {
@@ -93,6 +116,8 @@ std::string nameOf(const SeriesChoice& choice, const SensorLayout& layout) {
       return "angle" + number;
     case SignalNameKind::kTemperature:
       return "temperature" + number;
+    case SignalNameKind::kColumn:
+      return columnName(choice.series, choice.column);
     case SignalNameKind::kMatrix:
       return (choice.index == layout.numMatrices() ? std::string(kHand) : "m" + number) + "_" +
              std::string(signalName(choice.signal));

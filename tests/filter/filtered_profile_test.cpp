@@ -13,6 +13,7 @@
 #include "palpate/model/profile_builder.h"
 
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::filtered_profile_test {
 namespace {
@@ -196,6 +197,16 @@ TEST(FilteredProfile, ServesSeveralThreads) {
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(wrong, 0);
+}
+
+TEST(FilteredProfile, KeepsFurtherSeries) {
+  const Profile source = testing::withWrist(grasps());
+  for (const char* text : {"median", "savitzky-golay:window=9,centred=1"}) {
+    const Profile filtered = filteredProfile(source, recipeOf(text));
+    EXPECT_EQ(filtered.series(), source.series()) << text;
+    ASSERT_EQ(filtered.numSamples(kHandSeries), 40u) << text;
+    EXPECT_EQ(filtered.sample(kHandSeries, 7).values, source.sample(kHandSeries, 7).values);
+  }
 }
 
 }  // namespace

@@ -131,5 +131,18 @@ TEST(SignalJson, SaysSlipForceAndTheHand) {
   EXPECT_EQ(json.at("link").at("frames_on_disk").asInteger(), 76);
 }
 
+TEST(SignalJson, FurtherSeriesStandByTheirNames) {
+  LiveResults results = sampleResults();
+  EXPECT_FALSE(parsed(results).contains("series"));
+  const auto wrist = std::make_shared<const SeriesDescription>(
+      SeriesDescription{"wrist", "", {{"fx", "N"}, {"fy", "N"}, {"\"z\" \\", "N"}}, ""});
+  results.further = {{wrist, {1, {1.5, std::numeric_limits<double>::quiet_NaN(), -2.0}, 2}}};
+  const Json series = parsed(results).at("series");
+  EXPECT_EQ(series.keys(), (std::vector<std::string>{"wrist"}));
+  EXPECT_EQ(series.at("wrist").keys(), (std::vector<std::string>{"fx", "\"z\" \\"}));
+  EXPECT_EQ(series.at("wrist").at("fx").asDouble(), 1.5);
+  EXPECT_EQ(series.at("wrist").at("\"z\" \\").asDouble(), -2.0);
+}
+
 }  // namespace
 }  // namespace palpate::signal_json_test

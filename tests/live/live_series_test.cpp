@@ -226,5 +226,28 @@ TEST(LiveSeries, AnotherHistoryBeginsAnew) {
   EXPECT_TRUE(series.points(ofMatrix(2), {}).empty());
 }
 
+TEST(LiveSeries, ColumnsOfFurtherSeriesAreFoundByName) {
+  SignalHistory history;
+  LiveSeries series;
+  series.setHistory(&history);
+  const SeriesChoice fz{.kind = SeriesChoice::Kind::kColumn, .series = "wrist", .column = "fz"};
+  SeriesChoice other = fz;
+  other.series = "ankle";
+  series.setWanted({fz, other});
+  const auto wrist = std::make_shared<const SeriesDescription>(
+      SeriesDescription{"wrist", "", {{"fx", "N"}, {"fz", "N"}}, ""});
+  for (int i = 0; i < 5; ++i) {
+    LiveResults results = resultsAt(0.1 * i);
+    // The first frame is before the first sample.
+    if (i > 0) results.further = {{wrist, {results.frame->hostUs, {0.0, -1.0 * i}, kHandSeries}}};
+    history.add(results);
+  }
+  series.update();
+  EXPECT_EQ(series.valueAt(fz, 0.0), std::nullopt);
+  EXPECT_EQ(series.valueAt(fz, 0.25), -2.0);
+  EXPECT_EQ(series.extremes(fz, 0.0, 9.0), std::pair(-4.0, -1.0));
+  EXPECT_EQ(series.valueAt(other, 0.25), std::nullopt);
+}
+
 }  // namespace
 }  // namespace palpate::live_series_test

@@ -15,6 +15,7 @@
 
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::processing_chain_test {
 namespace {
@@ -216,6 +217,46 @@ TEST(ProcessingChain, RefusesNothingToDo) {
   EXPECT_THROW(ProcessingChain(signalsOnly(), none), std::invalid_argument);
   ProcessingChain chain(signalsOnly());
   EXPECT_THROW(chain.step(), std::logic_error);
+}
+
+TEST(ProcessingChain, ResultsHaveTheLastSamplesOfFurtherSeries) {
+  const Profile profile = testing::withWrist(synthesize({.durationS = 1.0, .grasps = 0}), 10);
+  std::size_t frames = 0;
+  ChainOptions options;
+  options.onResults = [&](const LiveResults& results) {
+    const std::int64_t sinceUs = results.frame->hostUs - profile.frameTimeUs(0) - 30'000;
+    ++frames;
+    ASSERT_EQ(results.further.size(), sinceUs < 0 ? 0u : 1u);
+    if (sinceUs < 0) return;
+    EXPECT_EQ(*results.further[0].series, testing::wristSeries());
+    EXPECT_EQ(results.further[0].sample.values.at(0),
+              static_cast<double>(std::min<std::int64_t>(sinceUs / 50'000, 9)) + 0.5);
+  };
+  ProcessingChain chain(signalsOnly(), options);
+  chain.runOver(profile);
+  EXPECT_EQ(frames, profile.numFrames());
+}
+
+// The columns of a live source may be known only at its first row.
+TEST(ProcessingChain, ASeriesThatNobodyDescribesHasNumbersForNames) {
+  ScriptedSession scripted;
+  std::vector<SeriesDescription> described;
+  ChainOptions options;
+  options.furtherSeries = [&] { return described; };
+  ProcessingChain chain(signalsOnly(), options);
+  chain.connect(*scripted.session);
+  const std::int64_t t = 1'400'000'000'000'000;
+  const auto deliver = [&](int i, std::vector<double> values) {
+    scripted.device->sink->onSample({t + i * 30'000, std::move(values), kHandSeries + 1});
+    scripted.device->frame(static_cast<std::size_t>(i), t + i * 30'000 + 1'000);
+    chain.step();
+    return chain.take()->further.at(0);
+  };
+  EXPECT_EQ(*deliver(0, {1.0, 2.0}).series,
+            (SeriesDescription{"series_3", "", {{"1", ""}, {"2", ""}}, ""}));
+  described = {testing::wristSeries(), {"imu", "", {{"x", "g"}, {"y", "g"}, {"z", "g"}}, ""}};
+  EXPECT_EQ(*deliver(1, {1.0, 2.0, 3.0}).series, described[1]);
+  EXPECT_EQ(deliver(2, {4.0, 5.0, 6.0}).sample.values, (std::vector{4.0, 5.0, 6.0}));
 }
 
 }  // namespace

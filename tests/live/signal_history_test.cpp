@@ -124,5 +124,23 @@ TEST(SignalHistory, RefusesOptionsWithoutRoom) {
                std::invalid_argument);
 }
 
+TEST(SignalHistory, FurtherSeriesCountAsMemory) {
+  const auto bytesWith = [](std::size_t columns) {
+    LiveResults results;
+    auto frame = std::make_shared<TactileFrame>(sdh2().layout);
+    frame->hostUs = 1;
+    results.frame = std::move(frame);
+    results.matrixSignals.resize(6);
+    if (columns > 0)
+      results.further = {
+          {std::make_shared<const SeriesDescription>(), {1, std::vector<double>(columns), 2}}};
+    SignalHistory history;
+    history.add(results);
+    return history.bytes();
+  };
+  EXPECT_EQ(bytesWith(64) - bytesWith(1), 63 * sizeof(double));
+  EXPECT_GE(bytesWith(1), bytesWith(0) + sizeof(double));
+}
+
 }  // namespace
 }  // namespace palpate::signal_history_test

@@ -13,6 +13,7 @@
 
 #include "testing/damaged_profile.h"
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::formula_test {
 namespace {
@@ -327,6 +328,46 @@ TEST(DerivedSeries, HasNoValueWhereASignalCannotBeRead) {
     } else {
       EXPECT_EQ(series.values[i], expected.values[i]) << i;
     }
+}
+
+TEST(DerivedSeries, TakeTheLastSampleOfAFurtherSeries) {
+  const Profile profile = testing::withWrist(synthesize({.durationS = 2.0, .grasps = 1}));
+  const Formula formula("wrist_fz - m0_sum");
+  EXPECT_EQ(formula.names(), (std::vector<std::string>{"m0_sum", "wrist_fz"}));
+  const Series derived = formulaSeries(profile, formula, 0.0, 2.0);
+  const Series sum = readSeries(profile, {.index = 0, .signal = SignalKind::kSum}, 0.0, 2.0);
+  ASSERT_EQ(derived.timeS, sum.timeS);
+  for (std::size_t i = 0; i < derived.values.size(); ++i) {
+    const std::int64_t sinceUs = profile.frameTimeUs(i) - profile.frameTimeUs(0) - 30'000;
+    const std::int64_t last = std::min<std::int64_t>(sinceUs / 50'000, 39);
+    if (sinceUs < 0 || last % 10 == 3)
+      EXPECT_TRUE(std::isnan(derived.values[i])) << i;
+    else
+      EXPECT_EQ(derived.values[i], -2.0 * static_cast<double>(last) - sum.values[i]) << i;
+  }
+  // A part is as that part of the whole, also before the first sample.
+  const Series part = formulaSeries(profile, Formula("wrist_fx"), 0.0, 0.01);
+  EXPECT_TRUE(std::isnan(part.values.at(0)));
+}
+
+TEST(DerivedSeries, SayWhichFurtherSeriesThereAre) {
+  const Profile profile = testing::withWrist(synthesize({.durationS = 1.0, .grasps = 1}));
+  try {
+    formulaSeries(profile, Formula("wrist_f"), 0.0, 1.0);
+    FAIL() << "taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("temperature0, wrist_fx, t"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Formula, ASeriesMayBeCalledAsAnyFunction) {
+  const std::vector<double> timeS = {0.0, 1.0, 2.0};
+  for (const char* name : {"derivative_0", "der_x", "smooth_t", "sum_fx"})
+    EXPECT_EQ(Formula(std::string("der(") + name + ") + " + name)
+                  .evaluate(timeS, {{0.0, 1.0, 2.0}}, 10.0),
+              (std::vector{1.0, 2.0, 3.0}))
+        << name;
 }
 
 }  // namespace

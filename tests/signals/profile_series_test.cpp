@@ -11,6 +11,7 @@
 
 #include "testing/damaged_profile.h"
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::profile_series_test {
 namespace {
@@ -205,6 +206,52 @@ TEST(ProfileSeries, WhatCannotBeReadIsNoNumberAndCounted) {
   UnreadableSamples sparse;
   readSpread(damaged, choice, 2, {}, &sparse);
   EXPECT_EQ(sparse.runs, (std::vector<UnreadableSamples::Run>{{4, 4}}));
+}
+
+TEST(ProfileSeries, AColumnOfAFurtherSeriesHasItsOwnStamps) {
+  const Profile profile = testing::withWrist(small(), 20);
+  const SeriesChoice fz{.kind = Kind::kColumn, .series = "wrist", .column = "fz"};
+  ASSERT_TRUE(hasSeries(profile, fz));
+  const Series series = readSeries(profile, fz, -1.0, 9.0);
+  ASSERT_EQ(series.values.size(), 20u);
+  EXPECT_DOUBLE_EQ(series.timeS[0], 0.03);
+  EXPECT_DOUBLE_EQ(series.timeS[4], 0.23);
+  EXPECT_EQ(series.values[4], -8.0);
+  EXPECT_TRUE(std::isnan(series.values[3])) << "not known";
+  const SeriesChoice torque{.kind = Kind::kColumn, .series = "wrist", .column = "Torque Z"};
+  EXPECT_EQ(readSeries(profile, torque, -1.0, 9.0).values, std::vector<double>(20, 0.0))
+      << "0 is a value, unlike of a temperature";
+  EXPECT_EQ(numSamples(profile, fz, 0.1, 0.3), 5u);
+  EXPECT_EQ(readSpread(profile, fz, 1000).timeS.size(), 18u) << "up to the last frame";
+  std::size_t visited = 0;
+  visitSeries(profile, torque, [&](double, double) { ++visited; });
+  EXPECT_EQ(visited, 20u);
+}
+
+TEST(ProfileSeries, WithoutFramesAFurtherSeriesBeginsAtItsFirstSample) {
+  ProfileBuilder builder(sdh2().layout);
+  const std::size_t wrist = builder.addSeries(testing::wristSeries());
+  for (int i = 0; i < 3; ++i)
+    builder.addSample(wrist, kStartUs + i * 1'000'000, std::vector{1.0 * i, 2.0, 3.0});
+  const SeriesChoice fx{.kind = Kind::kColumn, .series = "wrist", .column = "fx"};
+  const Series series = readSeries(builder.finish({}), fx, -1.0, 9.0);
+  EXPECT_EQ(series.timeS, (std::vector{0.0, 1.0, 2.0}));
+  EXPECT_EQ(series.values, (std::vector{0.0, 1.0, 2.0}));
+}
+
+TEST(ProfileSeries, AFurtherSeriesIsFoundByItsName) {
+  const auto choice = [](const char* series, const char* column) {
+    return SeriesChoice{.kind = Kind::kColumn, .series = series, .column = column};
+  };
+  const Profile profile = testing::withWrist(small());
+  EXPECT_EQ(columnOf(profile, choice("wrist", "fz"))->column, 1u);
+  EXPECT_EQ(columnOf(profile, choice("wrist", "fz"))->series, kHandSeries);
+  EXPECT_FALSE(hasSeries(profile, choice("wrist", "FZ")));
+  EXPECT_FALSE(hasSeries(profile, choice("ankle", "fz")));
+  EXPECT_FALSE(hasSeries(small(), choice("wrist", "fz")));
+  EXPECT_THROW(readSeries(small(), choice("wrist", "fz"), 0.0, 1.0), std::invalid_argument);
+  EXPECT_EQ(numSamples(small(), choice("wrist", "fz"), 0.0, 1.0), 0u);
+  EXPECT_FALSE(hasSeries(testing::withWrist(small(), 0), choice("wrist", "fz"))) << "no samples";
 }
 
 }  // namespace

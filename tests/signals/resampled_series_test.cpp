@@ -39,5 +39,18 @@ TEST(ResampledSeries, LeavesOutWhatIsNotFinite) {
   EXPECT_THROW(resampled({{1.0, 1.0}, {2.0, 3.0}}, std::vector{2.0}), std::invalid_argument);
 }
 
+TEST(HeldAt, IsTheLastSampleAtOrBeforeATime) {
+  const Series series{{1.0, 2.0, 4.0}, {10.0, kNan, 0.0}};
+  const auto got = heldAt(series, std::vector{0.5, 1.0, 1.9, 2.0, 3.9, 4.0, 99.0});
+  EXPECT_TRUE(std::isnan(got[0])) << "before the first sample";
+  EXPECT_EQ(got[1], 10.0);
+  EXPECT_EQ(got[2], 10.0);
+  EXPECT_TRUE(std::isnan(got[3])) << "not known then";
+  EXPECT_TRUE(std::isnan(got[4]));
+  EXPECT_EQ(got[5], 0.0);
+  EXPECT_EQ(got[6], 0.0);
+  EXPECT_THROW(heldAt({{1.0, 1.0}, {0.0, 0.0}}, std::vector{1.0}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace palpate::resampled_series_test

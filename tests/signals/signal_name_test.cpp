@@ -4,6 +4,7 @@
 #include "palpate/signals/formula.h"
 
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::signal_name_test {
 namespace {
@@ -66,6 +67,28 @@ TEST_F(SignalNameTest, FormulasTakeTheOlderSpelling) {
   EXPECT_EQ(withSignalNames("2"), "2");
   EXPECT_EQ(Formula("1:sum - hand:sum").names(), (std::vector<std::string>{"hand_sum", "m1_sum"}));
   EXPECT_EQ(Formula("1:sum").text(), "1:sum");
+}
+
+TEST_F(SignalNameTest, ColumnsOfFurtherSeriesAreNamedWithTheirSeries) {
+  const Profile wrist = testing::withWrist(profile_);
+  for (const auto& [name, column] : {std::pair("wrist_fz", "fz"), {"wrist_Torque_Z", "Torque Z"}}) {
+    const auto choice = signalNamed(name, wrist);
+    ASSERT_TRUE(choice) << name;
+    EXPECT_EQ(*choice, (SeriesChoice{.kind = Kind::kColumn, .series = "wrist", .column = column}));
+    EXPECT_EQ(nameOf(*choice, layout_), name);
+    EXPECT_FALSE(signalNamed(name, profile_)) << "of a recording without it";
+  }
+  for (const char* name : {"wrist", "wrist_", "wrist_f", "wrist_fzz", "fz", "_fz", "angles_0"})
+    EXPECT_FALSE(signalNamed(name, wrist)) << name;
+  EXPECT_EQ(signalNamed("m1_mean", wrist), signalNamed("m1_mean", layout_));
+}
+
+TEST_F(SignalNameTest, SignalsOfTheHandComeBeforeSeriesOfTheirName) {
+  ProfileBuilder builder(profile_.hand());
+  builder.addSeries({"hand", "", {{"sum", "N"}, {"grip", "N"}}, ""});
+  const Profile profile = builder.finish({});
+  EXPECT_EQ(signalNamed("hand_sum", profile)->kind, Kind::kMatrix);
+  EXPECT_EQ(signalNamed("hand_grip", profile)->kind, Kind::kColumn);
 }
 
 }  // namespace

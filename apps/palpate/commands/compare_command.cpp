@@ -179,8 +179,7 @@ void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves&
   const TimedRecording whole = opened(file, given.quiet());
   const TimedProfile& timed = whole.timed;
   if (timed.profile.numFrames() == 0) throw Error(file + ": has no frames");
-  const TypedSignal signal =
-      typedSignal(*given.text("average"), timed.profile.layout(), file, "--average");
+  const TypedSignal signal = typedSignal(*given.text("average"), timed.profile, file, "--average");
   ProgressLine progress("reading " + file, given.quiet());
   const auto series = std::make_shared<const Series>(
       typedSeries(timed.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));

@@ -66,9 +66,13 @@ SeriesChoice taxelOf(const SensorLayout& layout,
 }
 
 TypedSignal typedSignal(const std::string& text,
-                        const SensorLayout& layout,
+                        const Profile& profile,
                         const std::string& file,
                         const std::string& option) {
+  const SensorLayout& layout = profile.layout();
+  if (const auto choice = signalNamed(text, profile);
+      choice && choice->kind == SeriesChoice::Kind::kColumn)
+    return {.choice = choice};
   const auto name = parseSignalName(text);
   if (!name) {
     const std::string refusal =

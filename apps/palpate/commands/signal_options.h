@@ -13,7 +13,8 @@ namespace palpate::commands {
 
 // The names of signals, for a help text.
 inline constexpr const char* kSignalNames =
-    "m1_mean, hand_sum, m5_x2_y9 (matrix, column, row), angle3, temperature4";
+    "m1_mean, hand_sum, m5_x2_y9 (matrix, column, row), angle3, temperature4; of a series its name "
+    "and column, such as wrist_fz";
 
 // Either is set.
 struct TypedSignal {
@@ -31,7 +32,7 @@ SeriesChoice taxelOf(const SensorLayout& layout,
 // Throws UsageError, which begins with `option`, for a text that is neither a name
 // (signals/signal_name.h) nor a formula; Error when the hand has no such matrix or taxel.
 TypedSignal typedSignal(const std::string& text,
-                        const SensorLayout& layout,
+                        const Profile& profile,
                         const std::string& file,
                         const std::string& option);
 

@@ -31,7 +31,8 @@ namespace palpate::commands {
 namespace {
 
 constexpr double kPercent = 100.0;
-TypedSignal choiceOf(const CommandLine& given, const SensorLayout& layout) {
+TypedSignal choiceOf(const CommandLine& given, const Profile& profile) {
+  const SensorLayout& layout = profile.layout();
   const std::string& file = given.words().front();
   const auto matrix = given.integer("matrix", 0, INT64_MAX);
   const auto numMatrices = static_cast<std::int64_t>(layout.numMatrices());
@@ -49,7 +50,7 @@ TypedSignal choiceOf(const CommandLine& given, const SensorLayout& layout) {
     if (text->find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos)
       return {.choice = SeriesChoice{.index = static_cast<std::size_t>(numMatrices),
                                      .signal = *signalChosen(given)}};
-    return typedSignal(*text, layout, file, "--signal");
+    return typedSignal(*text, profile, file, "--signal");
   }
   if (!matrix || !x || !y)
     throw UsageError("spectrum needs --matrix M --x X --y Y (a taxel), or --signal");
@@ -58,7 +59,7 @@ TypedSignal choiceOf(const CommandLine& given, const SensorLayout& layout) {
 
 // The two signals of --coherence.
 std::pair<TypedSignal, TypedSignal> coherenceChoices(const CommandLine& given,
-                                                     const SensorLayout& layout) {
+                                                     const Profile& profile) {
   const std::string text = *given.text("coherence");
   const std::vector<std::string> parts = splitAtCommas(text);
   if (parts.size() != 2)
@@ -66,8 +67,8 @@ std::pair<TypedSignal, TypedSignal> coherenceChoices(const CommandLine& given,
         "--coherence needs two signals A,B, as m1_mean,m3_mean or m5_x2_y9,m5_x3_y9; is \"" + text +
         "\"");
   const std::string& file = given.words().front();
-  return {typedSignal(parts[0], layout, file, "--coherence"),
-          typedSignal(parts[1], layout, file, "--coherence")};
+  return {typedSignal(parts[0], profile, file, "--coherence"),
+          typedSignal(parts[1], profile, file, "--coherence")};
 }
 
 // The series from frame `from` to frame `to`, both inclusive.
@@ -253,7 +254,7 @@ int writeCoherence(const CommandLine& given,
                    const SpectrumOptions& options,
                    ProgressLine& line) {
   const std::string& file = given.words().front();
-  const auto [signalA, signalB] = coherenceChoices(given, profile.layout());
+  const auto [signalA, signalB] = coherenceChoices(given, profile);
   const Series a = seriesOf(given, profile, signalA, line.callback());
   const Series b = seriesOf(given, profile, signalB, line.callback());
   // Joint angles and temperatures have other stamps than frames.
@@ -373,8 +374,7 @@ int spectrumCommand(const Arguments& words) {
   const Recording recorded = openReported(file, line, given.quiet());
   const Profile profile = filteredBy(recipe, recorded, file, line.callback());
   if (twoSignals) return writeCoherence(given, profile, options, line);
-  const Series series =
-      seriesOf(given, profile, choiceOf(given, profile.layout()), line.callback());
+  const Series series = seriesOf(given, profile, choiceOf(given, profile), line.callback());
   if (oneLine) return writeMeanSpectrum(given, series, options, line);
   const SpectrumReport plan = planSpectra(series.timeS, series.values, options);
   if (plan.segments == 0) throw Error(file + ": " + tooShort(plan, options));

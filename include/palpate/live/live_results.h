@@ -17,6 +17,13 @@ namespace palpate {
 
 struct PressureFrame;  // calibration/pressure_map.h
 
+// The last sample of a series beside those of the hand.
+struct FurtherSample {
+  // Never null; it has as many columns as the sample has values.
+  std::shared_ptr<const SeriesDescription> series;
+  Sample sample;
+};
+
 struct LiveResults {
   // Never null; the filtered frame where filters are on.
   SharedFrame frame;
@@ -25,6 +32,8 @@ struct LiveResults {
   // The last samples at or before the frame; empty before the first one.
   std::optional<Sample> angles;
   std::optional<Sample> temperatures;
+  // Likewise of the series beside those of the hand that have one, by their index.
+  std::vector<FurtherSample> further;
   // Signals of each matrix and of all matrices together, from SignalsStage.
   std::vector<CharacteristicSignals> matrixSignals;
   CharacteristicSignals wholeSignals;

@@ -33,6 +33,10 @@ struct ChainOptions {
   std::size_t waitingFrames = 16;
   // True: no frame is skipped, the source waits instead (for a replay, which can wait).
   bool lossless = false;
+  // The series of the source beside those of the hand, by their index from kHandSeries on. Called
+  // on the processing thread when a sample comes whose series isn't known yet; one that it doesn't
+  // describe is "series_2", with the columns "1", "2", .. May be empty.
+  std::function<std::vector<SeriesDescription>()> furtherSeries;
   // Called with the results of every frame, in order, on the processing thread. May be empty.
   std::function<void(const LiveResults&)> onResults;
   // Called with every event found by a stage, on the processing thread. May be empty.
@@ -82,6 +86,7 @@ class ProcessingChain {
  private:
   void reset();
   void process(const CaptureItem& item);
+  void takeFurther(const Sample& sample);
   void processFrame(const SharedFrame& frame);
   std::size_t processWaiting();
 
@@ -92,6 +97,8 @@ class ProcessingChain {
   std::vector<Event> found_;
   std::optional<Sample> angles_;
   std::optional<Sample> temperatures_;
+  std::vector<FurtherSample> further_;
+  std::function<std::vector<SeriesDescription>()> furtherSeries_;
   LatestValue<LiveResults> newest_;
 
   mutable std::mutex mutex_;

@@ -1,5 +1,6 @@
 // The last minutes of a live source, for a rolling chart: characteristic signals, taxels, joint
-// angles, temperatures and forces of every frame. Filled by live processing, read by the display.
+// angles, temperatures, further series and forces of every frame. Filled by live processing, read
+// by the display.
 #pragma once
 
 #include <cstddef>
@@ -43,6 +44,8 @@ struct SignalSample {
   KeptTaxels taxels;                 // values of the frame (TactileFrame::allValues)
   std::vector<double> anglesDeg;     // the last ones at or before the frame; empty: none
   std::vector<double> temperatures;  // [deg C], likewise
+  // Likewise of further series: of a faster one than the frames only these samples are kept.
+  std::vector<FurtherSample> further;
   // Force on each matrix, then on the whole hand [N]; empty: no calibration is applied.
   std::vector<double> forcesN;
 

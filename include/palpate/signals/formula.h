@@ -11,7 +11,8 @@
 //               (filter/butterworth.h)
 //               All of these end on either side of a gap.
 //   t           time from the first frame [s]
-//   signals     m1_mean, hand_sum, m5_x2_y9, angle3, temperature4: signals/signal_name.h
+//   signals     m1_mean, hand_sum, m5_x2_y9, angle3, temperature4, wrist_fz:
+//               signals/signal_name.h
 #pragma once
 
 #include <memory>
@@ -76,11 +77,12 @@ class Formula {
 };
 
 // Computes the formula at every frame of fromS..toS. Angles and temperatures are interpolated at
-// the frames. The values don't depend on the span: a formula with a frequency filter is computed
-// from gap to gap. Throws std::invalid_argument for a name that is not a signal or that the profile
-// lacks, and as Formula; Cancelled; Error (a frame that can't be read). With `unreadable`, frames
-// at which a signal can't be read are added to it instead, and their values are NaN; slopes and
-// filters beside them are computed as if the signal ran straight from one side to the other.
+// the frames; of a further series the last sample at or before a frame counts. The values don't
+// depend on the span: a formula with a frequency filter is computed from gap to gap. Throws
+// std::invalid_argument for a name that is not a signal or that the profile lacks, and as Formula;
+// Cancelled; Error (a frame that can't be read). With `unreadable`, frames at which a signal can't
+// be read are added to it instead, and their values are NaN; slopes and filters beside them are
+// computed as if the signal ran straight from one side to the other.
 Series formulaSeries(const Profile& profile,
                      const Formula& formula,
                      double fromS,

@@ -1,10 +1,12 @@
 // Reads the time series of a profile that charts can plot: a characteristic signal of a matrix,
-// selected taxels, a joint angle, or a temperature. Times are seconds from the first frame.
+// selected taxels, a joint angle, a temperature, or a column of a further series. Times are seconds
+// from the first frame.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,15 +32,31 @@ struct SeriesChoice {
     // sources (live/live_series.h): a profile has none without a calibration.
     kForce,
     // What `formula` makes of the signals of the recording (signals/formula.h), at every frame.
-    kFormula
+    kFormula,
+    // Column `column` of the further series `series`, both by name, which are the same in other
+    // recordings; in the column's unit, NaN where the value is not known.
+    kColumn
   };
   Kind kind = Kind::kMatrix;
   std::size_t index = 0;
   SignalKind signal = SignalKind::kMean;
   TaxelSelection taxels = {};
   std::string formula = {};
+  std::string series = {};
+  std::string column = {};
   bool operator==(const SeriesChoice&) const = default;
 };
+
+// Which value of the samples of which series a choice means: an angle, a temperature, a column.
+struct SeriesColumn {
+  std::size_t series = kAngleSeries;
+  std::size_t column = 0;
+};
+// Empty: the choice is one of frames, or the profile hasn't that series with samples, or that
+// column.
+std::optional<SeriesColumn> columnOf(const Profile& profile, const SeriesChoice& choice);
+// The value in a sample: NaN where it is not known, as a temperature that is exactly 0.
+double valueIn(const Sample& sample, const SeriesColumn& column);
 
 // Times [s] and values of a time series.
 struct Series {
@@ -46,8 +64,8 @@ struct Series {
   std::vector<double> values;
 };
 
-// Returns whether the profile has the series. (Angles and temperatures may be missing, and another
-// hand has other matrices.)
+// Returns whether the profile has the series. (Series may be missing, and another hand has other
+// matrices.)
 bool hasSeries(const Profile& profile, const SeriesChoice& choice);
 
 // Returns the number of samples within fromS..toS.

@@ -18,4 +18,8 @@ std::vector<double> resampled(const Series& series,
                               std::span<const double> timeS,
                               double longestS = std::numeric_limits<double>::infinity());
 
+// The value of the last sample at or before each time; NaN before the first one, and where that
+// sample's value is NaN. Throws as above.
+std::vector<double> heldAt(const Series& series, std::span<const double> timeS);
+
 }  // namespace palpate

@@ -5,6 +5,8 @@
 //   m5_x2_y9     taxel of matrix 5 in column 2, row 9
 //   angle3       joint angle 3 [deg]
 //   temperature4 temperature sensor 4 [deg C]
+//   wrist_fz     column fz of the further series "wrist", in the unit of the column; what is no
+//                letter or digit in the name of a column is written _
 // The older spelling 1:mean, hand:sum and 5:2:9 (matrix, column, row) means the same.
 #pragma once
 
@@ -14,6 +16,7 @@
 #include <string_view>
 
 #include <palpate/model/matrix_layout.h>
+#include <palpate/model/profile.h>
 #include <palpate/signals/profile_series.h>
 
 namespace palpate {
@@ -37,6 +40,10 @@ std::optional<SignalName> parseSignalName(std::string_view text);
 // The signal of that name; nothing when it is no name, or names a matrix or a taxel that the layout
 // doesn't have. Whether the profile has the signal is another question: hasSeries().
 std::optional<SeriesChoice> signalNamed(std::string_view name, const SensorLayout& layout);
+
+// The same; a column of a further series, too, unless the name means a signal of the hand. Of two
+// columns with one name it is the first.
+std::optional<SeriesChoice> signalNamed(std::string_view name, const Profile& profile);
 
 // The name of a signal; empty when it has none: a group of several taxels, a force.
 std::string nameOf(const SeriesChoice& choice, const SensorLayout& layout);

@@ -43,6 +43,7 @@ QString unitOf(const SeriesChoice& choice, const HandDescription& hand) {
     case PlottedCurveKind::kForce:
       return "N";
     case PlottedCurveKind::kFormula:  // FormulaCurve knows it
+    case PlottedCurveKind::kColumn:   // Column does
       return {};
     case PlottedCurveKind::kTaxels:
       return unitOf(hand);
@@ -80,6 +81,8 @@ QString axisNameOf(const SeriesChoice& choice,
       return "force in N";
     case PlottedCurveKind::kFormula:
       return "formulas";
+    case PlottedCurveKind::kColumn:
+      return QString::fromStdString(choice.series);
     case PlottedCurveKind::kTaxels:
       return "taxels in " + unit;
     case PlottedCurveKind::kMatrix:
@@ -139,6 +142,33 @@ PlottedCurve temperatureCurve(const HandDescription& hand,
                matrixColor(sensor + 1),
                Qt::DashDotLine,
                units);
+}
+
+QString nameOf(const SeriesDescription& series, const Column& column) {
+  return QString::fromStdString(series.name + " " + column.name);
+}
+
+QString unitOf(const Column& column) {
+  return column.unit == "deg"    ? QString("°")
+         : column.unit == "degC" ? QString("°C")
+                                 : QString::fromStdString(column.unit);
+}
+
+std::vector<SeriesDescription> furtherSeriesOf(const Profile& profile) {
+  return {profile.series().begin() + kHandSeries, profile.series().end()};
+}
+
+PlottedCurve columnCurve(const SeriesDescription& series, std::size_t column, std::size_t place) {
+  const Column& of = series.columns.at(column);
+  const QString unit = unitOf(of), name = QString::fromStdString(series.name);
+  QPen pen(matrixColor(place + 4), kPlottedCurveWidth);
+  pen.setDashPattern({8, 2, 2, 2, 2, 2});
+  return {{.kind = PlottedCurveKind::kColumn, .series = series.name, .column = of.name},
+          nameOf(series, of),
+          unit,
+          unit.isEmpty() ? name : name + " in " + unit,
+          pen,
+          unit};
 }
 
 PlottedCurve forceCurve(const HandDescription& hand, std::size_t row) {
@@ -202,7 +232,8 @@ int decimalsOf(const PlottedCurve& curve) {
 QString readingOf(const PlottedCurve& curve, std::optional<double> value) {
   if (!value || std::isnan(*value)) return "–";
   constexpr int kFormulaDigits = 5;
-  if (curve.choice.kind == PlottedCurveKind::kFormula)
+  if (curve.choice.kind == PlottedCurveKind::kFormula ||
+      curve.choice.kind == PlottedCurveKind::kColumn)
     return (QString::number(*value, 'g', kFormulaDigits) + " " + curve.unit).trimmed();
   const UnitConversion& to = curve.conversion;
   return QString::number(to.of(*value), 'f', decimalsOf(curve) + to.moreDecimals) + " " +

@@ -18,7 +18,8 @@ namespace palpate::gui {
 
 struct PlottedCurve {
   SeriesChoice choice;
-  QString name;  // "finger 0 distal", "thumb tip", "finger 1 distal (joint)", "motor 3"
+  // "finger 0 distal", "thumb tip", "finger 1 distal (joint)", "motor 3", "wrist fz"
+  QString name;
   // As shown: "counts", "°C", "K", "N"; curves of one unit share an axis.
   QString unit;
   // Name of the axis: "mean in counts", "joint angle in °".
@@ -30,7 +31,8 @@ struct PlottedCurve {
   UnitConversion conversion = {};
 };
 
-// The base unit of a series: "counts", "mm²", "°", "°C", "N".
+// The base unit of a series: "counts", "mm²", "°", "°C", "N"; empty for a column of a further
+// series and a formula, of which the choice doesn't tell it.
 QString unitOf(const SeriesChoice& choice, const HandDescription& hand);
 ShownUnit shownUnit(const SeriesChoice& choice,
                     const HandDescription& hand,
@@ -57,6 +59,14 @@ PlottedCurve angleCurve(const HandDescription& hand,
 PlottedCurve temperatureCurve(const HandDescription& hand,
                               std::size_t sensor,
                               const DisplayUnits& units = {});
+// A column of a further series. `place`: index among all such columns, which decides the colour.
+PlottedCurve columnCurve(const SeriesDescription& series, std::size_t column, std::size_t place);
+// "wrist fz"
+QString nameOf(const SeriesDescription& series, const Column& column);
+// As it is shown: "°" for "deg", "°C" for "degC".
+QString unitOf(const Column& column);
+// Those beside the series of the hand.
+std::vector<SeriesDescription> furtherSeriesOf(const Profile& profile);
 // `row`: a matrix, or the number of matrices for the whole hand.
 PlottedCurve forceCurve(const HandDescription& hand, std::size_t row);
 

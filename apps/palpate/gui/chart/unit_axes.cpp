@@ -24,7 +24,8 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves) {
   axes_.clear();
   for (const PlottedCurve& curve : curves) {
     const bool fromZero = curve.choice.kind != SeriesChoice::Kind::kAngle &&
-                          curve.choice.kind != SeriesChoice::Kind::kTemperature;
+                          curve.choice.kind != SeriesChoice::Kind::kTemperature &&
+                          curve.choice.kind != SeriesChoice::Kind::kColumn;
     const auto known = std::find_if(
         axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.unit == curve.unit; });
     if (known != axes_.end()) {

@@ -11,6 +11,7 @@
 #include <palpate/signals/signal_name.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/chart/plotted_curve.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/make.h"
@@ -136,6 +137,10 @@ void SpectrumLinePage::fillOthers() {
     names.append(QString::fromStdString(hand.matrixName(m)));
   names.append(kWholeHand);
   for (const FormulaCurve& each : formulas_) names.append(each.name);
+  for (const SeriesDescription& series : furtherSeriesOf(recording_->profile))
+    for (std::size_t column = 0; column < series.columns.size(); ++column)
+      names.append(QString::fromStdString(
+          palpate::nameOf(columnCurve(series, column, 0).choice, *hand.layout)));
   names.append(kKeepTaxels);
   QStringList present;
   for (int i = 0; i < other_->count(); ++i) present.append(other_->itemText(i));
@@ -176,7 +181,7 @@ void SpectrumLinePage::choose() {
     wrong = "Choose taxels in the matrices first.";
   } else if (text == chosenName_) {
     return;
-  } else if (const auto named = signalNamed(text.toStdString(), layout);
+  } else if (const auto named = signalNamed(text.toStdString(), profile);
              named && hasSeries(profile, *named)) {
     return take(*named, text);
   } else {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <palpate/signals/resampled_series.h>
+#include <palpate/signals/signal_name.h>
 #include <palpate/signals/strongest_taxel.h>
 
 #include "gui/appearance/hand_unit.h"
@@ -31,6 +32,12 @@ Series spanOf(const Profile& profile,
   return within;
 }
 
+// A formula that is only the name of a column has the times of its series, not those of the frames.
+SeriesChoice choiceOf(const FormulaCurve& formula, const Profile& profile) {
+  const auto named = signalNamed(formula.formula.simplified().toStdString(), profile);
+  return named && named->kind == SeriesChoice::Kind::kColumn ? *named : formula.choice();
+}
+
 // Progress of one part of the work, which starts at `base` and makes up `share` of the whole.
 Progress part(const Progress& whole, double base, double share) {
   return [&whole, base, share](double done) { return whole(base + share * done); };
@@ -42,9 +49,8 @@ struct SpectrumKept {
   bool looked = false;
   // Valid once `looked`; empty when no taxel has a signal.
   TaxelSelection strongest = {};
-  // The taxels whose whole series is kept.
-  TaxelSelection taxels = {};
-  std::string formula = {};
+  // What is kept of the whole recording.
+  SeriesChoice choice = {};
   std::shared_ptr<const Series> series = {};
 };
 
@@ -104,7 +110,7 @@ SpectrumAnswer answerTo(SpectrumKept& kept,
     answer.taxels = kept.strongest;
   }
   const SeriesChoice choice =
-      question.formula ? question.formula->choice()
+      question.formula ? choiceOf(*question.formula, profile)
                        : SeriesChoice{.kind = SeriesChoice::Kind::kTaxels, .taxels = answer.taxels};
   if (!hasSeries(profile, choice)) return answer;
   const Progress reading = part(progress, kLookShare, kSpectrumWorkerReadShare);
@@ -116,11 +122,10 @@ SpectrumAnswer answerTo(SpectrumKept& kept,
     answer.series = std::make_shared<Series>(
         readSeries(profile, choice, question.fromS, question.toS, reading));
   } else {
-    if (!kept.series || kept.taxels != choice.taxels || kept.formula != choice.formula) {
+    if (!kept.series || kept.choice != choice) {
       kept.series =
           std::make_shared<Series>(readSeries(profile, choice, -kEndOfTimeS, kEndOfTimeS, reading));
-      kept.taxels = choice.taxels;
-      kept.formula = choice.formula;
+      kept.choice = choice;
     }
     answer.series = kept.series;
   }

@@ -13,31 +13,26 @@
 namespace palpate::gui {
 namespace {
 
-// The value of a curve at a frame; joint angles and temperatures are the last ones at or before it.
+// The value of a curve at a frame; of a series it is the last one at or before it, of the hand's
+// series also the first one before that.
 std::string curveCell(const OpenedRecording& recording,
                       const SeriesChoice& choice,
+                      const std::optional<SeriesColumn>& column,
                       std::size_t frame) {
-  const auto of = [](const std::vector<double>& values, std::size_t index) {
-    return index < values.size() ? numberText(values[index]) : std::string();
-  };
-  switch (choice.kind) {
-    case SeriesChoice::Kind::kMatrix:
-      return numberText(valueOf(recording.at(frame, choice.index), choice.signal));
-    case SeriesChoice::Kind::kForce:
-    case SeriesChoice::Kind::kFormula:  // FormulaColumn
+  const Profile& profile = recording.profile;
+  if (column) {
+    const auto sample = profile.sampleAtFrame(column->series, frame);
+    if (!sample || column->column >= sample->values.size() ||
+        (column->series >= kHandSeries && sample->hostUs > profile.frameTimeUs(frame)))
       return {};
-    case SeriesChoice::Kind::kTaxels:
-      return numberText(meanOf(recording.profile.frame(frame), choice.taxels));
-    case SeriesChoice::Kind::kAngle: {
-      const auto angles = recording.profile.anglesAtFrame(frame);
-      return angles ? of(angles->values, choice.index) : std::string();
-    }
-    case SeriesChoice::Kind::kTemperature: {
-      const auto temperatures = recording.profile.temperaturesAtFrame(frame);
-      return temperatures ? of(temperatures->values, choice.index) : std::string();
-    }
+    const double value = sample->values[column->column];
+    return std::isnan(value) ? std::string() : numberText(value);
   }
-  return {};
+  if (choice.kind == SeriesChoice::Kind::kMatrix)
+    return numberText(valueOf(recording.at(frame, choice.index), choice.signal));
+  if (choice.kind == SeriesChoice::Kind::kTaxels)
+    return numberText(meanOf(profile.frame(frame), choice.taxels));
+  return {};  // of a formula: FormulaColumn
 }
 
 // The values of a formula at the frames of a span, computed when the first one is asked for.
@@ -77,10 +72,12 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
                      const FrameSpan& span) {
   TextTable table{.header = {"frame", "time_ms", "time_s"}, .numRows = span.count()};
   std::vector<SeriesChoice> choices;
+  std::vector<std::optional<SeriesColumn>> columns;
   // Null for the others.
   std::vector<std::shared_ptr<FormulaColumn>> formulas;
   for (const PlottedCurve& curve : curves) {
     choices.push_back(curve.choice);
+    columns.push_back(columnOf(recording->profile, curve.choice));
     formulas.push_back(curve.choice.kind == SeriesChoice::Kind::kFormula
                            ? std::make_shared<FormulaColumn>(recording, curve.choice, span)
                            : nullptr);
@@ -89,7 +86,7 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
                             (curve.baseUnit.isEmpty() ? "" : " [" + curve.baseUnit + "]"))
                                .toStdString());
   }
-  table.row = [recording, choices, formulas, first = span.first](std::size_t row) {
+  table.row = [recording, choices, columns, formulas, first = span.first](std::size_t row) {
     const std::size_t frame = first + row;
     std::vector<std::string> cells = {
         std::to_string(frame),
@@ -97,7 +94,7 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
         numberText(recording->timeAt(frame))};
     for (std::size_t i = 0; i < choices.size(); ++i)
       cells.push_back(formulas[i] ? formulas[i]->cell(row)
-                                  : curveCell(*recording, choices[i], frame));
+                                  : curveCell(*recording, choices[i], columns[i], frame));
     return cells;
   };
   return table;

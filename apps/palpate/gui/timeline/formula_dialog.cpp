@@ -41,10 +41,11 @@ constexpr std::array kOperations = {
 
 }  // namespace
 
-std::vector<FormulaSignal> formulaSignals(const HandDescription& hand,
+std::vector<FormulaSignal> formulaSignals(const Profile& profile,
                                           SignalKind signal,
                                           const TaxelSelection& chosen) {
   std::vector<FormulaSignal> found;
+  const HandDescription& hand = profile.hand();
   const SensorLayout& layout = *hand.layout;
   const auto add = [&](const QString& caption, const SeriesChoice& choice) {
     found.push_back(
@@ -63,6 +64,12 @@ std::vector<FormulaSignal> formulaSignals(const HandDescription& hand,
   for (std::size_t sensor = 0; sensor < hand.temperatureSensors.size(); ++sensor)
     add(QString::fromStdString(hand.temperatureSensors[sensor].name),
         {.kind = SeriesChoice::Kind::kTemperature, .index = sensor});
+  for (const SeriesDescription& series : furtherSeriesOf(profile))
+    for (std::size_t column = 0; column < series.columns.size(); ++column) {
+      const PlottedCurve curve = columnCurve(series, column, 0);
+      add(curve.name, curve.choice);
+      found.back().unit = curve.baseUnit;
+    }
   return found;
 }
 
@@ -99,7 +106,8 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
   formula_ =
       field("formulaText",
             "The formula\nSignals: m1_mean, hand_sum, m5_x2_y9 (matrix, column, row), angle3, "
-            "temperature4, t [s]\nOperators + - * / ^ ( ), comparisons, a ? b : c; functions "
+            "temperature4, wrist_fz (series, column), t [s]\nOperators + - * / ^ ( ), comparisons, "
+            "a ? b : c; functions "
             "abs sqrt min max exp ln sin ..\nder(x), smooth(x, samples), median(x, samples), "
             "lowpass(x, Hz), highpass(x, Hz), bandpass(x, low, high), "
             "bandstop(x, low, high)",

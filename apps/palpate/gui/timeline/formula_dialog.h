@@ -25,8 +25,9 @@ struct FormulaSignal {
   QString name;     // "m1_mean"
   QString unit;
 };
-// The signals of a hand and, if it is one, the chosen taxel; those of the matrices are `signal`.
-std::vector<FormulaSignal> formulaSignals(const HandDescription& hand,
+// The signals of a recording's hand and of its further series and, if it is one, the chosen taxel;
+// those of the matrices are `signal`.
+std::vector<FormulaSignal> formulaSignals(const Profile& profile,
                                           SignalKind signal,
                                           const TaxelSelection& chosen);
 

@@ -9,6 +9,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
+#include "gui/chart/plotted_curve.h"
 #include "gui/widgets/make.h"
 
 namespace palpate::gui {
@@ -21,7 +22,16 @@ constexpr int kIndex = Qt::UserRole + 1;
 // Name of a group before it is edited.
 constexpr int kName = Qt::UserRole + 2;
 constexpr int kMostNumbers = 64;
-enum SignalTreeKind { kSection, kChosen, kGroup, kAngle, kTemperature, kForce, kFormulaLine };
+enum SignalTreeKind {
+  kSection,
+  kChosen,
+  kGroup,
+  kAngle,
+  kTemperature,
+  kForce,
+  kFormulaLine,
+  kColumnLine
+};
 
 std::set<int> numbersIn(const QVariant& value) {
   std::set<int> numbers;
@@ -48,6 +58,8 @@ PlottedExtras loadPlottedExtras(const QSettings& settings) {
     extras.groups.insert(name);
   for (const QString& name : settings.value("plotted/formulas").toStringList())
     extras.formulas.insert(name);
+  for (const QString& name : settings.value("plotted/columns").toStringList())
+    extras.columns.insert(name);
   extras.angles = numbersIn(settings.value("plotted/angles"));
   extras.temperatures = numbersIn(settings.value("plotted/temperatures"));
   extras.forces = numbersIn(settings.value("plotted/forces"));
@@ -59,6 +71,7 @@ void savePlottedExtras(const PlottedExtras& extras, QSettings& settings) {
   settings.setValue("plotted/groups", QStringList(extras.groups.begin(), extras.groups.end()));
   settings.setValue("plotted/formulas",
                     QStringList(extras.formulas.begin(), extras.formulas.end()));
+  settings.setValue("plotted/columns", QStringList(extras.columns.begin(), extras.columns.end()));
   settings.setValue("plotted/angles", signalTreeWordsOf(extras.angles));
   settings.setValue("plotted/temperatures", signalTreeWordsOf(extras.temperatures));
   settings.setValue("plotted/forces", signalTreeWordsOf(extras.forces));
@@ -217,6 +230,18 @@ void SignalTree::rebuild() {
          kTemperature,
          static_cast<int>(i),
          extras_.temperatures.contains(static_cast<int>(i)));
+  for (const SeriesDescription& series : source_.series) {
+    QTreeWidgetItem* columns = section("Series " + QString::fromStdString(series.name));
+    for (const Column& column : series.columns) {
+      const QString name = nameOf(series, column), unit = unitOf(column);
+      line(columns,
+           unit.isEmpty() ? name : name + " (" + unit + ")",
+           kColumnLine,
+           0,
+           extras_.columns.contains(name))
+          ->setData(0, kName, name);
+    }
+  }
   QTreeWidgetItem* forces = hand_.layout && source_.hasForces ? section("Forces (N)") : nullptr;
   if (forces && !*source_.hasForces) nothing(forces, "need a calibration: Calibrate, Force");
   for (std::size_t i = 0; forces && *source_.hasForces && i <= hand_.layout->numMatrices(); ++i)
@@ -271,6 +296,9 @@ void SignalTree::onItemChanged(QTreeWidgetItem* item) {
       break;
     case kFormulaLine:
       put(extras_.formulas, item->data(0, kName).toString());
+      break;
+    case kColumnLine:
+      put(extras_.columns, item->data(0, kName).toString());
       break;
     default:
       return;

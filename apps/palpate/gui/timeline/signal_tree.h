@@ -1,5 +1,6 @@
 // A list with check boxes that chooses which curves the timeline shows in addition to those of the
-// matrices: the selected taxels, named groups, formulas, joint angles, temperatures, forces. It
+// matrices: the selected taxels, named groups, formulas, joint angles, temperatures, columns of
+// further series, forces. It
 // stays open while several are ticked.
 #pragma once
 
@@ -33,6 +34,8 @@ struct PlottedExtras {
   std::set<int> forces = {};
   // Names of curves by formulas.
   std::set<QString> formulas = {};
+  // Columns of further series by their names: "wrist fz".
+  std::set<QString> columns = {};
   bool operator==(const PlottedExtras&) const = default;
 };
 PlottedExtras loadPlottedExtras(const QSettings& settings);
@@ -42,6 +45,8 @@ void savePlottedExtras(const PlottedExtras& extras, QSettings& settings);
 struct SignalSource {
   bool hasAngles = false;
   bool hasTemperatures = false;
+  // Those beside the series of the hand.
+  std::vector<SeriesDescription> series = {};
   // Whether a calibration gives forces; nothing: forces aren't offered.
   std::optional<bool> hasForces = std::nullopt;
 };

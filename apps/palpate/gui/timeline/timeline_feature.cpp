@@ -185,7 +185,8 @@ void TimelineFeature::takeSource() {
   if (displayed.isRecording())
     signalTree_->setSource(behind->profile.hand(),
                            {.hasAngles = behind->profile.numAngles() > 0,
-                            .hasTemperatures = behind->profile.numTemperatures() > 0});
+                            .hasTemperatures = behind->profile.numTemperatures() > 0,
+                            .series = furtherSeries()});
   if (displayed.isLive()) takeLive();
 }
 
@@ -194,6 +195,7 @@ void TimelineFeature::takeLive() {
   if (!source) return;
   if (source->history.get() != history_) {
     history_ = source->history.get();
+    liveSeries_.clear();
     liveChart_->setHistory(history_, state().displayed.hand());
   }
   offerLiveCurves();
@@ -205,8 +207,28 @@ void TimelineFeature::offerLiveCurves() {
   signalTree_->setSource(*hand,
                          {.hasAngles = !hand->axes.empty(),
                           .hasTemperatures = !hand->temperatureSensors.empty(),
+                          .series = furtherSeries(),
                           .hasForces = hasForces_});
   showCurves();
+}
+
+void TimelineFeature::takeLiveSeries(const LiveResults& results) {
+  if (std::ranges::equal(liveSeries_, results.further, {}, {}, [](const FurtherSample& each) {
+        return each.series;
+      }))
+    return;
+  liveSeries_.clear();
+  for (const FurtherSample& each : results.further) liveSeries_.push_back(each.series);
+  offerLiveCurves();
+}
+
+std::vector<SeriesDescription> TimelineFeature::furtherSeries() const {
+  std::vector<SeriesDescription> further;
+  if (state().displayed.isLive())
+    for (const auto& each : liveSeries_) further.push_back(*each);
+  else if (const OpenedRecordingPtr recording = state().displayed.recorded())
+    further = furtherSeriesOf(recording->profile);
+  return further;
 }
 
 void TimelineFeature::connectLive() {
@@ -217,6 +239,7 @@ void TimelineFeature::connectLive() {
     history_ = nullptr;
   });
   connect(&state().displayed, &DisplayedSource::handChanged, this, [this] { offerLiveCurves(); });
+  connect(&currentFrame, &CurrentFrame::resultsReceived, this, &TimelineFeature::takeLiveSeries);
   const DerivedResults& derived = state().derivedResults;
   connect(&derived, &DerivedResults::pressureChanged, this, [this, &derived] {
     const bool has = derived.pressure() != nullptr;
@@ -446,7 +469,7 @@ void TimelineFeature::askForFormula(const QString& name) {
     return state().messages.flash("a formula needs a recording with frames");
   const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
   std::vector<FormulaSignal> from = formulaSignals(
-      recording->profile.hand(), state().appearance.view().signal, state().selection.taxels());
+      recording->profile, state().appearance.view().signal, state().selection.taxels());
   // What is plotted comes first.
   const std::vector<PlottedCurve> shown = curves();
   std::stable_partition(from.begin(), from.end(), [&](const FormulaSignal& each) {
@@ -519,6 +542,11 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   for (const int sensor : extras_.temperatures)
     if (sensor < static_cast<int>(hand->temperatureSensors.size()))
       add(temperatureCurve(*hand, static_cast<std::size_t>(sensor), units));
+  place = 0;
+  for (const SeriesDescription& series : furtherSeries())
+    for (std::size_t column = 0; column < series.columns.size(); ++column, ++place)
+      if (extras_.columns.contains(nameOf(series, series.columns[column])))
+        add(columnCurve(series, column, place));
   for (const int row : extras_.forces)
     if (live && hasForces_ && row <= static_cast<int>(hand->layout->numMatrices()))
       add(forceCurve(*hand, static_cast<std::size_t>(row)));

@@ -52,6 +52,9 @@ class TimelineFeature : public Feature {
   void takeLive();
   // The curves that the live source has.
   void offerLiveCurves();
+  void takeLiveSeries(const LiveResults& results);
+  // Those beside the series of the hand, of what is shown.
+  std::vector<SeriesDescription> furtherSeries() const;
   std::vector<PlottedCurve> curves() const;
   void showCurves();
   // Why a formula can't be computed on this recording; empty: it can.
@@ -87,6 +90,8 @@ class TimelineFeature : public Feature {
   mutable std::weak_ptr<const OpenedRecording> reasonsFor_;
   // Identifies the source of the live chart; never dereferenced.
   const SignalHistory* history_ = nullptr;
+  // The further series of the live source that have samples.
+  std::vector<std::shared_ptr<const SeriesDescription>> liveSeries_;
   // Whether the live source has forces now: a calibration is applied.
   bool hasForces_ = false;
 };

@@ -75,7 +75,11 @@ QString problemOf(const QString& formula, const Profile* profile) {
     const std::size_t last = std::min(profile->numFrames() - 1, kTriedFrames);
     const double toS =
         static_cast<double>(profile->frameTimeUs(last) - profile->frameTimeUs(0)) / kUsPerS;
-    (void)formulaSeries(cropped(*profile, 0, last), parsed, 0.0, toS);
+    const Profile beginning = cropped(*profile, 0, last);
+    // A further series may begin later: it can't be tried there.
+    const SeriesChoice choice{.kind = SeriesChoice::Kind::kFormula, .formula = parsed.text()};
+    if (!hasSeries(beginning, choice) && hasSeries(*profile, choice)) return {};
+    (void)formulaSeries(beginning, parsed, 0.0, toS);
     return {};
   } catch (const Error&) {
     return {};  // the beginning is damaged: it can't be tried there
