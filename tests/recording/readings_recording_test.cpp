@@ -50,7 +50,7 @@ TEST(ReadingsRecording, ReadingsComeBackAndAreSeenOverTheirBaselines) {
   const TemporaryFolder folder;
   const auto path = folder / "a.palpate";
   saveRecording(recorded(), rest(), path);
-  const Recording read = openRecording(path);
+  const Recording read = readRecording(path);
   ASSERT_TRUE(read.profile.givesReadings());
   ASSERT_EQ(read.profile.numFrames(), 40u);
   for (std::size_t i = 0; i < 40; ++i) {
@@ -66,7 +66,7 @@ TEST(ReadingsRecording, ReadingsComeBackAndAreSeenOverTheirBaselines) {
   EXPECT_EQ(part.frame(14).values, read.profile.frame(39).values);
   const auto cut = folder / "cut.palpate";
   saveRecording(part, eventsWithin(read.events, part), cut);
-  EXPECT_EQ(openRecording(cut).profile.frame(14).values, read.profile.frame(39).values);
+  EXPECT_EQ(openRecording(cut).frame(14).values, read.profile.frame(39).values);
 }
 
 TEST(ReadingsRecording, AWholeOneIsVerified) {
@@ -82,7 +82,7 @@ TEST(ReadingsRecording, OtherFormsHoldWhatIsSeen) {
   const TemporaryFolder folder;
   const Profile profile = recorded();
   saveRecording(profile, {}, folder / "a.mcap");
-  const Recording read = openRecording(folder / "a.mcap");
+  const Recording read = readRecording(folder / "a.mcap");
   EXPECT_FALSE(read.profile.givesReadings());
   for (std::size_t i = 0; i < 40; ++i) {
     EXPECT_EQ(read.profile.frame(i).values, profile.frame(i).values) << i;
