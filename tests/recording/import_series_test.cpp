@@ -55,14 +55,14 @@ TEST(ImportSeries, WhatIsNoNumberIsMissingAndARowWithoutAnyHasNoSample) {
   const Imported made = importText(folder, text, pad(1, 2));
   ASSERT_EQ(made.report.series.size(), 1u);
   EXPECT_EQ(made.report.series[0].text(),
-            "series force: 2 columns (fx [N], fz [N]), 4 samples, 75.0 Hz");
+            "series wrench: 2 columns (fx [N], fz [N]), 4 samples, 75.0 Hz");
   EXPECT_EQ(made.profile.numFrames(), 5u);
   EXPECT_EQ(made.report.refused.total(), 0u);
   EXPECT_EQ(made.profile.series().back().source, "import table.csv");
   EXPECT_EQ(samplesText(made.profile), "0: 10 20; 10000: nan 21; 30000: nan 24; 40000: 15 25");
-  EXPECT_EQ(made.report.notNumbers.count, 1u);
+  EXPECT_EQ(made.report.notNumbers.count, 2u);
   EXPECT_TRUE(made.report.isPartial());
-  EXPECT_NE(made.report.lossText().find("1 cell of series is not a number; the first: line 5"),
+  EXPECT_NE(made.report.lossText().find("2 cells of series are not numbers; the first: line 4"),
             std::string::npos)
       << made.report.lossText();
   EXPECT_NE(testing::errorOf([&] {
@@ -92,6 +92,9 @@ TEST(ImportSeries, OtherTablesHaveTimesOfTheirOwn) {
   EXPECT_EQ(made.profile.series()[kHandSeries].source, "import wrench.csv");
   EXPECT_TRUE(hasText(made.report.notes, "series wrench: its times are taken to count from the"));
   EXPECT_FALSE(made.report.isPartial()) << made.report.lossText();
+  // A first column that counts is none of the times where there is one.
+  const Imported counting = importWith(folder, kPad, {{"load", "t_ms,n\n0,0\n5,1\n10,2\n"}});
+  EXPECT_EQ(samplesText(counting.profile), "0: 0; 5000: 1; 10000: 2");
   // Without names, as a probe writes it.
   const Imported bare =
       importWith(folder, kDatedPad, {{"probe", "1700000000.005,1,9\n1700000000.006,1,8\n"}});
@@ -101,8 +104,7 @@ TEST(ImportSeries, OtherTablesHaveTimesOfTheirOwn) {
 
 TEST(ImportSeries, RowsAreSortedAndOfOneTimeTheFirstIsKept) {
   const TemporaryFolder folder;
-  const Imported made =
-      importWith(folder, kPad, {{"force", "t_ms,fx\n20,3\n10,1\n10,2\n30,oops\n30,4\n"}});
+  const Imported made = importWith(folder, kPad, {{"force", "t_ms,fx\n20,3\n10,1\n10,2\n30,4\n"}});
   EXPECT_EQ(samplesText(made.profile), "10000: 1; 20000: 3; 30000: 4");
   EXPECT_TRUE(hasText(made.report.notes, "series force: the rows are not in order of time"));
   EXPECT_EQ(made.report.refused.notLater, 1u);
@@ -159,9 +161,9 @@ TEST(ImportSeries, NamesThatCannotBeAreRefused) {
             std::string::npos);
   // A series of the table makes room for it.
   const Imported made = importWith(
-      folder, "time_ms,p0,p1,fx,fz\n0,1,2,3,4\n10,1,2,3,4\n", {{"force", "t_ms,a\n5,1\n6,2\n"}});
-  EXPECT_EQ(made.profile.series()[kHandSeries].name, "force_2");
-  EXPECT_EQ(made.profile.series()[kHandSeries + 1].name, "force");
+      folder, "time_ms,p0,p1,fx,fz\n0,1,2,3,4\n10,1,2,3,4\n", {{"wrench", "t_ms,a\n5,1\n6,2\n"}});
+  EXPECT_EQ(made.profile.series()[kHandSeries].name, "wrench_2");
+  EXPECT_EQ(made.profile.series()[kHandSeries + 1].name, "wrench");
 }
 
 TEST(ImportSeries, ArraysOfAFileAreOneSeries) {
