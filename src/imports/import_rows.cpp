@@ -238,6 +238,7 @@ bool ImportRows::examine(const TableSource& source,
                          const TableRow& row,
                          std::size_t begin,
                          bool& isThere) {
+  if (series.kind == PlannedSeries::Kind::kFurther) return true;  // addFurther() looks at it
   const bool areTaxels = series.kind == PlannedSeries::Kind::kFrames && !plan_.isTaxelList;
   std::size_t numbers = 0;
   std::size_t used = 0;
@@ -249,10 +250,6 @@ bool ImportRows::examine(const TableSource& source,
     if (!target || (areTaxels && maximum_[*target] < 0.0F)) continue;
     ++used;
     const std::size_t at = begin + i;
-    if (series.kind == PlannedSeries::Kind::kFurther) {
-      isThere = isThere || !std::isnan(furtherValue(row, at, series.values[i]));
-      continue;
-    }
     const auto fail = [&](std::uint64_t& counter, const char* what) {
       refuse(source, row, counter, ", " + source.placeOf(at) + what);
       return false;
@@ -277,7 +274,6 @@ bool ImportRows::examine(const TableSource& source,
         return fail(report_.refused.text, " is not a number");
     }
   }
-  if (series.kind == PlannedSeries::Kind::kFurther) return true;
   isThere = numbers > 0;
   if (isThere && numbers == numNotANumber) {
     refuse(source,
@@ -377,6 +373,7 @@ double ImportRows::furtherValue(const TableRow& row,
   return isNumber && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
+// Adds a sample, if the row has a number of the series, and counts the cells that are none.
 void ImportRows::addFurther(const TableSource& source,
                             const PlannedSeries& series,
                             std::int64_t us,
@@ -399,6 +396,8 @@ void ImportRows::addFurther(const TableSource& source,
     if (strict_) throw FormatError(source.path(), place + " is not a number");
     if (report_.notNumbers.count++ == 0) report_.notNumbers.first = place;
   }
+  if (std::all_of(sample_.begin(), sample_.end(), [](double value) { return std::isnan(value); }))
+    return;
   if (read.samples++ == 0) further.firstUs = us;
   if (further.gaps.afterGap(us)) {
     ++read.gaps;
@@ -429,7 +428,8 @@ void ImportRows::addAll(const TableSource& source,
   if (timeReader_) timeReader_->keep();
   std::size_t begin = 0;
   for (std::size_t s = 0; s < pass.series.size(); ++s) {
-    if (isThere_[s]) add(source, *pass.series[s], us, row, begin);
+    const bool isFurther = pass.series[s]->kind == PlannedSeries::Kind::kFurther;
+    if (isThere_[s] || isFurther) add(source, *pass.series[s], us, row, begin);
     begin += pass.series[s]->values.size();
   }
 }

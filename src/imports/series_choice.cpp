@@ -303,13 +303,17 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   std::vector<std::size_t> numbers;
   for (std::size_t c = 0; c < p.columns.size(); ++c)
     if (holdsNumbers(p.columns[c]) && p.columns[c].width() > 0 && !isAside(p, c) &&
-        !saysOrigin(p.columns[c]))
+        !saysOrigin(p.columns[c]) && !(isScalar(p.columns[c]) && isCounterOnly(p.columns[c])))
       numbers.push_back(c);
   if (numbers.empty()) p.refuse(reason::kSeriesNoNumbers, {wanted.name, namesText(p.columns)});
   times.columns = {numbers.front()};
   const TableColumn& first = p.columns[numbers.front()];
   bool isFirstLeftOut = false;
-  if (!wanted.rateHz && (isScalar(first) || numbers.size() == 1))
+  const bool isNamed = std::any_of(p.columns.begin(), p.columns.end(), [](const auto& column) {
+    return timeScore(column, Kind::kFurther) > 0;
+  });
+  // Where nothing is called a time, a first number that ascends is.
+  if (!wanted.rateHz && !isNamed && (isScalar(first) || numbers.size() == 1))
     isFirstLeftOut = p.times.leaveOutFirst(times, numbers.front(), !isScalar(first));
   p.times.find(times, "");
   if (!times.time && !wanted.rateHz) p.refuse(reason::kSeriesNoTimes, {wanted.name});
@@ -340,7 +344,12 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   series.table = table;
   series.rateHz = wanted.rateHz;
   const std::string file = shortened(wanted.file.filename().string());
-  series.description = {file + ": " + series.description.front()};
+  const std::string when =
+      times.time
+          ? "time: " + shortened(p.columns[*times.time].name) + (times.timeWithin ? "[0]" : "") +
+                " [" + std::string(nameOf(times.timeUnit)) + "]"
+          : "rows at equal intervals, " + numberText(wanted.rateHz.value_or(0.0)) + " Hz";
+  series.description = {file + ": " + series.description.front() + "; " + when};
   std::vector<TableColumn> unused;
   for (std::size_t c = 0; c < p.columns.size(); ++c)
     if (std::find(series.columns.begin(), series.columns.end(), c) == series.columns.end() &&

@@ -86,6 +86,43 @@ TEST_F(ImportCommand, ValuesThatTheHandDoesNotHaveAreKeptAndTheCodeSaysSo) {
   EXPECT_EQ(openRecording(in("o.palpate")).frame(20).values[3], -5.0F);
 }
 
+TEST_F(ImportCommand, AnotherTableBecomesASeries) {
+  testing::writeFile(in("ft.csv"), "t_ms,fx [N],fz [N]\n0,1,2\n5,x,4\n10,5,6\n");
+  testing::writeFile(in("bare.csv"), "fx,fz\n5,1\n4,1\n6,2\n");
+  const std::string wrench = "wrench=" + in("ft.csv");
+  const auto import = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {
+        "import", in("pad.csv"), "--hand", "flat_pad_16x16", "-o", in("o.palpate"), "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    return palpate(words);
+  };
+  const auto result = import({"--series", wrench});
+  EXPECT_EQ(result.exitCode, 3) << result.err;
+  EXPECT_NE(result.out.find("series wrench: 2 columns (fx [N], fz [N]), 3 samples, 200.0 Hz\n"),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(result.err.find("1 cell of series is not a number; the first: ft.csv, line 3"),
+            std::string::npos)
+      << result.err;
+  EXPECT_EQ(openRecording(in("o.palpate")).series().back().name, "wrench");
+  EXPECT_NE(import({"--series", wrench, "--json"}).out.find("\"name\": \"wrench\""),
+            std::string::npos);
+  const std::string bare = "bare=" + in("bare.csv");
+  expectOneLineError(import({"--series", bare}), 1, {"(--series-rate bare=HZ)"});
+  EXPECT_EQ(import({"--series", bare, "--series-rate", "bare=100"}).exitCode, 0);
+  const auto preview = palpate(
+      {"import", in("pad.csv"), "--hand", "flat_pad_16x16", "--preview", "--series", wrench});
+  EXPECT_NE(preview.out.find("become series wrench; time: t_ms [ms]"), std::string::npos)
+      << preview.out;
+  expectOneLineError(import({"--series", "wrench"}), 2, {"is not NAME=FILE"});
+  expectOneLineError(import({"--series", "Wrench=a.csv"}), 2, {"no name of a series", "(wrench)"});
+  expectOneLineError(import({"--series", wrench, "--series", wrench}), 2, {"twice"});
+  expectOneLineError(import({"--series-rate", "wrench=100"}), 2, {"there is no --series"});
+  expectOneLineError(
+      import({"--series", wrench, "--series-rate", "wrench=0"}), 2, {"is not a rate of"});
+  expectOneLineError(import({"--series", "wrench=" + in("pad.csv")}), 1, {"is the table itself"});
+}
+
 TEST_F(ImportCommand, APreviewWritesNothing) {
   const auto result = palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16", "--preview"});
   EXPECT_EQ(result.exitCode, 0) << result.err;

@@ -126,7 +126,10 @@ TEST(ImportPlan, NamesOfTaxelsWinOverAFirstColumnThatAscends) {
       << refusal;
   const ImportPlan plan =
       planOf("taxel_1,taxel_2,taxel_3,taxel_4,temperature", pad(2, 2), withRate());
-  EXPECT_EQ(plan.notes, std::vector<std::string>{"not used: temperature"});
+  EXPECT_EQ(plan.notes, std::vector<std::string>());
+  ASSERT_EQ(plan.series.size(), 2u);
+  EXPECT_EQ(plan.series[1].description,
+            std::vector<std::string>{"temperature becomes series table"});
 }
 
 // The first numbers 0, 1, 2, .. of a table of `names` and four values.
@@ -160,12 +163,71 @@ TEST(ImportPlan, AColumnThatCountsTheRowsIsNoTime) {
   EXPECT_EQ(refusal(countingTable("time,a,b,c,d", 0, 60), {}), "");
 }
 
+// "wrench: fx [N], fy [N]; table: battery [V]".
+std::string furtherText(const ImportPlan& plan) {
+  std::string text;
+  for (const PlannedSeries& series : plan.series) {
+    if (series.kind != PlannedSeries::Kind::kFurther) continue;
+    text += (text.empty() ? "" : "; ") + series.further.name + ":";
+    for (const Column& column : series.further.columns)
+      text += " " + column.name + (column.unit.empty() ? "" : "[" + column.unit + "]");
+  }
+  return text;
+}
+
+TEST(ImportPlan, ColumnsThatAreNoTaxelsBecomeSeriesByTheirNames) {
+  const std::string pads = "time_ms,p0,p1,p2,p3,";
+  for (const auto& [names, series] : std::vector<std::pair<std::string, std::string>>{
+           {"fx [N],fy [N],fz [N],tx [Nm],ty [Nm],tz [Nm]",
+            "wrench: fx[N] fy[N] fz[N] tx[Nm] ty[Nm] tz[Nm]"},
+           {"fx_N,fz_N,tz_Nm", "wrench: fx[N] fz[N] tz[Nm]"},
+           {"wrist_fx,wrist_fz,battery", "wrist: fx fz; table: battery"},
+           {"acc_x,acc_y,gyro_x,gyro_y", "acc: x y; gyro: x y"},
+           {"imu_acc_x,imu_gyro_x", "imu: acc_x gyro_x"},
+           {"ax,ay,gz", "imu: ax ay gz"},
+           {"accX,accY", "acc: X Y"},
+           {"/ft/wrench/force/x,/ft/wrench/torque/x", "ft_wrench: force_x torque_x"},
+           {"load1,load2", "load: 1 2"},
+           {"battery [V],humidity", "table: battery[V] humidity"},
+           {"angles_a,angles_b", "angles_2: a b"}})
+    EXPECT_EQ(furtherText(planOf(pads + names, pad(2, 2))), series) << names;
+}
+
+TEST(ImportPlan, WhatIsChosenForSomethingElseIsNoSeries) {
+  const std::string pads = "time_ms,p0,p1,p2,p3,";
+  const HandDescription hand = handOf({MatrixLayout::full(2, 2, 1.0)}, 2);
+  ImportMapping mapping;
+  mapping.angles.columns = "a,b";
+  EXPECT_EQ(furtherText(planOf(pads + "a,b,c", hand, mapping)), "table: c");
+  mapping.angles.columns = kNoColumns;
+  EXPECT_EQ(furtherText(planOf(pads + "joint0,joint1,c", hand, mapping)), "table: c");
+  // Counters, other times, masks, and what a row is from.
+  EXPECT_EQ(furtherText(planOf(pads + "frame,header_stamp,mask,sensor_id", pad(2, 2))), "");
+  // Many that differ by numbers are other taxels; others are split.
+  std::string taxels;
+  std::string others;
+  for (int i = 0; i < 65; ++i) {
+    taxels += (i > 0 ? ",other" : "other") + std::to_string(i);
+    others += std::string(i > 0 ? "," : "") + static_cast<char>('h' + i / 26) +
+              static_cast<char>('a' + i % 26) + "q";
+  }
+  const ImportPlan plan = planOf(pads + taxels, pad(2, 2));
+  EXPECT_EQ(furtherText(plan), "");
+  EXPECT_TRUE(hasNote(plan, "not used: other0, other1"));
+  const ImportPlan split = planOf(pads + others, pad(2, 2));
+  ASSERT_EQ(split.series.size(), 3u);
+  EXPECT_EQ(split.series[1].further.name, "table");
+  EXPECT_EQ(split.series[1].further.columns.size(), 64u);
+  EXPECT_EQ(split.series[2].further.name, "table_2");
+}
+
 TEST(ImportPlan, AGuessedUnitAndUnusedColumnsAreNoted) {
   const ImportPlan plan = planOf("time,p0,p1,p2,p3,battery,note", pad(2, 2));
   EXPECT_EQ(plan.notes,
             (std::vector<std::string>{
                 "time: the unit of \"time\" is guessed to be ms; choose another one by --time-unit",
-                "not used: battery, note"}));
+                "not used: note"}));
+  EXPECT_EQ(plan.series.back().further.columns, (std::vector<Column>{{"battery", ""}}));
   EXPECT_EQ(planOf("time_ms,p0,p1,p2,p3", pad(2, 2)).notes, std::vector<std::string>());
 }
 
@@ -305,7 +367,8 @@ TEST(ImportPlan, OnlyPositionsAreAngles) {
   EXPECT_EQ(columnsOfAngles(speeds, hand), Columns{});
   EXPECT_TRUE(hasNote(planOf(speeds, hand), "joint0_velocity, joint1_velocity seem to be"));
   EXPECT_EQ(columnsOfAngles(pads + "joint0 [rad/s],joint1 [rad/s]", hand), Columns{});
-  EXPECT_TRUE(hasNote(planOf(pads + "a,b", hand), "not used: a, b; --angles chooses"));
+  EXPECT_TRUE(
+      hasNote(planOf(pads + "a,b", hand), "that became series, --angles chooses joint angles"));
   // Seven joints of an arm are not those of the hand.
   hand.axes[0].name = "joint 0";
   hand.axes[1].name = "joint 1";

@@ -440,8 +440,7 @@ TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
            {"frc.5.mat", "taken for the frames"},
            {"ft.5.mat", "taken for the frames"},
            {"tf.5.mat", "row by row"},
-           {"within.npz", "table[0] ascends and is taken for the time"},
-           {"extra.npz", "not used: extra[3]"}}) {
+           {"within.npz", "table[0] ascends and is taken for the time"}}) {
     const ImportReport report = importRecording(
         folder / name, pad(2, 3), {}, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
     expectCounting(openRecording(folder / "o.palpate"), name);
@@ -452,6 +451,18 @@ TEST(RecordingImport, TheShapeOfAnArrayTellsItsAxes) {
         << name << ": " << Json(jsonList(report.notes)).text();
     EXPECT_FALSE(report.isPartial()) << name;
   }
+  // An array that is no matrix is a series.
+  importRecording(folder / "extra.npz",
+                  pad(2, 3),
+                  {},
+                  folder / "o.palpate",
+                  {.overwrite = Overwrite::kReplace});
+  const Profile extra = openRecording(folder / "o.palpate");
+  expectCounting(extra, "extra.npz");
+  ASSERT_EQ(extra.series().size(), kHandSeries + 1);
+  EXPECT_EQ(extra.series().back().name, "extra");
+  EXPECT_EQ(extra.series().back().columns, (std::vector<Column>{{"0", ""}, {"1", ""}, {"2", ""}}));
+  EXPECT_EQ(extra.numSamples(kHandSeries), 8u);
   // Chosen by name the shape decides as well, and numbers of an array can be chosen.
   const auto choose = [&](const char* name, const char* columns, const char* time) {
     ImportMapping mapping;

@@ -39,6 +39,9 @@ std::optional<fs::path> sharedFolder(const char* variable, const char* fallback)
 std::optional<fs::path> recordingsFolder() {
   return sharedFolder("PALPATE_RECORDINGS", "../shared/data/recordings");
 }
+std::optional<fs::path> arraysFolder() {
+  return sharedFolder("PALPATE_ARRAYS", "../shared/data/arrays");
+}
 std::optional<fs::path> goldenFolder() {
   return sharedFolder("PALPATE_GOLDEN", "../shared/golden");
 }

@@ -29,6 +29,8 @@ class TemporaryFolder {
 // the project), or of independent reference numbers ($PALPATE_GOLDEN, else ../shared/golden);
 // nothing when it is missing. With PALPATE_REQUIRE_DATA=1 a missing folder throws.
 std::optional<std::filesystem::path> recordingsFolder();
+// The folder of other makers' files ($PALPATE_ARRAYS, else ../shared/data/arrays), likewise.
+std::optional<std::filesystem::path> arraysFolder();
 std::optional<std::filesystem::path> goldenFolder();
 // Whether tests must not be skipped when recordings or tools are missing on this machine
 // (PALPATE_REQUIRE_DATA=1).
