@@ -2,7 +2,7 @@
 
 #include "palpate/model/hand_file.h"
 
-#include "recording/import_samples.h"
+#include "imports/import_samples.h"
 
 namespace palpate::import_series_test {
 namespace {
