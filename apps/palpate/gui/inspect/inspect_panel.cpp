@@ -147,7 +147,7 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   temperaturesHeading_ = sectionHeading("Temperatures", content);
   furtherHeading_ = sectionHeading("Series", content);
   // Not a space of the layout, which would stay where the heading is hidden.
-  furtherHeading_->setContentsMargins(0, static_cast<int>(Space::kWide), 0, 0);
+  furtherHeading_->setContentsMargins(0, px(Space::kWide), 0, 0);
   auto* right = inColumn({anglesHeading_,
                           angles_,
                           Space::kWide,
