@@ -84,11 +84,16 @@ void CompareChart::settle() {
   if (fitted_) fit();
 }
 
+QString CompareChart::axisName() const {
+  if (curves_.column) return fittingName(curves_.column->axis, curves_.column->unit, *this);
+  return signalAxisName(curves_.signal, curves_.handUnit, *this, curves_.units);
+}
+
 void CompareChart::rebuild() {
   clearGraphs();
   clearItems();
   contact_ = nullptr;
-  yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this, curves_.units));
+  yAxis->setLabel(axisName());
   for (const CompareSide side : {CompareSide::kA, CompareSide::kB}) {
     QCPGraph* graph = addGraph();
     QPen pen(sideColor(side), 1.6);
@@ -107,7 +112,19 @@ void CompareChart::rebuild() {
     for (const double high : each.curve->high)
       if (high > largest) largest = high;
   const UnitConversion to = shown().conversion;
-  yAxis->setRange(0.0, to.of(largest > 0.0 ? largest * kCompareChartHeadroom : 1.0));
+  // Only columns go below 0.
+  double least = 0.0;
+  const auto lower = [&](const std::vector<double>& values) {
+    for (const double value : values) least = std::min(least, std::isnan(value) ? least : value);
+  };
+  if (curves_.column) {
+    for (const auto& series : {curves_.curveA, curves_.curveB})
+      if (series) lower(series->values);
+    for (const OverlaidCurve& each : curves_.overlaid.curves) lower(each.curve.series->values);
+    for (const OverlaidAverage& each : curves_.overlaid.averages) lower(each.curve->low);
+  }
+  yAxis->setRange(to.of(least * kCompareChartHeadroom),
+                  to.of(largest > 0.0 || least < 0.0 ? largest * kCompareChartHeadroom : 1.0));
   if (curves_.a && curves_.a->contact) {
     contact_ = new QCPItemStraightLine(this);
     contact_->setPen(QPen(colorsOf().muted, 1.0, Qt::DotLine));
@@ -313,7 +330,7 @@ void CompareChart::panBy(double seconds) {
 }
 
 void CompareChart::resized() {
-  yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this, curves_.units));
+  yAxis->setLabel(axisName());
   constexpr int kLow = 130;  // [px]; lower: fewer ticks
   yAxis->ticker()->setTickCount(height() < kLow ? 2 : 4);
   refill();
@@ -331,8 +348,10 @@ QString CompareChart::valuesAt(double seconds) const {
     const auto frame = timed.frameAt(at);
     if (!frame || !series || *frame >= series->values.size()) return text += "no frame", void();
     const double value = series->values[*frame];
-    text += (std::isfinite(value) ? unit.text(value, 1) : QString("damaged")) + " · frame " +
-            QString::number(*frame);
+    text += (std::isfinite(value) ? unit.text(value, 1)
+             : curves_.column     ? QString("–")
+                                  : QString("damaged")) +
+            " · frame " + QString::number(*frame);
   };
   line("A", *curves_.a, curves_.curveA, seconds);
   line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);

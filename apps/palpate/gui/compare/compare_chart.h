@@ -15,6 +15,7 @@
 #include "gui/appearance/plotted_signal.h"
 #include "gui/chart/chart.h"
 #include "gui/chart/chart_picture.h"
+#include "gui/chart/plotted_curve.h"
 #include "gui/compare/compare_overlay.h"
 
 namespace palpate::gui {
@@ -27,6 +28,8 @@ struct CompareCurves {
   std::shared_ptr<const Series> curveA = {}, curveB = {};
   double offsetS = 0.0;
   PlottedSignal signal = PlottedSignal::kMean;
+  // What is compared instead of the signal: a column of a further series, at the frames.
+  std::optional<PlottedCurve> column = {};
   // Unit of A's values.
   QString handUnit = "counts";
   // The units that are shown; the series are in base units.
@@ -86,7 +89,11 @@ class CompareChart : public Chart {
   void fillOverlaid();
   void refill();
   QString valuesAt(double seconds) const;
-  ShownUnit shown() const { return shownUnit(curves_.signal, curves_.handUnit, curves_.units); }
+  ShownUnit shown() const {
+    if (curves_.column) return {curves_.column->unit, {.moreDecimals = 2}};
+    return shownUnit(curves_.signal, curves_.handUnit, curves_.units);
+  }
+  QString axisName() const;
 
   CompareCurves curves_;
   QCPItemStraightLine* contact_ = nullptr;

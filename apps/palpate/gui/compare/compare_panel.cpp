@@ -14,6 +14,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
+#include <palpate/signals/signal_name.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/difference_map.h"
@@ -189,7 +190,10 @@ void ComparePanel::connectParts() {
   connect(signal_, &QComboBox::activated, this, [this](int index) {
     emit signalChosen(kAllPlottedSignals[static_cast<std::size_t>(index)]);
   });
-  connect(matrix_, &QComboBox::activated, this, [this] { ask(); });
+  connect(matrix_, &QComboBox::activated, this, [this] {
+    signal_->setEnabled(!column());
+    ask();
+  });
   connect(view_, &CompareView::hovered, this, &ComparePanel::hovered);
 }
 
@@ -285,7 +289,31 @@ void ComparePanel::fillMatrices() {
   for (std::size_t m = 0; m < count; ++m)
     matrix_->addItem(QString::fromStdString(a_->profile.hand().matrixName(m)),
                      QVariant::fromValue<qulonglong>(m));
+  columns_.clear();
+  if (a_)
+    for (const SeriesDescription& series : furtherSeriesOf(a_->profile))
+      for (std::size_t i = 0; i < series.columns.size(); ++i) {
+        PlottedCurve column = columnCurve(series, i, columns_.size());
+        // At the frames, as all that is compared: value at or before each.
+        const std::string name = palpate::nameOf(column.choice, a_->profile.layout());
+        if (signalNamed(name, a_->profile) != column.choice) continue;
+        column.choice = {.kind = SeriesChoice::Kind::kFormula, .formula = name};
+        columns_.push_back(column);
+        matrix_->addItem(column.name);
+      }
   matrix_->setCurrentIndex(std::max(0, matrix_->findText(before)));
+  signal_->setEnabled(!column());
+}
+
+const PlottedCurve* ComparePanel::column() const {
+  const int behind = matrix_->count() - matrix_->currentIndex();
+  const auto count = static_cast<int>(columns_.size());
+  return behind > 0 && behind <= count ? &columns_[static_cast<std::size_t>(count - behind)]
+                                       : nullptr;
+}
+
+QString ComparePanel::baseUnit() const {
+  return column() ? column()->baseUnit : unitOf(settings_.signal, handUnit());
 }
 
 void ComparePanel::setActive(bool on) {
@@ -316,9 +344,10 @@ void ComparePanel::ask() {
                .b = b_,
                .alignment = alignment_,
                .handOffsetS = handOffsetS_,
-               .choice = {.kind = SeriesChoice::Kind::kMatrix,
-                          .index = matrix_->currentData().toULongLong(),
-                          .signal = settings_.signal},
+               .choice = column() ? column()->choice
+                                  : SeriesChoice{.kind = SeriesChoice::Kind::kMatrix,
+                                                 .index = matrix_->currentData().toULongLong(),
+                                                 .signal = settings_.signal},
                .graspA = graspA_,
                .graspB = graspB_,
                .overlay = overlay_,
@@ -482,6 +511,7 @@ void ComparePanel::showCurves() {
                      .curveB = answer_.curveB,
                      .offsetS = answer_.offsetS,
                      .signal = settings_.signal,
+                     .column = column() ? std::optional(*column()) : std::nullopt,
                      .handUnit = handUnit(),
                      .units = settings_.units,
                      .overlaid = answer_.overlaid});
@@ -676,11 +706,13 @@ QString ComparePanel::figures() const {
   if (!answer_.a || !answer_.b || !hasPair()) return {};
   if (!answer_.figures) {
     if (!answer_.complete) return "computing … " + figure(100.0 * answer_.done, 0) + " %";
-    return "the other recording has no such matrix";
+    return column() ? "the other recording has no such series"
+                    : "the other recording has no such matrix";
   }
   const CurveComparison& found = *answer_.figures;
   if (found.samples == 0) return overlaidText() + "no common time";
-  const ShownUnit unit = shownUnit(settings_.signal, handUnit(), settings_.units);
+  const ShownUnit unit = column() ? ShownUnit{column()->unit, {.moreDecimals = 2}}
+                                  : shownUnit(settings_.signal, handUnit(), settings_.units);
   const auto shown = [&unit](double difference) {
     return unit.conversion.ofDifference(difference);
   };
@@ -798,15 +830,16 @@ TextTable ComparePanel::differenceTable() const {
 }
 
 TextTable ComparePanel::averageTable() const {
-  return gui::averageTable(answer_.overlaid, unitOf(settings_.signal, handUnit()));
+  return gui::averageTable(answer_.overlaid, baseUnit());
 }
 
 // One row for each frame of A, with B's frame at the same moment if there is one.
 TextTable ComparePanel::curveTable() const {
   TextTable table{.header = {"time_s", "frame_a", "a", "frame_b", "b"}};
   if (!answer_.curveA || !answer_.a || !answer_.b) return table;
-  const std::string unit = " " + gui::nameOf(settings_.signal).toStdString() + " [" +
-                           unitOf(settings_.signal, handUnit()).toStdString() + "]";
+  const QString name = column() ? column()->name : gui::nameOf(settings_.signal);
+  const std::string unit =
+      (" " + name + (baseUnit().isEmpty() ? "" : " [" + baseUnit() + "]")).toStdString();
   table.header[2] += unit;
   table.header[4] += unit;
   table.numRows = answer_.curveA->timeS.size();

@@ -12,6 +12,7 @@
 #include <palpate/signals/frame_difference.h>
 
 #include "gui/appearance/window_settings.h"
+#include "gui/chart/plotted_curve.h"
 #include "gui/compare/compare_painter.h"
 #include "gui/compare/compare_worker.h"
 #include "gui/picture/exported_view.h"
@@ -129,6 +130,10 @@ class ComparePanel : public QWidget {
   void showCurves();
   // Unit of the values of A.
   QString handUnit() const;
+  // The column of a further series that is compared instead of a matrix; null: none.
+  const PlottedCurve* column() const;
+  // What tables have of it.
+  QString baseUnit() const;
   void showFrames();
   void showLook();
   void showNotice();
@@ -140,6 +145,8 @@ class ComparePanel : public QWidget {
   std::vector<OpenedRecordingPtr> recordings_;
   OpenedRecordingPtr a_;
   OpenedRecordingPtr b_;
+  // Columns of A's further series that can be chosen, behind the matrices.
+  std::vector<PlottedCurve> columns_;
   std::optional<FrameComparison> comparison_;
   CompareAnswer answer_;
   Alignment alignment_ = Alignment::kContact;

@@ -229,7 +229,10 @@ ComparedCurves CompareKept::overlaid(const CompareQuestion& question,
     const auto timedOne = timed(recording, progress);
     const QString name = fileNameOf(*recording);
     if (!series || series->timeS.empty()) {
-      without.append(name + (series ? " has no frames" : " has no such matrix"));
+      without.append(name + (series ? " has no frames"
+                             : question.choice.kind == SeriesChoice::Kind::kFormula
+                                 ? " has no such series"
+                                 : " has no such matrix"));
       continue;
     }
     const double longestS = gapFromS(timedOne->timing);

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <utility>
 
+#include <palpate/core/error.h>
 #include <palpate/core/time.h>
 #include <palpate/recording/recording_losses.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
+#include "gui/chart/plotted_curve.h"
 #include "gui/widgets/make.h"
 
 namespace palpate::gui {
@@ -115,6 +117,17 @@ std::vector<Fact> inspectPanelEventFacts(const OpenedRecording& recording,
   return facts;
 }
 
+// `sample`: null before the first one.
+void addFurther(std::vector<Fact>& to, const SeriesDescription& series, const Sample* sample) {
+  for (std::size_t i = 0; i < series.columns.size(); ++i) {
+    const PlottedCurve curve = columnCurve(series, i, 0);
+    to.push_back(
+        {curve.name,
+         readingOf(curve,
+                   sample ? std::optional(valueIn(*sample, {kHandSeries, i})) : std::nullopt)});
+  }
+}
+
 std::vector<Fact> noneOf() { return {{"none in this recording", ""}}; }
 
 }  // namespace
@@ -131,13 +144,24 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   eventsHeading_ = sectionHeading("Events", content);
   angles_ = named(new FactsView(content), "angleFacts", {}, "Joint angles");
   temperatures_ = named(new FactsView(content), "temperatureFacts", {}, "Temperatures");
+  further_ = named(new FactsView(content), "seriesFacts", {}, "Series");
 
   heading_ = sectionHeading("Recording", content);
   anglesHeading_ = sectionHeading("Joint angles", content);
   temperaturesHeading_ = sectionHeading("Temperatures", content);
-  auto* right = inColumn(
-      {anglesHeading_, angles_, Space::kWide, temperaturesHeading_, temperatures_, Stretch{}},
-      Space::kNarrow);
+  furtherHeading_ = sectionHeading("Series", content);
+  // Not a space of the layout, which would stay where the heading is hidden.
+  furtherHeading_->setContentsMargins(0, px(Space::kWide), 0, 0);
+  auto* right = inColumn({anglesHeading_,
+                          angles_,
+                          Space::kWide,
+                          temperaturesHeading_,
+                          temperatures_,
+                          furtherHeading_,
+                          further_,
+                          Stretch{}},
+                         Space::kNarrow);
+  showFurther({});
   columns_ = new QBoxLayout(QBoxLayout::LeftToRight);
   columns_->setSpacing(20);
   columns_->addLayout(inColumn({heading_, facts_, Stretch{}}, Space::kNarrow), 6);
@@ -163,6 +187,7 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording,
     facts_->setFacts({});
     angles_->setFacts({});
     temperatures_->setFacts({});
+    showFurther({});
     return;
   }
   heading_->setText("RECORDING");
@@ -170,6 +195,19 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording,
   listSensors(recording->profile.hand(),
               recording->profile.numAngles() > 0,
               recording->profile.numTemperatures() > 0);
+}
+
+void InspectPanel::showFurther(std::vector<Fact> values) {
+  const bool same = std::ranges::equal(
+      values,
+      further_->facts(),
+      {},
+      [](const Fact& f) { return f.name; },
+      [](const Fact& f) { return f.name; });
+  for (QWidget* each : std::initializer_list<QWidget*>{furtherHeading_, further_})
+    each->setVisible(!values.empty());
+  if (!same) return further_->setFacts(std::move(values));
+  for (std::size_t i = 0; i < values.size(); ++i) further_->setValue(i, values[i].value);
 }
 
 void InspectPanel::showEvents(const std::vector<Event>& events) {
@@ -203,6 +241,7 @@ void InspectPanel::setHand(const HandDescription& hand) {
 }
 
 void InspectPanel::listSensors(const HandDescription& hand, bool angles, bool temperatures) {
+  showFurther({});
   std::vector<Fact> rows;
   axes_ = hand.axes;
   shownAngles_.reset();
@@ -241,6 +280,10 @@ void InspectPanel::showLatest() {
   model_->showSignals(rows);
   if (results->angles) showAngles(*results->angles);
   if (results->temperatures) showTemperatures(*results->temperatures);
+  std::vector<Fact> further;
+  for (const FurtherSample& each : results->further)
+    addFurther(further, *each.series, &each.sample);
+  showFurther(std::move(further));
 }
 
 void InspectPanel::showFrame(std::size_t frame,
@@ -250,6 +293,19 @@ void InspectPanel::showFrame(std::size_t frame,
   model_->showFrame(frame);
   if (angles) showAngles(*angles);
   if (temperatures) showTemperatures(*temperatures);
+  std::vector<Fact> further;
+  const Profile& profile = recording_->profile;
+  for (std::size_t s = kHandSeries; s < profile.series().size(); ++s) {
+    std::optional<Sample> sample;
+    try {
+      sample = profile.sampleAtFrame(s, frame);
+    } catch (const Error&) {
+      // Damaged there.
+    }
+    const bool begun = sample && sample->hostUs <= profile.frameTimeUs(frame);
+    addFurther(further, profile.series()[s], begun ? &*sample : nullptr);
+  }
+  showFurther(std::move(further));
 }
 
 void InspectPanel::showAngles(const Sample& angles) {
@@ -278,7 +334,7 @@ void InspectPanel::setUnits(const DisplayUnits& units) {
 
 void InspectPanel::setStale(bool matrices, bool angles) {
   model_->setStale(matrices);
-  for (FactsView* facts : {angles_, temperatures_}) facts->setStale(angles);
+  for (FactsView* facts : {angles_, temperatures_, further_}) facts->setStale(angles);
 }
 
 void InspectPanel::arrange() {
@@ -289,11 +345,13 @@ void InspectPanel::arrange() {
                                angles_->minimumSizeHint().width(),
                                angles_->wholeWidth(),
                                temperatures_->minimumSizeHint().width(),
-                               temperatures_->wholeWidth()}) +
+                               temperatures_->wholeWidth(),
+                               further_->minimumSizeHint().width(),
+                               further_->wholeWidth()}) +
                      around.right();
   const bool wide = viewport()->width() >= std::max(kTwoColumnsFrom, needed);
   columns_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-  for (FactsView* facts : {angles_, temperatures_})
+  for (FactsView* facts : {angles_, temperatures_, further_})
     facts->setMinimumWidth(wide ? facts->wholeWidth() : 0);
 }
 

@@ -63,6 +63,8 @@ class InspectPanel : public QScrollArea {
   void listSensors(const HandDescription& hand, bool angles, bool temperatures);
   void showAngles(const Sample& angles);
   void showTemperatures(const Sample& temperatures);
+  // A line for each column of a further series.
+  void showFurther(std::vector<Fact> values);
 
   OpenedRecordingPtr recording_;
   // Newest live results that aren't shown yet; null when all are.
@@ -78,6 +80,7 @@ class InspectPanel : public QScrollArea {
   QLabel* eventsHeading_;
   QLabel* anglesHeading_;
   QLabel* temperaturesHeading_;
+  QLabel* furtherHeading_;
   DisplayUnits units_;
   // The axes of the hand, and the values that are shown.
   std::vector<AxisDescription> axes_;
@@ -86,6 +89,7 @@ class InspectPanel : public QScrollArea {
   FactsView* events_;
   FactsView* angles_;
   FactsView* temperatures_;
+  FactsView* further_;
   QBoxLayout* columns_;
 };
 
