@@ -1,5 +1,7 @@
 #include "gui/chart/plotted_curve.h"
 
+#include <QApplication>
+
 #include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 
