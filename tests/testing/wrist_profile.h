@@ -32,7 +32,7 @@ inline Profile withWrist(const Profile& source, int count = 40) {
         wrist,
         beginUs + i * 50'000,
         std::vector<double>{
-            i + 0.5, i % 10 == 3 ? std::numeric_limits<double>::quiet_NaN() : -2.0 * i, 0.0});
+            i + 0.5, i % 10 == 3 ? std::numeric_limits<double>::quiet_NaN() : 2.0 * -i, 0.0});
   return builder.finish(source.info());
 }
 

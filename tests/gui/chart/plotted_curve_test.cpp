@@ -1,9 +1,12 @@
 #include "gui/chart/plotted_curve.h"
 
+#include <QApplication>
+
 #include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::gui::plotted_curve_test {
 namespace {
@@ -24,6 +27,8 @@ TEST(PlottedCurve, KindsOfTheSameColourHaveOtherLines) {
       curves.push_back(angleCurve(hand, axis));
     for (std::size_t sensor = 0; sensor < hand.temperatureSensors.size(); ++sensor)
       curves.push_back(temperatureCurve(hand, sensor));
+    for (std::size_t column = 0; column < 3; ++column)
+      curves.push_back(columnCurve(testing::wristSeries(), column, column));
     for (const PlottedCurve& a : curves)
       for (const PlottedCurve& b : curves) {
         if (a.choice.kind == b.choice.kind) continue;
@@ -64,6 +69,25 @@ TEST(PlottedCurve, AFormulaLooksLikeNoCurveThatIsShown) {
   PlottedCurve alone = formulaCurve({}, "f", "counts", 0);
   distinguish(alone, 0, {});
   EXPECT_EQ(alone.pen, formulaCurve({}, "f", "counts", 0).pen);
+}
+
+TEST(PlottedCurve, AColumnIsNamedWithItsSeriesAndItsUnit) {
+  const SeriesDescription wrist = testing::wristSeries();
+  const PlottedCurve fz = columnCurve(wrist, 1, 1);
+  EXPECT_EQ(fz.name, "wrist fz");
+  EXPECT_EQ(fz.unit, "N");
+  EXPECT_EQ(fz.baseUnit, "N");
+  EXPECT_EQ(fz.axis, "wrist in N");
+  EXPECT_EQ(fz.choice,
+            (SeriesChoice{.kind = SeriesChoice::Kind::kColumn, .series = "wrist", .column = "fz"}));
+  EXPECT_EQ(readingOf(fz, -0.000125), "-0.000125 N");
+  EXPECT_EQ(readingOf(fz, std::nullopt), "–");
+  EXPECT_NE(columnCurve(wrist, 0, 0).pen.color(), fz.pen.color());
+  const PlottedCurve plain = columnCurve({"imu", "", {{"x", ""}, {"roll", "deg"}}, ""}, 0, 0);
+  EXPECT_EQ(plain.axis, "imu");
+  EXPECT_EQ(readingOf(plain, 2.5), "2.5");
+  EXPECT_EQ(columnCurve({"imu", "", {{"x", ""}, {"roll", "deg"}}, ""}, 1, 0).unit, "°")
+      << "on the axis of the joint angles";
 }
 
 }  // namespace

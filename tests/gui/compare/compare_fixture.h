@@ -25,6 +25,7 @@
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/sample_profiles.h"
 #include "gui/testing/window_fixture.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::gui {
 
@@ -75,6 +76,8 @@ class CompareWindowFixture : public WindowTest {
   CompareWindowFixture() {
     environment_.read = asRecording([](const std::filesystem::path& path, const Progress&) {
       const std::string name = path.stem().string();
+      if (name == "wrist" || name == "other_wrist")
+        return testing::withWrist(grasped(60, 10, 500.0F));
       if (name == "early") return grasped(60, 10, 500.0F);
       if (name == "late") return grasped(80, 30, 300.0F, 3'600'000);
       if (name == "third") return grasped(40, 5, 100.0F);

@@ -443,5 +443,29 @@ TEST_F(ComparePanelTest, MovingTheCursorIsQuick) {
   EXPECT_LT(times[20], testing::timeLimit(16.0)) << "ms, the median of 40";
 }
 
+TEST_F(ComparePanelTest, ColumnsOfFurtherSeriesAreComparedByName) {
+  open({"wrist.palpate", "other_wrist.palpate", "early.dsa"});
+  compareNow();
+  choose("compareMatrix", "wrist fx");
+  EXPECT_FALSE(find<QComboBox>("compareSignal")->isEnabled());
+  const auto& curves = compare().chart().curves();
+  ASSERT_TRUE(curves.curveA && curves.curveB);
+  ASSERT_EQ(curves.curveA->values.size(), 60u);
+  EXPECT_TRUE(std::isnan(curves.curveA->values[0])) << "before its first sample";
+  EXPECT_EQ(curves.curveA->values[20], 19.5) << "the last sample at or before the frame";
+  EXPECT_EQ(curves.curveB->values[20], 19.5);
+  EXPECT_TRUE(compare().figures().contains(" N at ")) << compare().figures().toStdString();
+  EXPECT_EQ(compare().curveTable().header[2], "a wrist fx [N]");
+  choose("compareMatrix", "wrist fz");
+  EXPECT_LT(compare().chart().yAxis->range().lower, -78.0) << "it has negative values";
+  choose("compareMatrix", "all matrices");
+  EXPECT_TRUE(find<QComboBox>("compareSignal")->isEnabled());
+  EXPECT_EQ(compare().chart().yAxis->range().lower, 0.0);
+  compare().setB(window().state().recordings.all().back());
+  settle();
+  choose("compareMatrix", "wrist fx");
+  EXPECT_EQ(compare().figures(), "the other recording has no such series");
+}
+
 }  // namespace
 }  // namespace palpate::gui::compare_panel_test

@@ -13,6 +13,7 @@
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/widgets/facts_view.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::gui::inspect_test {
 namespace {
@@ -212,6 +213,26 @@ TEST_F(InspectTest, SaysWhoRecordedWhatAndWhatWasNoted) {
   open({"good.dsa"});
   EXPECT_EQ(fact("recordingFacts", "operator"), "no such fact");
   EXPECT_TRUE(find<FactsView>("eventFacts")->isHidden());
+}
+
+TEST_F(InspectTest, ShowsTheValuesOfFurtherSeries) {
+  const auto recording = makeOpenedRecording(
+      "x.palpate", testing::withWrist(synthesize({.durationS = 1.0, .grasps = 0}), 10));
+  InspectPanel panel;
+  panel.setRecording(recording, recording);
+  auto& view = *panel.findChild<FactsView*>("seriesFacts");
+  panel.showFrame(0, {}, {});
+  ASSERT_EQ(view.facts().size(), 3u);
+  EXPECT_EQ(view.facts()[0].name, "wrist fx");
+  EXPECT_EQ(view.facts()[0].value, "–") << "before its first sample";
+  panel.showFrame(recording->profile.numFrames() - 1, {}, {});
+  EXPECT_EQ(view.facts()[0].value, "9.5 N");
+  EXPECT_EQ(view.facts()[1].value, "-18 N");
+  EXPECT_FALSE(view.isHidden());
+  const auto without = makeOpenedRecording("y.dsa", twentyFrames());
+  panel.setRecording(without, without);
+  panel.showFrame(0, {}, {});
+  EXPECT_TRUE(view.isHidden());
 }
 
 }  // namespace

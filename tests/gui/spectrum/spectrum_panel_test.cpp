@@ -21,6 +21,7 @@
 #include "gui/spectrum/spectrum_line_page.h"
 #include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::gui::spectrum_panel_test {
 namespace {
@@ -494,6 +495,23 @@ TEST_F(SpectrumPanelTest, TheViewIsRemembered) {
   panel_->header().setSetting({.view = SpectrumView::kLine});
   panel_ = std::make_unique<SpectrumPanel>(settings_);
   EXPECT_EQ(panel_->header().setting().view, SpectrumView::kLine);
+}
+
+TEST_F(SpectrumPanelTest, AColumnOfAFurtherSeriesHasItsOwnTimes) {
+  const auto recording =
+      makeOpenedRecording("wrist.palpate", testing::withWrist(tones(200)->profile, 70));
+  panel_->setFormulas({{"x", "wrist_fx", "N"}, {"torque", "wrist_Torque_Z", "N m"}});
+  show(recording);
+  for (const auto& [name, first] : {std::pair("x", 0.5), {"torque", 0.0}}) {
+    auto* signal = find<QComboBox>("spectrumSignal");
+    signal->setCurrentText(name);
+    emit signal->activated(signal->currentIndex());
+    panel_->settle();
+    const Series& series = *panel_->chart().answer().series;
+    ASSERT_EQ(series.values.size(), 70u) << "not those of the 200 frames";
+    EXPECT_NEAR(series.timeS[1], 0.08, 1e-9);
+    EXPECT_EQ(series.values[0], first) << name;
+  }
 }
 
 }  // namespace

@@ -8,12 +8,15 @@
 #include <QSignalSpy>
 #include <QTest>
 
+#include <palpate/emulator/synthetic_profile.h>
+
 #include "gui/timeline/curve_table.h"
 #include "gui/timeline/signal_tree.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
 #include "gui/window_state/window_state_fixture.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::gui::formula_dialog_test {
 namespace {
@@ -185,6 +188,18 @@ TEST_F(FormulaDialogTest, WithoutARecordingThereIsNone) {
   windowState_->actionEnabler.refresh();
   EXPECT_FALSE(windowState_->actions.at("newFormula")->isEnabled());
   EXPECT_EQ(actionsOf_.findChild<FormulaDialog*>("FormulaDialog"), nullptr);
+}
+
+TEST(FormulaSignals, ColumnsOfFurtherSeriesAreSome) {
+  const Profile profile = testing::withWrist(synthesize({.durationS = 1.0, .grasps = 0}), 10);
+  const auto found = formulaSignals(profile, SignalKind::kMean, {});
+  ASSERT_GT(found.size(), 3u);
+  const FormulaSignal& torque = found.back();
+  EXPECT_EQ(torque.caption, "wrist Torque Z");
+  EXPECT_EQ(torque.name, "wrist_Torque_Z");
+  EXPECT_EQ(torque.unit, "N m");
+  EXPECT_EQ(problemOf("wrist_fz - m0_sum", &profile), "");
+  EXPECT_NE(problemOf("wrist_fq", &profile), "");
 }
 
 }  // namespace

@@ -6,13 +6,17 @@
 
 #include <gtest/gtest.h>
 
+#include <palpate/core/number_text.h>
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/model/profile_builder.h>
 #include <palpate/recording/recording.h>
 
 #include "gui/testing/sample_profiles.h"
+#include "gui/timeline/curve_statistics.h"
+#include "gui/timeline/curve_table.h"
 #include "testing/damaged_profile.h"
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::gui::series_store_test {
 namespace {
@@ -257,6 +261,46 @@ TEST_F(DamagedSeriesStoreTest, ADamagedSpanHasNoValuesOfAnother) {
   const Series sound = readSeries(recording_->profile, choice, 0.0, timeS(kFirst - 2));
   EXPECT_EQ(store_.valueAt(choice, timeS(kFirst - 2)), sound.values[kFirst - 2]);
   EXPECT_FALSE(store_.valueAt(choice, timeS(kFirst)));
+}
+
+TEST_F(SeriesStoreTest, HasColumnsOfFurtherSeries) {
+  const SeriesChoice fx{.kind = Kind::kColumn, .series = "wrist", .column = "fx"};
+  const Profile profile = testing::withWrist(synthesize({.durationS = 4.0, .grasps = 1}), 60);
+  const auto path = folder_ / "wrist.palpate";
+  saveRecording(profile, {}, path);
+  for (const std::size_t longFrom : {std::size_t{100'000}, std::size_t{50}}) {
+    store_.setRecording(makeOpenedRecording(path, openRecording(path), {}, longFrom));
+    store_.setWanted({fx, {.kind = Kind::kColumn, .series = "ankle", .column = "fx"}});
+    store_.waitUntilRead();
+    EXPECT_EQ(store_.extremes(fx), std::pair(0.5, 59.5)) << longFrom;
+    EXPECT_EQ(store_.valueAt(fx, 1.0), 19.5) << longFrom;
+    EXPECT_EQ(store_.valueAt(fx, 0.01), std::nullopt) << "before its first sample";
+  }
+}
+
+// Cells are those of the frames: the last sample at or before each.
+TEST(CurveTable, HasColumnsOfFurtherSeries) {
+  const auto recording = makeOpenedRecording(
+      "x.palpate", testing::withWrist(synthesize({.durationS = 2.0, .grasps = 0}), 10));
+  const Profile& profile = recording->profile;
+  const std::vector<PlottedCurve> curves = {columnCurve(testing::wristSeries(), 0, 0),
+                                            columnCurve(testing::wristSeries(), 1, 1),
+                                            angleCurve(profile.hand(), 1)};
+  const TextTable table = curveTable(recording, curves, {0, profile.numFrames() - 1});
+  EXPECT_EQ(table.header.at(3), "wrist fx [N]");
+  EXPECT_EQ(table.header.at(4), "wrist fz [N]");
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    const std::vector<std::string> cells = table.row(i);
+    const std::int64_t sinceUs = profile.frameTimeUs(i) - profile.frameTimeUs(0) - 30'000;
+    const std::int64_t last = std::min<std::int64_t>(sinceUs / 50'000, 9);
+    EXPECT_EQ(cells.at(3), sinceUs < 0 ? "" : std::to_string(last) + ".5") << i;
+    EXPECT_EQ(cells.at(4), sinceUs < 0 || last == 3 ? "" : std::to_string(-2 * last)) << i;
+    EXPECT_EQ(cells.at(5), numberText(profile.anglesAtFrame(i)->values.at(1)));
+  }
+  const SelectedCurves selected = selectedCurves(recording, curves, {0, profile.numFrames() - 1});
+  const std::vector<std::string> row = statisticsTable(selected).row(0);
+  EXPECT_EQ(row.at(0), "wrist fx");
+  EXPECT_EQ(row.at(6), "9.5") << "the largest";
 }
 
 }  // namespace

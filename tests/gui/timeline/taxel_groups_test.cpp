@@ -9,6 +9,7 @@
 
 #include "gui/timeline/signal_tree.h"
 #include "testing/testing.h"
+#include "testing/wrist_profile.h"
 
 namespace palpate::gui::taxel_groups_test {
 namespace {
@@ -135,6 +136,28 @@ TEST_F(TaxelGroupsTest, WhatIsTickedIsRemembered) {
   EXPECT_EQ(loadPlottedExtras(settings()), extras);
   settings().setValue("plotted/angles", QStringList{"-1", "x", "3", "9999"});
   EXPECT_EQ(loadPlottedExtras(settings()).angles, (std::set<int>{3}));
+}
+
+TEST_F(TaxelGroupsTest, FurtherSeriesHaveASectionEach) {
+  TaxelGroups groups(settings());
+  FormulaCurves formulas(settings());
+  SignalTree tree(groups, formulas);
+  const SeriesDescription imu{"imu", "", {{"fz", ""}}, ""};
+  tree.setSource(sdh2(), {.series = {testing::wristSeries(), imu}});
+  EXPECT_TRUE(tree.lines().contains("[ ] wrist fx (N)"));
+  EXPECT_TRUE(tree.lines().contains("[ ] wrist Torque Z (N m)"));
+  EXPECT_TRUE(tree.lines().contains("[ ] imu fz")) << "no unit";
+  EXPECT_TRUE(tree.setTicked("wrist fz", true));
+  EXPECT_EQ(tree.extras().columns, (std::set<QString>{"wrist fz"}));
+  // By name: another recording has another order.
+  tree.setSource(sdh2(), {.series = {imu, testing::wristSeries()}});
+  EXPECT_TRUE(tree.lines().contains("[x] wrist fz (N)"));
+  EXPECT_TRUE(tree.lines().contains("[ ] imu fz"));
+  tree.setSource(sdh2(), {});
+  EXPECT_TRUE(tree.lines().filter("wrist").isEmpty());
+  EXPECT_EQ(tree.extras().columns.size(), 1u) << "for recordings that have it";
+  savePlottedExtras(tree.extras(), settings());
+  EXPECT_EQ(loadPlottedExtras(settings()), tree.extras());
 }
 
 }  // namespace
