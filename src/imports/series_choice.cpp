@@ -18,8 +18,6 @@
 namespace palpate {
 namespace {
 
-using Kind = PlannedSeries::Kind;
-
 constexpr const char* kOtherColumns = "table";
 
 // One number of a row: which it is, and what the series calls it.
@@ -99,7 +97,7 @@ SplitColumn splitColumn(std::string_view name) {
 // A series of numbers whose names are made different ones.
 PlannedSeries seriesOf(Planning& p, const std::string& name, std::vector<SeriesNumber> numbers) {
   PlannedSeries series;
-  series.kind = Kind::kFurther;
+  series.kind = PlannedSeries::Kind::kFurther;
   series.file = p.source.path();
   series.further = {name, {}, {}, "import " + shortened(p.source.path().filename().string())};
   std::set<std::string> taken;
@@ -167,8 +165,9 @@ std::set<std::size_t> withNumbers(TableSource& source,
 bool isAside(const Planning& p, std::size_t c) {
   const TableColumn& column = p.columns[c];
   return p.times.isPart(c) || p.times.hasSameTimes(c) || hasWord(column, {"active", "mask"}) ||
-         timeScore(column, Kind::kFrames) > 0 || timeScore(column, Kind::kAngles) > 0 ||
-         timeScore(column, Kind::kTemperatures) > 0;
+         timeScore(column, PlannedSeries::Kind::kFrames) > 0 ||
+         timeScore(column, PlannedSeries::Kind::kAngles) > 0 ||
+         timeScore(column, PlannedSeries::Kind::kTemperatures) > 0;
 }
 
 // Whether its name says nothing but that it counts: "frame", "sample_index".
@@ -186,16 +185,18 @@ std::vector<std::size_t> furtherColumns(Planning& p, std::uint64_t mostRows) {
     if (series.time && series.timeFile.empty()) used.insert(*series.time);
   }
   const TableColumn& taxels = p.columns[p.plan.series.front().columns.front()];
-  const auto isLeftOut = [&](const TableColumn& column, Kind kind, const auto& words) {
-    return sampleMapping(p, kind).columns == kNoColumns && hasWord(column, words);
-  };
+  const auto isLeftOut =
+      [&](const TableColumn& column, PlannedSeries::Kind kind, const auto& words) {
+        return sampleMapping(p, kind).columns == kNoColumns && hasWord(column, words);
+      };
   std::vector<std::size_t> columns;
   for (std::size_t c = 0; c < p.columns.size(); ++c) {
     const TableColumn& column = p.columns[c];
     if (used.contains(c) || !holdsNumbers(column) || !sameRows(column, taxels) ||
         column.width() == 0 || column.width() > kMaxColumns || saysOrigin(column) ||
-        isAside(p, c) || p.times.counter() == c || isLeftOut(column, Kind::kAngles, kAngleWords) ||
-        isLeftOut(column, Kind::kTemperatures, kTemperatureWords))
+        isAside(p, c) || p.times.counter() == c ||
+        isLeftOut(column, PlannedSeries::Kind::kAngles, kAngleWords) ||
+        isLeftOut(column, PlannedSeries::Kind::kTemperatures, kTemperatureWords))
       continue;
     if (isScalar(column) &&
         (isCounterOnly(column) || (hasWord(column, kCounterWords) && p.times.countsFrames(c))))
@@ -289,7 +290,7 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   p.times.prepare();
   // Its matrices may have the rows last.
   const auto time = std::find_if(p.columns.begin(), p.columns.end(), [](const auto& column) {
-    return column.numRows && timeScore(column, Kind::kFurther) > 0;
+    return column.numRows && timeScore(column, PlannedSeries::Kind::kFurther) > 0;
   });
   const std::size_t numRows =
       time == p.columns.end() ? 0 : static_cast<std::size_t>(*time->numRows);
@@ -299,7 +300,7 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
       p.source.reverseAxes(c);
 
   PlannedSeries times;
-  times.kind = Kind::kFurther;
+  times.kind = PlannedSeries::Kind::kFurther;
   std::vector<std::size_t> numbers;
   for (std::size_t c = 0; c < p.columns.size(); ++c)
     if (holdsNumbers(p.columns[c]) && p.columns[c].width() > 0 && !isAside(p, c) &&
@@ -310,7 +311,7 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   const TableColumn& first = p.columns[numbers.front()];
   bool isFirstLeftOut = false;
   const bool isNamed = std::any_of(p.columns.begin(), p.columns.end(), [](const auto& column) {
-    return timeScore(column, Kind::kFurther) > 0;
+    return timeScore(column, PlannedSeries::Kind::kFurther) > 0;
   });
   // Where nothing is called a time, a first number that ascends is.
   if (!wanted.rateHz && !isNamed && (isScalar(first) || numbers.size() == 1))

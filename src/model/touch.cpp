@@ -65,14 +65,15 @@ void decideTouch(TactileFrame& frame, std::shared_ptr<const Baseline> baseline) 
     for (std::size_t place = 0; place < of.layout.numCells(); ++place) {
       if (of.layout.staticMask[place] == 0) continue;
       const std::size_t z = place * step + step - 1;
-      shown[place] = of.difference(z);
-      float length = rule.isSigned ? std::abs(shown[place]) : shown[place];
-      if (step == 3) length = std::hypot(of.difference(z - 2), of.difference(z - 1), shown[place]);
+      shown[place] = rule.isSigned ? std::abs(of.difference(z)) : of.difference(z);
+      const float length =
+          step == 3 ? std::hypot(of.difference(z - 2), of.difference(z - 1), shown[place])
+                    : shown[place];
       float limit = of.limit(z);
       for (std::size_t k = place * step; k < z; ++k) limit = std::max(limit, of.limit(k));
       // Something that only shears is touched, too.
       if (length > limit)
-        values[place] = std::max(std::abs(shown[place]), std::numeric_limits<float>::min());
+        values[place] = shown[place] = std::max(shown[place], std::numeric_limits<float>::min());
       same = same && values[place] == shown[place];
     }
   }

@@ -40,10 +40,11 @@ TEST(Touch, WithoutARuleFramesStayAsTheyAre) {
   EXPECT_EQ(frame.values, (Values{0.0F, 3.0F, -1.0F}));
 }
 
-TEST(Touch, ASignIsShownAndItsMagnitudePresses) {
+TEST(Touch, OfASignTheMagnitudePresses) {
   const TactileFrame frame = frameOf({.isSigned = true, .threshold = 2.0F}, {-5.0F, 1.5F, 7.0F});
   EXPECT_EQ(frame.values, (Values{5.0F, 0.0F, 7.0F}));
-  EXPECT_EQ(frame.allValues(), (Values{-5.0F, 1.5F, 7.0F}));
+  EXPECT_EQ(frame.allValues(), (Values{5.0F, 1.5F, 7.0F}));
+  EXPECT_EQ(forceAt(frame, {0, 0, 0})[2], -5.0F);
 }
 
 TEST(Touch, AReadingWithoutASignMustBeAboveItsRest) {
@@ -68,7 +69,7 @@ TEST(Touch, OfThreeComponentsTheLengthDecidesAndZPresses) {
   EXPECT_LT(frame.values[0], 1e-30F);
   EXPECT_EQ(frame.values[1], 0.0F) << "its length is 3";
   EXPECT_EQ(frame.values[2], 7.0F);
-  EXPECT_EQ(frame.allValues(), (Values{0.0F, 2.0F, -7.0F}));
+  EXPECT_EQ(frame.allValues(), (Values{frame.values[0], 2.0F, 7.0F}));
   EXPECT_EQ(forceAt(frame, {0, 0, 0}), (std::array{3.0F, 4.0F, 0.0F}));
   EXPECT_EQ(forceAt(frame, {0, 0, 2}), (std::array{0.0F, 0.0F, -7.0F}));
 }

@@ -189,6 +189,7 @@ TEST(Tests, MeasureOnce) {
 TEST(Tests, WaitForConditionsNotForTimes) {
   const std::set<std::string> onPurpose = {"tests/benchmarks/live_window_benchmark.cpp",
                                            "tests/capture/capture_stress_test.cpp",
+                                           "tests/capture/series_recording_test.cpp",
                                            "tests/capture/soak.h",
                                            "tests/commands/kill_recording.h",
                                            "tests/control/grasp_control_test.cpp",

@@ -27,6 +27,7 @@ HandDescription skin() {
 // 15 readings of frame `i`; that of z of the first taxel falls by 1 per frame.
 std::vector<float> readingsOf(int i) {
   std::vector<float> readings(15, 0.25F);
+  readings[0] = readings[1] = 0.0F;
   readings[2] = static_cast<float>(-i);
   readings[14] = static_cast<float>(100 + i);
   return readings;
@@ -60,7 +61,7 @@ TEST(ReadingsRecording, ReadingsComeBackAndAreSeenOverTheirBaselines) {
     const float z = static_cast<float>(i < 20 ? i : i - 20);
     EXPECT_EQ(frame.values[0], z > 5.0F ? z : 0.0F) << i;
     EXPECT_EQ(frame.values[6], i > 5 ? static_cast<float>(i) : 0.0F) << i;
-    EXPECT_EQ(frame.allValues()[0], -z) << i;
+    EXPECT_EQ(frame.allValues()[0], z) << i;
   }
   const Profile part = cropped(read.profile, 25, 39);
   EXPECT_EQ(part.frame(14).values, read.profile.frame(39).values);

@@ -13,7 +13,8 @@
 namespace palpate::commands {
 namespace {
 
-std::pair<std::string, std::string> namedValue(const std::string& option, const std::string& text) {
+std::pair<std::string, std::string> seriesValue(const std::string& option,
+                                                const std::string& text) {
   const std::size_t at = text.find('=');
   if (at == std::string::npos || at == 0 || at + 1 == text.size())
     throw UsageError("--" + option + " needs NAME=" + (option == "series" ? "SOURCE" : "COLUMNS") +
@@ -43,12 +44,12 @@ std::vector<OptionSpec> seriesOptions() {
 void addSeriesSources(const CommandLine& given, CaptureSession& session) {
   std::map<std::string, std::string> columns;
   for (const std::string& text : given.texts("series-columns"))
-    if (!columns.insert(namedValue("series-columns", text)).second)
+    if (!columns.insert(seriesValue("series-columns", text)).second)
       throw UsageError("--series-columns names '" + escapedLine(text) + "' a second time");
   bool takesInput = given.text("stream") == "-";
   for (const std::string& text : given.texts("series")) {
     SeriesSourceOptions options;
-    std::tie(options.name, options.source) = namedValue("series", text);
+    std::tie(options.name, options.source) = seriesValue("series", text);
     if (options.source == "-" && std::exchange(takesInput, true))
       throw UsageError("standard input (-) can be the source of one thing only");
     try {

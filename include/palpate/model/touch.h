@@ -28,11 +28,12 @@ struct Baseline {
 using Baselines = std::vector<std::pair<std::int64_t, std::shared_ptr<const Baseline>>>;
 std::shared_ptr<const Baseline> baselineAt(const Baselines& baselines, std::int64_t timeUs);
 
-// Sets `values` (what presses, 0 where nothing touches) and `filtered` (what is shown, with its
-// sign) of a frame from its readings. Null: a baseline of 0. A taxel is touched when
+// Sets `values` (what presses, 0 where nothing touches) and `filtered` (the same of all taxels) of
+// a frame from its readings. Null: a baseline of 0. A taxel is touched when
 //   |reading - rest| > max(threshold, sigmas * noise)
 // with the length of the vector for three components; readings without a sign must be above their
-// rest. `values` are then |reading - rest|, for three components that of z. Frames without readings
+// rest. `values` are then |reading - rest|, for three components that of z; the signs are in
+// forceAt(). Frames without readings
 // stay as they are. Throws std::invalid_argument when a size is not that of the layout.
 void decideTouch(TactileFrame& frame, std::shared_ptr<const Baseline> baseline);
 

@@ -42,7 +42,7 @@ constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 constexpr std::uint64_t kMostEvents = 1'000'000;
 constexpr std::uint64_t kMostMetaRows = 1'000;
 constexpr std::size_t kMostAttributeBytes = 60'000;
-constexpr std::size_t kMostNameBytes = kMaxSeries * (kMaxSeriesName + 1);
+constexpr std::size_t kMostSeriesNameBytes = kMaxSeries * (kMaxSeriesName + 1);
 constexpr std::size_t kMostMetaBytes = 2 * kHandFileByteLimit;
 constexpr std::size_t kMostTextBytes = 64u << 20;  // of all texts of a file together
 constexpr std::size_t kMostReadFrames = 4096;      // in one block
@@ -439,7 +439,8 @@ class Hdf5Storage final : public ProfileStorage {
   std::vector<SeriesDescription> furtherSeries() {
     std::vector<SeriesDescription> all;
     if (!file_->has("series")) return all;
-    const auto names = file_->textAttribute("series", hdf5_layout::kSeriesNames, kMostNameBytes);
+    const auto names =
+        file_->textAttribute("series", hdf5_layout::kSeriesNames, kMostSeriesNameBytes);
     if (!names) throw FormatError(file_->path(), "the group 'series' has no attribute names");
     std::istringstream list(*names);
     for (std::string name; std::getline(list, name, ',');) {

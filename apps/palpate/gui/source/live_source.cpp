@@ -143,6 +143,7 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   source->foxglove = std::make_unique<FoxgloveStream>(
       source->session->device().hand(),
       [session = source->session.get()] { return session->health(); });
+  options.furtherSeries = [session = source->session.get()] { return session->furtherSeries(); };
   options.onResults = [history = source->history.get(),
                        stream = source->stream.get(),
                        foxglove = source->foxglove.get()](const LiveResults& results) {
