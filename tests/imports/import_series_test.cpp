@@ -66,7 +66,8 @@ TEST(ImportSeries, WhatIsNoNumberIsMissingAndARowWithoutAnyHasNoSample) {
             std::string::npos)
       << made.report.lossText();
   EXPECT_NE(testing::errorOf([&] {
-              importText(folder, text, pad(1, 2), {}, {.strict = true});
+              importText(
+                  folder, text, pad(1, 2), {}, {.strict = true, .overwrite = Overwrite::kReplace});
             }).find("is not a number"),
             std::string::npos);
 }
