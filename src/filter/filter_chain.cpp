@@ -131,6 +131,9 @@ void FilterChain::pass(TactileFrame& frame) {
     endStretch();
     build(frame.layout);
   }
+  // What comes out is no reading of the sensor any more.
+  frame.readings.clear();
+  frame.baseline.reset();
   if (gaps_.afterGap(frame.hostUs)) endStretch();
   if (measuring_) ++frames_;
   out_->goesIn(frame);

@@ -334,6 +334,10 @@ ImportPlan planImport(TableSource& source,
                       const TableOptions& options,
                       std::span<const SeriesFile> files,
                       std::uint64_t mostRows) {
+  if (hand.layout->numReadings() != hand.layout->numCells())
+    throw Error(source.path().string() +
+                ": tables of three components per taxel can't be imported; stream them "
+                "('palpate record --stream')");
   try {
     ImportPlan plan = isTaxelList(source.columns())
                           ? planTaxelList(source, hand, mapping, options)

@@ -35,8 +35,10 @@ ImportRows::ImportRows(const HandDescription& hand,
   report_.notes = plan.notes;
   report_.doubts = plan.doubts;
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
-    for (const std::uint8_t isTaxel : hand.layout->matrix(m).staticMask)
+    for (const std::uint8_t isTaxel : hand.layout->matrix(m).staticMask) {
       maximum_.push_back(isTaxel != 0 ? hand.maximumOf(m) : -1.0F);
+      minimum_.push_back(hand.layout->matrix(m).touch.isSigned ? -hand.maximumOf(m) : 0.0F);
+    }
   for (const PlannedSeries& series : plan.series) {
     if (series.kind != PlannedSeries::Kind::kFurther) continue;
     further_[&series].index = report_.series.size();
@@ -319,7 +321,7 @@ float ImportRows::taxelValue(const TableSource& source,
   OutsideValues& outside = report_.outside;
   if (std::isnan(value))
     ++outside.notANumber;
-  else if (taken < 0.0F)
+  else if (taken < minimum_[place])
     ++outside.below;
   else if (taken > maximum_[place])
     ++outside.above;
@@ -332,8 +334,8 @@ float ImportRows::taxelValue(const TableSource& source,
     const auto width = static_cast<std::size_t>(hand_.layout->matrix(m).columns);
     outside.first = source.rowWord() + (" " + std::to_string(row.line)) + ", " +
                     hand_.matrixName(m) + ", row " + std::to_string(cell / width) + ", column " +
-                    std::to_string(cell % width) + ": " + numberText(value) + ", not in 0.." +
-                    numberText(maximum_[place]);
+                    std::to_string(cell % width) + ": " + numberText(value) + ", not in " +
+                    numberText(minimum_[place]) + ".." + numberText(maximum_[place]);
   }
   return std::isnan(value) ? 0.0F : taken;
 }
@@ -347,10 +349,10 @@ void ImportRows::add(const TableSource& source,
     return row.values[begin + i] * series.values[i].scale + series.values[i].offset;
   };
   if (series.kind == PlannedSeries::Kind::kFrames) {
-    std::fill(frame_.values.begin(), frame_.values.end(), 0.0F);
+    std::fill(frame_.stored().begin(), frame_.stored().end(), 0.0F);
     for (std::size_t i = 0; i < series.values.size(); ++i)
       if (const auto place = series.values[i].target; place && maximum_[*place] >= 0.0F)
-        frame_.values[*place] = taxelValue(source, row, *place, valueAt(i));
+        frame_.stored()[*place] = taxelValue(source, row, *place, valueAt(i));
     return addFrame(us);
   }
   if (series.kind == PlannedSeries::Kind::kFurther)
@@ -573,7 +575,7 @@ void ImportRows::runPass(TableSource& source,
 void ImportRows::finishListedFrame() {
   if (!listedFrame_) return;
   addFrame(listedUs_);
-  std::fill(frame_.values.begin(), frame_.values.end(), 0.0F);
+  std::fill(frame_.stored().begin(), frame_.stored().end(), 0.0F);
 }
 
 // Counts the frames that the list leaves out. A row that is refused lists its frame, too.
@@ -614,7 +616,8 @@ void ImportRows::takeTaxel(const TableSource& source, const TableRow& row, std::
                           " is outside of the hand, which has " + shapeText(layout));
   const std::size_t place =
       layout.offset(m) + static_cast<std::size_t>(y * layout.matrix(m).columns + x);
-  if (maximum_[place] >= 0.0F) frame_.values[place] = taxelValue(source, row, place, row.values[4]);
+  if (maximum_[place] >= 0.0F)
+    frame_.stored()[place] = taxelValue(source, row, place, row.values[4]);
 }
 
 void ImportRows::runTaxelList(TableSource& source,

@@ -113,6 +113,7 @@ class ImportRows {
   };
   std::map<const PlannedSeries*, Origin> origins_;
   std::vector<float> maximum_;  // of each place; below 0: it has no taxel
+  std::vector<float> minimum_;  // below 0 where readings have a sign
   std::vector<double> sample_;
   GapDetector gaps_;
   std::vector<std::int64_t> firstStampsUs_;

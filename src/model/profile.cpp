@@ -88,9 +88,11 @@ void Profile::readFrame(std::size_t frame, TactileFrame& out) const {
   check("frame", frame, numFrames());
   TactileFrame read(data_->hand.layout);
   read.hostUs = data_->storage->frameTimeUs(frame);
-  if (!givesReadings()) read.readings.clear();
   data_->storage->readFrame(frame, read);
-  decideTouch(read, baselineAt(data_->baselines, read.hostUs));
+  if (givesReadings())
+    decideTouch(read, baselineAt(data_->baselines, read.hostUs));
+  else
+    read.readings.clear();
   out = std::move(read);
 }
 

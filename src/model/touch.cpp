@@ -115,10 +115,9 @@ Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames)
 
 namespace {
 
-// Numbers as short as they say the same float.
-Json numbersOf(const std::vector<float>& values) {
-  return jsonList(values, [](float value) { return Json(parseDouble(numberText(value)).value()); });
-}
+// The shortest number that says the same float.
+Json numberOf(float value) { return parseDouble(numberText(value)).value(); }
+Json numbersOf(const std::vector<float>& values) { return jsonList(values, numberOf); }
 
 std::vector<float> floatsOf(const Json& list) {
   std::vector<float> values;
@@ -184,8 +183,8 @@ std::string touchRulesText(const SensorLayout& layout) {
                     return Json::object()
                         .set("components", rule.components)
                         .set("signed", rule.isSigned)
-                        .set("threshold", static_cast<double>(rule.threshold))
-                        .set("sigmas", static_cast<double>(rule.sigmas));
+                        .set("threshold", numberOf(rule.threshold))
+                        .set("sigmas", numberOf(rule.sigmas));
                   })
       .text(-1);
 }

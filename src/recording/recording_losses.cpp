@@ -94,15 +94,21 @@ std::string seriesText(const Profile& profile, std::size_t series) {
 
 std::string leftOutText(const Profile& profile, const std::filesystem::path& path) {
   const RecordingFormat& format = formatOf(path);
-  if (format.holdsFurther) return "";
+  const std::string a = std::string("a ") + format.endings.front();
+  std::string text;
+  if (profile.givesReadings() && !format.holdsReadings)
+    text = a +
+           " has no place for the readings of the sensor: it gets what presses, over the "
+           "baseline";
+  if (format.holdsFurther) return text;
   std::string names;
   std::size_t count = 0;
   for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
     if (profile.numSamples(i) == 0) continue;
     names += (count++ == 0 ? "" : ", ") + profile.series()[i].name;
   }
-  if (count == 0) return "";
-  return std::string("a ") + format.endings.front() + " has no place for the series " + names +
+  if (count == 0) return text;
+  return text + (text.empty() ? "" : "; ") + a + " has no place for the series " + names +
          (count == 1 ? ": it is left out" : ": they are left out");
 }
 

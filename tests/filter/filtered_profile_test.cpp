@@ -125,6 +125,26 @@ TEST(FilteredProfile, TheRestIsTheSources) {
   EXPECT_EQ(filteredProfile(source, Recipe{}).info().valueType, source.info().valueType);
 }
 
+TEST(FilteredProfile, ReadingsAreFilteredAsTheyAreSeen) {
+  MatrixLayout matrix = MatrixLayout::full(2, 2, 1.0);
+  matrix.touch = {.isSigned = true, .threshold = 5.0F};
+  ProfileBuilder builder(std::make_shared<const SensorLayout>(std::vector<MatrixLayout>{matrix}));
+  for (int i = 0; i < 20; ++i)
+    builder.addReadings(1 + 10'000 * i, std::vector<float>{-40.0F, 1.0F, 2.0F, -30.0F});
+  const Profile source = builder.finish({}).withBaselines(
+      {{0, std::make_shared<const Baseline>(Baseline{{-10.0F, 0.0F, 0.0F, 0.0F}, {}})}});
+  for (const char* text : {"running-mean:window=7,centred=1", "rts"}) {
+    const Profile filtered = filteredProfile(source, recipeOf(text));
+    EXPECT_FALSE(filtered.givesReadings());
+    const TactileFrame frame = filtered.frame(10);
+    EXPECT_TRUE(frame.readings.empty()) << text;
+    EXPECT_NEAR(frame.values[0], 30.0F, 1e-3F) << text;
+    EXPECT_EQ(frame.values[1], 0.0F) << text;
+    EXPECT_NEAR(frame.values[3], 30.0F, 1e-3F) << text;
+    EXPECT_NEAR(frame.allValues()[2], 2.0F, 1e-3F) << text;
+  }
+}
+
 TEST(FilteredProfile, StartsAnewWhereCountsChangeTheirMeaning) {
   const Profile source = grasps();
   const Recipe recipe = recipeOf("kalman");

@@ -322,5 +322,31 @@ with h5py.File(sys.argv[1] + '/a.nc', 'w') as f:
   EXPECT_NE(notesOf(report).find("999 in pad is a missing value"), std::string::npos);
 }
 
+TEST(ImportOrigin, ReadingsWithASignAreStoredAsTheyAre) {
+  const TemporaryFolder folder;
+  const auto handWith = [](TouchRule rule) {
+    HandDescription hand = pad(1, 2);
+    MatrixLayout matrix = hand.layout->matrix(0);
+    matrix.touch = rule;
+    hand.layout = std::make_shared<SensorLayout>(std::vector<MatrixLayout>{matrix});
+    return hand;
+  };
+  const std::string text = "time_ms,p0,p1\n0,-7,2\n10,8,-9000\n";
+  const Imported found = importText(folder, text, handWith({.isSigned = true, .threshold = 5.0F}));
+  ASSERT_TRUE(found.profile.givesReadings());
+  EXPECT_EQ(found.profile.frame(0).readings, (Values{-7, 2}));
+  EXPECT_EQ(found.profile.frame(0).values, (Values{7, 0}));
+  EXPECT_EQ(found.profile.frame(1).readings, (Values{8, -9000}));
+  EXPECT_EQ(found.report.outside.below, 1u) << "beyond the full scale of 4095";
+  EXPECT_NE(found.report.outside.first.find("-9000, not in -4095..4095"), std::string::npos)
+      << found.report.outside.first;
+  EXPECT_NE(
+      errorOf([&] {
+        importText(
+            folder, text, handWith({.components = 3}), {}, {.overwrite = Overwrite::kReplace});
+      }).find("three components per taxel can't be imported"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace palpate::import_origin_test

@@ -110,7 +110,7 @@ std::vector<SeriesFile> seriesFilesOf(const CommandLine& given) {
     if (const std::string valid = seriesName(name); valid != name)
       throw UsageError(
           "--series: " + inQuotes(name) +
-          " is no name of a series: a small letter, then small letters, digits or _ (" + valid +
+          " is not a name of a series: a small letter, then small letters, digits or _ (" + valid +
           ")");
     if (named(name) != files.end())
       throw UsageError("--series names " + inQuotes(name) + " twice; give each file its own name");

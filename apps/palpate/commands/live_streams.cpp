@@ -30,8 +30,11 @@ std::string countsText(const DatagramStats& stats) {
   return std::to_string(stats.sent) + " sent, " + std::to_string(stats.dropped) + " dropped";
 }
 
-ChainOptions sendingTo(LiveStream& stream, FoxgloveStream& foxglove) {
+ChainOptions sendingTo(const CaptureSession& session,
+                       LiveStream& stream,
+                       FoxgloveStream& foxglove) {
   ChainOptions options;
+  options.furtherSeries = [&session] { return session.furtherSeries(); };
   options.onResults = [&](const LiveResults& results) {
     stream.send(results);
     foxglove.send(results);
@@ -145,7 +148,7 @@ LiveStreams::LiveStreams(CaptureSession& session,
       stream_([&session] { return session.health(); }),
       foxglove_(session.device().hand(), [&session] { return session.health(); }),
       chain_(streamedStages(&session, session.device().hand(), calibration),
-             sendingTo(stream_, foxglove_)) {
+             sendingTo(session, stream_, foxglove_)) {
   warnAboutTargets(targets_);
   for (const StreamTarget& target : targets_.datagrams) stream_.switchOn(target.kind, target.port);
   if (targets_.foxglove) {

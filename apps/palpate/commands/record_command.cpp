@@ -113,8 +113,8 @@ RecordingOptions recordingOptions(const CommandLine& given) {
   return options;
 }
 
-// Waits for frames of so many seconds, which are the sensor's at rest. Throws Error when it is
-// interrupted, no frame arrives in time, or there is nothing to be taken.
+// Waits for frames of so many seconds and takes them as the sensor at rest. Throws Error when it
+// is interrupted, when no frame arrives in time, and when the hand has no readings.
 void takeBaseline(CaptureSession& session,
                   Interruption& interruption,
                   double seconds,

@@ -257,6 +257,7 @@ int streamLines(const CommandLine& given, const StreamTargets& targets) {
   CaptureSession session(streamDeviceOf(given, damage));
   Lines lines(kind, true);
   ChainOptions options;
+  options.furtherSeries = [&session] { return session.furtherSeries(); };
   options.onResults = [&](const LiveResults& results) {
     const LinkHealth health = session.health();
     lines.write(results, &health);

@@ -52,7 +52,7 @@ class CaptureSession : private DeviceSink {
   const Device& device() const noexcept { return *device_; }
 
   // Adds a series that comes from elsewhere, beside those of the device; before start(). It is
-  // recorded, can't stop anything, and what happens to it is no matter of the hand. Throws
+  // recorded, can't stop anything, and what happens to it does not concern the hand. Throws
   // std::invalid_argument (none, a name that is taken, too many), std::logic_error (started).
   void addSeries(std::unique_ptr<SeriesSource> source);
   const std::vector<std::unique_ptr<SeriesSource>>& seriesSources() const noexcept {

@@ -49,6 +49,7 @@ struct RecordingFormat {
   bool isExport = false;
   bool takesSeries = false;              // ExportExtras
   bool holdsFurther = false;             // series beside those of the hand
+  bool holdsReadings = false;            // TactileFrame::readings; others hold what presses
   bool takesUnitsRow = false;            // SaveExtras::unitsRow
   bool takesMcap = false;                // SaveExtras::mcap
   const FormatReader* reader = nullptr;  // null: such files are written, not read

@@ -158,6 +158,7 @@ constinit const RecordingFormat kPalpateFormat{.name = "palpate",
                                                .purpose = "Palpate recording",
                                                .endings = kPalpateEndings,
                                                .holdsFurther = true,
+                                               .holdsReadings = true,
                                                .reader = &kPalpateReader,
                                                .save = &savePalpate};
 
