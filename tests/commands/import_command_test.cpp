@@ -115,7 +115,8 @@ TEST_F(ImportCommand, AnotherTableBecomesASeries) {
   EXPECT_NE(preview.out.find("become series wrench; time: t_ms [ms]"), std::string::npos)
       << preview.out;
   expectOneLineError(import({"--series", "wrench"}), 2, {"is not NAME=FILE"});
-  expectOneLineError(import({"--series", "Wrench=a.csv"}), 2, {"not a name of a series", "(wrench)"});
+  expectOneLineError(
+      import({"--series", "Wrench=a.csv"}), 2, {"not a name of a series", "(wrench)"});
   expectOneLineError(import({"--series", wrench, "--series", wrench}), 2, {"twice"});
   expectOneLineError(import({"--series-rate", "wrench=100"}), 2, {"there is no --series"});
   expectOneLineError(
