@@ -4,6 +4,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recognition/filtered_recording.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_losses.h"
@@ -63,29 +64,6 @@ std::string passText(const SlipRunOptions& pass) {
          std::to_string(pass.referenceFrame) + "; limits " + numberText(rule.stepTaxels) + " " +
          numberText(rule.referenceTaxels) + " " + numberText(rule.rotationDeg);
 }
-
-// A table that is written row by row; its bytes are gathered to pieces.
-class TableFile {
- public:
-  TableFile(const fs::path& path, Overwrite overwrite) : file_(path, overwrite) {}
-  void write(std::string_view text) {
-    constexpr std::size_t kPiece = 1u << 16;
-    text_ += text;
-    if (text_.size() >= kPiece) flush();
-  }
-  void commit() {
-    flush();
-    file_.commit();
-  }
-
- private:
-  void flush() {
-    file_.write(text_);
-    text_.clear();
-  }
-  OutputFile file_;
-  std::string text_;
-};
 
 // Folders of one class each lie in the given folder; see feature_table.h.
 std::string classIn(const BatchItem& item) {
@@ -173,64 +151,80 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
       .namesResults = true};
 }
 
-BatchTask signalsTask(const SignalRowsOptions& table) {
-  table.filters.validate();
-  SignalFilter(table.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
-  return {.options = "signals; " + recipeText(table.filters) + "; smooth " +
-                     recipeText(table.smooth) + matrixText(table.matrix) +
-                     (table.unitsRow ? "; units-row" : ""),
-          .work = [table](const BatchItem& item,
-                          Overwrite overwrite,
-                          const Progress& progress,
-                          std::size_t threads) {
-            const Profile profile = openFiltered(item, table.filters, progress, threads).profile;
-            requireMatrix(item.source, profile.layout(), table.matrix);
-            requireBelowHalfRate(table.smooth, profile, item.source);
-            TableFile out(item.target, overwrite);
-            out.write(std::string(kSignalColumns) + "\n");
-            if (table.unitsRow) out.write(signalUnits(profile.hand()) + "\n");
-            writeSignalRows(
-                profile,
-                table.matrix,
-                table.smooth,
-                "\n",
-                [&](const std::string& lines) { out.write(lines); },
-                partOf(progress, 0.5, 1.0));
-            out.commit();
-            return BatchAnswer{.said = counted(profile.numFrames(), "frame"),
-                               .problem = partText(item, profile)};
-          }};
+RecordingTable signalsOf(const SignalRowsOptions& options) {
+  options.filters.validate();
+  SignalFilter(options.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
+  return {.options = "signals; " + recipeText(options.filters) + "; smooth " +
+                     recipeText(options.smooth) + matrixText(options.matrix),
+          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+            const Profile profile =
+                filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5));
+            requireMatrix(file, profile.layout(), options.matrix);
+            requireBelowHalfRate(options.smooth, profile, file);
+            return signalTable(profile, options, partOf(progress, 0.5, 1.0));
+          },
+          .unitsRow = options.unitsRow};
 }
 
-BatchTask slipTask(const SlipRowsOptions& table) {
-  table.filters.validate();
-  return {.options = std::string("slip") + (table.segments ? "; segments" : "") + "; " +
-                     passText(table.pass) + matrixText(table.matrix) +
-                     (table.unitsRow ? "; units-row" : "") + filtersText(table.filters),
+RecordingTable slipOf(const SlipRowsOptions& options) {
+  options.filters.validate();
+  return {.options = std::string("slip") + (options.segments ? "; segments" : "") + "; " +
+                     passText(options.pass) + matrixText(options.matrix) +
+                     filtersText(options.filters),
+          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+            const Profile profile =
+                filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.3));
+            requireThere(file, profile, options);
+            return slipTable(profile, options, partOf(progress, 0.3, 1.0));
+          },
+          .rowNoun = options.segments ? "slip" : "row",
+          .unitsRow = options.unitsRow};
+}
+
+RecordingTable graspsOf(const GraspRowsOptions& options) {
+  options.filters.validate();
+  const bool isStudy = options.segments.rule == GraspRule::kStudy;
+  return {.options = std::string("grasps; ") + (isStudy ? "study" : "general") +
+                     filtersText(options.filters),
+          .of = [options, isStudy](const fs::path& file,
+                                   const Recording& whole,
+                                   const Progress& progress) {
+            const Profile profile =
+                filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5));
+            const HandDescription& hand = profile.hand();
+            if (isStudy && !(hand.file && hand.file->pinch))
+              throw FileError(file,
+                              "rule study needs two pads that pinch, which the description of '" +
+                                  hand.name + "' doesn't name: use --rule general");
+            return graspTable(profile, options.segments, partOf(progress, 0.5, 1.0));
+          },
+          .rowNoun = "grasp"};
+}
+
+BatchTask tableTask(const RecordingTable& table) {
+  return {.options = table.options + (table.unitsRow ? "; units-row" : ""),
           .work = [table](const BatchItem& item,
                           Overwrite overwrite,
                           const Progress& progress,
                           std::size_t threads) {
-            const Profile profile =
-                openFiltered(item, table.filters, partOf(progress, 0.0, 0.4), threads).profile;
-            requireThere(item.source, profile, table);
-            TableFile out(item.target, overwrite);
-            out.write(std::string(table.segments ? kSlipSegmentColumns : kSlipColumns) + "\n");
-            if (table.unitsRow)
-              out.write(std::string(table.segments ? kSlipSegmentUnits : kSlipUnits) + "\n");
-            std::size_t rows = 0;
-            (table.segments ? forEachSlipSegmentRow : forEachSlipRow)(
-                profile,
-                table.pass,
-                table.matrix,
-                [&](const std::string& row) {
-                  out.write(row + "\n");
-                  ++rows;
-                },
-                partOf(progress, 0.2, 1.0));
-            out.commit();
-            return BatchAnswer{.said = counted(rows, table.segments ? "slip" : "row"),
-                               .problem = partText(item, profile)};
+            const Recording recording = (table.readable ? readableRecording : readRecording)(
+                item.source, {.threads = threads}, partOf(progress, 0.0, 0.4));
+            const std::unique_ptr<ResultTable> rows =
+                table.of(item.source, recording, partOf(progress, 0.4, 1.0));
+            const std::size_t count = writeTableFile(
+                *rows,
+                item.target,
+                overwrite,
+                {.form = tableFormOf(item.target), .unitsRow = table.unitsRow});
+            BatchAnswer answer{.said = table.rowNoun.empty()
+                                           ? counted(recording.profile.numFrames(), "frame")
+                                           : counted(count, table.rowNoun),
+                               .problem = partText(item, recording.profile)};
+            if (table.readable && !recording.damage.text.empty())
+              answer.problem = item.source.string() + ": " + recording.damage.text;
+            for (const std::string& problem : rows->problems())
+              answer.problem += (answer.problem.empty() ? "" : "; ") + problem;
+            return answer;
           }};
 }
 
@@ -248,14 +242,12 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
               throw Error(table.problems.empty()
                               ? FileError(item.source, "has no grasp with features").what()
                               : table.problems.front());
-            TableFile out(item.target, overwrite);
-            out.write(featureHeaderLine(table));
-            for (FeatureRow& row : table.rows) {
-              row.className = classIn(item);
-              out.write(featureLine(row));
-            }
-            out.commit();
-            BatchAnswer answer{.said = counted(table.rows.size(), "grasp")};
+            for (FeatureRow& row : table.rows) row.className = classIn(item);
+            const std::size_t count = writeTableFile(*featureTable(table),
+                                                     item.target,
+                                                     overwrite,
+                                                     {.form = tableFormOf(item.target)});
+            BatchAnswer answer{.said = counted(count, "grasp")};
             if (!table.problems.empty()) answer.problem = table.problems.front();
             return answer;
           }};

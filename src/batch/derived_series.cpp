@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "palpate/signals/characteristic_signals.h"
-#include "palpate/slip/sensor_slip_detector.h"
+#include "palpate/signals/signal_rows.h"
+#include "palpate/slip/slip_rows.h"
 
 namespace palpate {
 namespace {
@@ -42,23 +42,20 @@ class FrameSeries : public ExportedSeries {
   std::size_t index_ = 0;
 };
 
-const std::string& unitOf(SignalKind kind, const HandDescription& hand) {
-  static const std::string taxels = "taxels";
-  static const std::string area = "mm^2";
-  if (kind == SignalKind::kActive) return taxels;
-  return kind == SignalKind::kArea ? area : hand.unit;
+// "m3/dx", "whole/mean": a column of a matrix, or of all of them.
+Column groupColumn(std::size_t matrix, std::size_t numMatrices, const ResultColumn& column) {
+  const std::string group = matrix < numMatrices ? "m" + std::to_string(matrix) : "whole";
+  return {group + "/" + column.name, column.unit};
 }
 
 class SignalsSeries final : public FrameSeries {
  public:
   explicit SignalsSeries(const Profile& profile) : FrameSeries(profile, "signals") {
+    const std::vector<ColumnOf<SignalValues>> ofMatrix = signalColumns(profile.hand().unit);
     const std::size_t numMatrices = profile.layout().numMatrices();
-    for (std::size_t m = 0; m <= numMatrices; ++m) {
-      const std::string group = m < numMatrices ? "m" + std::to_string(m) : "whole";
+    for (std::size_t m = 0; m <= numMatrices; ++m)
       for (const SignalKind kind : kAllSignalKinds)
-        columns_.push_back(
-            {group + "/" + std::string(signalName(kind)), unitOf(kind, profile.hand())});
-    }
+        columns_.push_back(groupColumn(m, numMatrices, columnNamed(ofMatrix, signalName(kind)).column));
   }
 
  private:
@@ -76,20 +73,14 @@ class SlipRowSeries final : public FrameSeries {
  public:
   SlipRowSeries(const Profile& profile, const SlipDetectorOptions& options)
       : FrameSeries(profile, "slip"), detector_(profile.hand(), options) {
-    static const std::vector<Column> ofMatrix = {{"active", "taxels"},
-                                                 {"dx", "taxels"},
-                                                 {"dy", "taxels"},
-                                                 {"ref_dx", "taxels"},
-                                                 {"ref_dy", "taxels"},
-                                                 {"rotation_deg", "deg"},
-                                                 {"ref_rotation_deg", "deg"},
-                                                 {"confidence", ""},
-                                                 {"p_moved", ""},
-                                                 {"state", ""},
-                                                 {"slipping", ""}};
-    for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
-      for (const Column& column : ofMatrix)
-        columns_.push_back({"m" + std::to_string(m) + "/" + column.name, column.unit});
+    const std::vector<ColumnOf<SlipDetection>> all = slipColumns();
+    for (const char* name : {"active", "dx", "dy", "ref_dx", "ref_dy", "rotation_deg",
+                             "ref_rotation_deg", "confidence", "p_moved", "state", "slipping"})
+      ofMatrix_.push_back(columnNamed(all, name));
+    const std::size_t numMatrices = profile.layout().numMatrices();
+    for (std::size_t m = 0; m < numMatrices; ++m)
+      for (const ColumnOf<SlipDetection>& each : ofMatrix_)
+        columns_.push_back(groupColumn(m, numMatrices, each.column));
   }
 
  private:
@@ -99,28 +90,22 @@ class SlipRowSeries final : public FrameSeries {
       jointsDeg_ = sample ? profile_.angles(*sample).values : std::vector<double>{};
     }
     std::size_t at = 0;
-    const auto put = [&](bool known, double value) { values[at++] = known ? value : kNotKnown; };
-    for (const SlipDetection& detection : detector_.update(frame, jointsDeg_)) {
-      const SlipMotion& motion = detection.motion;
-      const SlipRotation& rotation = motion.rotation;
-      const bool touched = motion.active > 0;
-      const bool moved = touched && motion.valid;
-      const bool turned = touched && rotation.valid;
-      put(true, static_cast<double>(motion.active));
-      put(moved, motion.dx);
-      put(moved, motion.dy);
-      put(moved && motion.refValid, motion.refDx);
-      put(moved && motion.refValid, motion.refDy);
-      put(turned, rotation.rotationDeg);
-      put(turned && rotation.refValid, rotation.refRotationDeg);
-      put(touched, detection.confidence);
-      put(touched && detection.pMoved, detection.pMoved.value_or(0.0));
-      put(touched, static_cast<double>(detection.state));
-      put(true, detection.slipping ? 1.0 : 0.0);
-    }
+    for (const SlipDetection& detection : detector_.update(frame, jointsDeg_))
+      for (const ColumnOf<SlipDetection>& each : ofMatrix_)
+        values[at++] = valueOfColumn(each, detection);
+  }
+
+  // Of a matrix that is not touched only `active` and `slipping` are known.
+  static double valueOfColumn(const ColumnOf<SlipDetection>& each, const SlipDetection& detection) {
+    const std::string& name = each.column.name;
+    if (detection.motion.active == 0 && name != "active" && name != "slipping") return kNotKnown;
+    // A text has no number.
+    if (name == "state") return static_cast<double>(detection.state);
+    return numberOf(each.cell(detection));
   }
 
   SensorSlipDetector detector_;
+  std::vector<ColumnOf<SlipDetection>> ofMatrix_;
   std::optional<std::size_t> sample_;
   std::vector<double> jointsDeg_;
 };

@@ -224,21 +224,20 @@ FeatureTable extractFeatures(const std::vector<fs::path>& paths,
   return table;
 }
 
-std::string featureHeaderLine(const FeatureTable& table) {
-  std::vector<std::string> header = {"class", "file", "begin", "end", "initial_frame", "end_frame"};
-  header.insert(header.end(), table.names.begin(), table.names.end());
-  return csvLine(header);
-}
-
-std::string featureLine(const FeatureRow& row) {
-  std::vector<std::string> cells = {row.className,
-                                    row.file.string(),
-                                    std::to_string(row.begin),
-                                    std::to_string(row.end),
-                                    std::to_string(row.initialFrame),
-                                    std::to_string(row.endFrame)};
-  for (const double value : row.values) cells.push_back(numberText(value));
-  return csvLine(cells);
+std::unique_ptr<ResultTable> featureTable(FeatureTable table) {
+  using Row = FeatureRow;
+  std::vector<ColumnOf<Row>> columns = {
+      columnOf<Row>("class", "", "what is held", &Row::className),
+      columnOf<Row>("file", "", "the recording", [](const Row& row) { return row.file.string(); }),
+      columnOf<Row>("begin", "", "first frame of the grasp", &Row::begin),
+      columnOf<Row>("end", "", "last frame of the grasp", &Row::end),
+      columnOf<Row>(
+          "initial_frame", "", "first frame that the features use", &Row::initialFrame),
+      columnOf<Row>("end_frame", "", "last frame that the features use", &Row::endFrame)};
+  for (std::size_t i = 0; i < table.names.size(); ++i)
+    columns.push_back(
+        columnOf<Row>(table.names[i], "", "a feature", [i](const Row& row) { return row.values[i]; }));
+  return std::make_unique<RowTable<Row>>("features", std::move(columns), std::move(table.rows));
 }
 
 }  // namespace palpate

@@ -258,4 +258,36 @@ std::vector<GraspSegment> findGrasps(const Profile& profile,
   return finder.finish(timing);
 }
 
+std::unique_ptr<ResultTable> graspTable(const Profile& profile,
+                                        const GraspSegmentOptions& options,
+                                        const Progress& progress) {
+  using Grasp = GraspSegment;
+  return std::make_unique<RowTable<Grasp>>(
+      "grasps",
+      std::vector<ColumnOf<Grasp>>{
+          columnOf<Grasp>("begin", "", "first frame", &Grasp::begin),
+          columnOf<Grasp>("end", "", "last frame", &Grasp::end),
+          columnOf<Grasp>(
+              "begin_ms",
+              "ms",
+              "host time of the first frame, since 1970",
+              [profile](const Grasp& g) { return profile.frameTimeUs(g.begin) / kUsPerMs; }),
+          columnOf<Grasp>(
+              "end_ms",
+              "ms",
+              "host time of the last frame, since 1970",
+              [profile](const Grasp& g) { return profile.frameTimeUs(g.end) / kUsPerMs; }),
+          columnOf<Grasp>("fingers",
+                          "",
+                          "fingers that touch in at least half of its frames",
+                          [](const Grasp& g) {
+                            std::string fingers;
+                            for (const int finger : g.fingers)
+                              fingers += (fingers.empty() ? "" : " ") + std::to_string(finger);
+                            return fingers;
+                          }),
+          columnOf<Grasp>("quality", "", "0 to 1", &Grasp::quality)},
+      findGrasps(profile, options, progress));
+}
+
 }  // namespace palpate

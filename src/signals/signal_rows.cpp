@@ -1,91 +1,106 @@
 #include "palpate/signals/signal_rows.h"
 
-#include "palpate/core/number_text.h"
-#include "palpate/core/text_table.h"
-#include "palpate/core/time.h"
+#include <algorithm>
+#include <utility>
+
+#include "palpate/model/matrix_rows.h"
 #include "palpate/model/timing.h"
 #include "palpate/signals/characteristic_signals.h"
-#include "palpate/signals/signal_filter.h"
 
 namespace palpate {
 namespace {
 
-// The values in the order of the columns.
-SignalValues columnsOf(const CharacteristicSignals& row) {
-  return {row.mean,
-          row.filteredMean,
-          row.minimum,
-          row.maximum,
-          row.sum,
-          static_cast<double>(row.active),
-          row.areaMm2};
-}
-// The same for filtered signals, which are in the order of kAllSignalKinds.
-SignalValues columnsOf(const SignalValues& row) {
-  return {row[0], row[1], row[3], row[2], row[4], row[5], row[6]};
-}
+using Row = MatrixRow<SignalValues>;
 
-void appendSignalRow(std::string& lines,
-                     std::size_t frame,
-                     std::int64_t hostUs,
-                     std::size_t matrix,
-                     const SignalValues& columns) {
-  appendNumber(lines, static_cast<std::int64_t>(frame));
-  lines += ',';
-  appendNumber(lines, hostUs / kUsPerMs);
-  lines += ',';
-  appendNumber(lines, static_cast<std::int64_t>(matrix));
-  for (const double value : columns) {
-    lines += ',';
-    appendNumber(lines, value);
+// The signals of the frames of a profile, filtered over time.
+class SignalRun {
+ public:
+  SignalRun(const Profile& profile, const SignalRowsOptions& options, Progress progress)
+      : profile_(profile),
+        first_(static_cast<std::size_t>(options.matrix.value_or(0))),
+        last_(options.matrix ? first_ + 1 : profile.layout().numMatrices()),
+        progress_(std::move(progress)),
+        isSmoothed_(!options.smooth.empty()),
+        filter_(options.smooth, profile.layout().numMatrices(), [this](auto timeUs, auto signals) {
+          for (std::size_t m = first_; m < last_; ++m) add(timeUs, m, signals[m]);
+          ++written_;
+        }) {}
+
+  // Appends what the next frame gives; false after the last one.
+  bool next(std::vector<Row>& rows) {
+    rows_ = &rows;
+    if (frame_ == profile_.numFrames()) {
+      filter_.finish();
+      return false;
+    }
+    reportProgress(progress_, frame_, profile_.numFrames());
+    profile_.readFrame(frame_++, values_);
+    const std::vector<CharacteristicSignals> signals = characteristicSignals(values_);
+    if (isSmoothed_) {
+      filter_.push(values_.hostUs, signals);
+      return true;
+    }
+    for (std::size_t m = first_; m < last_; ++m) {
+      SignalValues row;
+      std::transform(kAllSignalKinds.begin(), kAllSignalKinds.end(), row.begin(), [&](auto kind) {
+        return valueOf(signals[m], kind);
+      });
+      add(values_.hostUs, m, row);
+    }
+    ++written_;
+    return true;
   }
+
+ private:
+  void add(std::int64_t timeUs, std::size_t matrix, const SignalValues& values) {
+    rows_->push_back({written_, timeUs, matrix, values});
+  }
+
+  const Profile profile_;
+  const std::size_t first_, last_;
+  const Progress progress_;
+  const bool isSmoothed_;
+  SignalFilter filter_;
+  TactileFrame values_;
+  std::vector<Row>* rows_ = nullptr;
+  std::size_t frame_ = 0, written_ = 0;
+};
+
+// One signal of kAllSignalKinds.
+ColumnOf<SignalValues> signal(SignalKind kind, const std::string& unit, const char* meaning) {
+  const auto at = static_cast<std::size_t>(
+      std::find(kAllSignalKinds.begin(), kAllSignalKinds.end(), kind) - kAllSignalKinds.begin());
+  return {{std::string(signalName(kind)),
+           kind == SignalKind::kActive ? CellKind::kInteger : CellKind::kNumber,
+           unit,
+           meaning},
+          [at](const SignalValues& row) { return Cell(row[at]); }};
 }
 
 }  // namespace
 
-const char* const kSignalColumns =
-    "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2";
-
-std::string signalUnits(const HandDescription& hand) {
-  const std::string& unit = hand.unit;
-  std::string line = csvLine({"", "ms", "", unit, unit, unit, unit, unit, "taxels", "mm^2"});
-  line.pop_back();
-  return line;
+std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit) {
+  return {signal(SignalKind::kMean, unit, "mean of the touched taxels"),
+          signal(SignalKind::kFilteredMean,
+                 unit,
+                 "mean of the touched taxels of the matrix after a 3 x 3 Gaussian filter"),
+          signal(SignalKind::kMinimum, unit, "minimum of the touched taxels"),
+          signal(SignalKind::kMaximum, unit, "maximum"),
+          signal(SignalKind::kSum, unit, "sum"),
+          signal(SignalKind::kActive, "taxels", "touched taxels"),
+          signal(SignalKind::kArea, "mm^2", "their area")};
 }
 
-void writeSignalRows(const Profile& profile,
-                     std::optional<std::size_t> onlyMatrix,
-                     const Recipe& smooth,
-                     const std::string& lineEnd,
-                     const std::function<void(const std::string& lines)>& sink,
-                     const Progress& progress) {
-  const SensorLayout& layout = profile.layout();
-  const std::size_t first = onlyMatrix.value_or(0);
-  const std::size_t last = onlyMatrix ? *onlyMatrix + 1 : layout.numMatrices();
-  TactileFrame frame;
-  std::string lines;
-  std::size_t written = 0;
-  const auto write = [&](std::int64_t hostUs, const auto& rows) {
-    lines.clear();
-    for (std::size_t m = first; m < last; ++m) {
-      appendSignalRow(lines, written, hostUs, m, columnsOf(rows[m]));
-      lines += lineEnd;
-    }
-    sink(lines);
-    ++written;
-  };
-  if (smooth.dependsOnRate()) smooth.validateForRate(timingOf(profile).rateHz);
-  SignalFilter filter(smooth, layout.numMatrices(), write);
-  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    reportProgress(progress, i, profile.numFrames());
-    profile.readFrame(i, frame);
-    const std::vector<CharacteristicSignals> rows = characteristicSignals(frame);
-    if (smooth.empty())
-      write(frame.hostUs, rows);
-    else
-      filter.push(frame.hostUs, rows);
-  }
-  filter.finish();
+std::unique_ptr<ResultTable> signalTable(const Profile& profile,
+                                         const SignalRowsOptions& options,
+                                         const Progress& progress) {
+  if (options.smooth.dependsOnRate()) options.smooth.validateForRate(timingOf(profile).rateHz);
+  return std::make_unique<RowTable<Row>>(
+      "signals",
+      matrixRowColumns(signalColumns(profile.hand().unit)),
+      [run = std::make_shared<SignalRun>(profile, options, progress)](std::vector<Row>& rows) {
+        return run->next(rows);
+      });
 }
 
 }  // namespace palpate

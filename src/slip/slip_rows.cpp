@@ -1,52 +1,156 @@
 #include "palpate/slip/slip_rows.h"
 
 #include <stdexcept>
-#include <vector>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
+#include "palpate/model/matrix_rows.h"
 
 namespace palpate {
 namespace {
 
-void appendDetection(std::string& row, const SlipDetection& detection) {
-  const SlipMotion& motion = detection.motion;
-  const SlipRotation& rotation = motion.rotation;
-  appendNumber(row, static_cast<std::int64_t>(motion.active));
-  row += motion.valid ? ",1" : ",0";
-  appendSlipCell(row, motion.valid, motion.dx);
-  appendSlipCell(row, motion.valid, motion.dy);
-  appendSlipCell(row, motion.valid && motion.refValid, motion.refDx);
-  appendSlipCell(row, motion.valid && motion.refValid, motion.refDy);
-  row += rotation.valid ? ",1" : ",0";
-  appendSlipCell(row, rotation.valid, rotation.rotationDeg);
-  appendSlipCell(row, rotation.valid && rotation.refValid, rotation.refRotationDeg);
-  appendSlipCell(row, true, rotation.axis.orientationDeg);
-  appendSlipCell(row, true, rotation.axis.eccentricity);
-  appendSlipCell(row, true, rotation.roundness);
-  appendSlipCell(row, true, detection.residual);
-  appendSlipCell(row, true, detection.confidence);
-  appendSlipCell(row, detection.pMoved.has_value(), detection.pMoved.value_or(0.0));
-  row += ',';
-  row += nameOf(detection.state);
-  row += detection.slipping ? ",1" : ",0";
+using Segment = SlipSegment;
+using Detection = SlipDetection;
+
+std::vector<ColumnOf<Segment>> segmentColumns() {
+  return {columnOf<Segment>("begin", "", "first frame", &Segment::begin),
+          columnOf<Segment>("end", "", "last frame", &Segment::end),
+          columnOf<Segment>("begin_ms",
+                            "ms",
+                            "host time of the first frame, since 1970",
+                            [](const Segment& s) { return s.beginUs / kUsPerMs; }),
+          columnOf<Segment>("end_ms",
+                            "ms",
+                            "host time of the last frame, since 1970",
+                            [](const Segment& s) { return s.endUs / kUsPerMs; }),
+          columnOf<Segment>("matrix", "", "number of the matrix, from 0", &Segment::matrix),
+          columnOf<Segment>("path_taxels", "taxels", "length of the path", &Segment::pathTaxels),
+          columnOf<Segment>("rotation_deg", "deg", "sum of the rotations", &Segment::rotationDeg),
+          columnOf<Segment>(
+              "confidence", "", "largest confidence of its frames, 0 to 1", &Segment::confidence)};
 }
+
+// A column of the motion, or of the rotation, that is known where `known` says so.
+template <typename Of, typename Known>
+ColumnOf<Detection> motionColumn(
+    const char* name, const char* unit, const char* meaning, Of of, Known known) {
+  return columnOf<Detection>(name, unit, meaning, [of, known](const Detection& detection) {
+    const SlipMotion& motion = detection.motion;
+    return knownIf(known(motion), of(motion));
+  });
+}
+using Motion = const SlipMotion&;
+bool hasMoved(Motion m) { return m.valid; }
+bool hasReference(Motion m) { return m.valid && m.refValid; }
+bool hasTurned(Motion m) { return m.rotation.valid; }
+bool hasTurnedFromReference(Motion m) { return m.rotation.valid && m.rotation.refValid; }
 
 }  // namespace
 
-const char* const kSlipColumns =
-    "frame,time_ms,matrix,active,valid,dx,dy,ref_dx,ref_dy,rotation_valid,rotation_deg,"
-    "ref_rotation_deg,orientation_deg,eccentricity,roundness,residual,confidence,p_moved,state,"
-    "slipping";
+std::vector<ColumnOf<SlipDetection>> slipColumns() {
+  return {
+      columnOf<Detection>(
+          "active", "taxels", "touched taxels", [](const auto& v) { return v.motion.active; }),
+      columnOf<Detection>("valid",
+                          "",
+                          "whether the motion since the frame before is known",
+                          [](const auto& v) { return v.motion.valid; }),
+      motionColumn(
+          "dx",
+          "taxels",
+          "motion since the frame before, to the right",
+          [](Motion m) { return m.dx; },
+          hasMoved),
+      motionColumn(
+          "dy",
+          "taxels",
+          "motion since the frame before, downwards",
+          [](Motion m) { return m.dy; },
+          hasMoved),
+      motionColumn(
+          "ref_dx",
+          "taxels",
+          "motion since the reference, to the right",
+          [](Motion m) { return m.refDx; },
+          hasReference),
+      motionColumn(
+          "ref_dy",
+          "taxels",
+          "motion since the reference, downwards",
+          [](Motion m) { return m.refDy; },
+          hasReference),
+      columnOf<Detection>("rotation_valid",
+                          "",
+                          "whether the rotation is known",
+                          [](const auto& v) { return hasTurned(v.motion); }),
+      motionColumn(
+          "rotation_deg",
+          "deg",
+          "rotation since the frame before",
+          [](Motion m) { return m.rotation.rotationDeg; },
+          hasTurned),
+      motionColumn(
+          "ref_rotation_deg",
+          "deg",
+          "rotation since the reference",
+          [](Motion m) { return m.rotation.refRotationDeg; },
+          hasTurnedFromReference),
+      columnOf<Detection>("orientation_deg",
+                          "deg",
+                          "direction of the contact's long axis",
+                          [](const auto& v) { return v.motion.rotation.axis.orientationDeg; }),
+      columnOf<Detection>("eccentricity",
+                          "",
+                          "of the contact: 0 round, 1 a line",
+                          [](const auto& v) { return v.motion.rotation.axis.eccentricity; }),
+      columnOf<Detection>("roundness",
+                          "",
+                          "of the contact's outline: 1 a circle",
+                          [](const auto& v) { return v.motion.rotation.roundness; }),
+      columnOf<Detection>(
+          "residual", "", "what the motion doesn't explain", &Detection::residual),
+      columnOf<Detection>("confidence", "", "of the state, 0 to 1", &Detection::confidence),
+      columnOf<Detection>("p_moved",
+                          "",
+                          "probability that the contact moved, not only its load",
+                          &Detection::pMoved),
+      columnOf<Detection>(
+          "state", "", "what the contact does", [](const auto& v) { return nameOf(v.state); }),
+      columnOf<Detection>("slipping", "", "whether that is slip", &Detection::slipping)};
+}
 
-const char* const kSlipUnits = ",ms,,taxels,,taxels,taxels,taxels,taxels,,deg,deg,deg,,,,,,,";
-
-const char* const kSlipSegmentColumns =
-    "begin,end,begin_ms,end_ms,matrix,path_taxels,rotation_deg,confidence";
-
-const char* const kSlipSegmentUnits = ",,ms,ms,,taxels,deg,";
+std::unique_ptr<ResultTable> slipTable(const Profile& profile,
+                                       const SlipRowsOptions& options,
+                                       const Progress& progress) {
+  const auto wanted = [only = options.matrix](std::size_t matrix) {
+    return !only || *only == static_cast<std::int64_t>(matrix);
+  };
+  if (options.segments) {
+    std::vector<SlipSegment> found = findSlips(profile, {.pass = options.pass}, progress);
+    std::erase_if(found, [&](const SlipSegment& each) { return !wanted(each.matrix); });
+    return std::make_unique<RowTable<SlipSegment>>(
+        "slip_segments", segmentColumns(), std::move(found));
+  }
+  using Row = MatrixRow<SlipDetection>;
+  return std::make_unique<RowTable<Row>>(
+      "slip",
+      matrixRowColumns(slipColumns()),
+      [run = std::make_shared<SlipRun>(profile, options.pass),
+       numFrames = profile.numFrames(),
+       wanted,
+       progress](std::vector<Row>& rows) {
+        if (!run->next()) return false;
+        reportProgress(progress, run->frame(), numFrames);
+        const std::vector<SlipDetection>& detections = run->detections();
+        for (std::size_t m = 0; m < detections.size(); ++m)
+          if (detections[m].motion.active > 0 && wanted(m))
+            rows.push_back({run->frame(), run->timeUs(), m, detections[m]});
+        return true;
+      });
+}
 
 void setSlipMethod(SlipRowsOptions& table, std::string_view name) {
   const auto method = slipMethodNamed(name);
@@ -78,62 +182,6 @@ void requireThere(const std::filesystem::path& file,
       table.pass.referenceFrame >= profile.numFrames())
     throw Error(file.string() + ": has no frame " + std::to_string(table.pass.referenceFrame) +
                 " to be the reference; it has " + std::to_string(profile.numFrames()));
-}
-
-void appendSlipCell(std::string& row, bool known, double value) {
-  row += ',';
-  if (known) appendNumber(row, value + 0.0);
-}
-
-void forEachSlipRow(const Profile& profile,
-                    const SlipRunOptions& pass,
-                    std::optional<std::int64_t> matrix,
-                    const std::function<void(const std::string& row)>& sink,
-                    const Progress& progress) {
-  std::string row;
-  runSlipDetector(
-      profile,
-      pass,
-      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections) {
-        for (std::size_t m = 0; m < detections.size(); ++m) {
-          if (detections[m].motion.active == 0) continue;
-          if (matrix && *matrix != static_cast<std::int64_t>(m)) continue;
-          row.clear();
-          appendNumber(row, static_cast<std::int64_t>(frame));
-          row += ',';
-          appendNumber(row, timeUs / kUsPerMs);
-          row += ',';
-          appendNumber(row, static_cast<std::int64_t>(m));
-          row += ',';
-          appendDetection(row, detections[m]);
-          sink(row);
-        }
-      },
-      progress);
-}
-
-void forEachSlipSegmentRow(const Profile& profile,
-                           const SlipRunOptions& pass,
-                           std::optional<std::int64_t> matrix,
-                           const std::function<void(const std::string& row)>& sink,
-                           const Progress& progress) {
-  std::string row;
-  for (const SlipSegment& segment : findSlips(profile, {.pass = pass}, progress)) {
-    if (matrix && *matrix != static_cast<std::int64_t>(segment.matrix)) continue;
-    row.clear();
-    for (const std::int64_t value : {static_cast<std::int64_t>(segment.begin),
-                                     static_cast<std::int64_t>(segment.end),
-                                     segment.beginUs / kUsPerMs,
-                                     segment.endUs / kUsPerMs,
-                                     static_cast<std::int64_t>(segment.matrix)}) {
-      appendNumber(row, value);
-      row += ',';
-    }
-    appendNumber(row, segment.pathTaxels);
-    appendSlipCell(row, true, segment.rotationDeg);
-    appendSlipCell(row, true, segment.confidence);
-    sink(row);
-  }
 }
 
 }  // namespace palpate

@@ -11,45 +11,56 @@
 
 namespace palpate {
 
+SlipRun::SlipRun(Profile profile, const SlipRunOptions& options, UnreadableSamples* unreadable)
+    : profile_(std::move(profile)),
+      unreadable_(unreadable),
+      detector_(profile_.hand(), options.detector) {
+  if (options.detector.reference != SlipReference::kGiven) return;
+  reference_ = options.referenceFrame;
+  if (*reference_ >= profile_.numFrames())
+    throw std::invalid_argument("SlipRun: referenceFrame is " + std::to_string(*reference_) +
+                                " of " + std::to_string(profile_.numFrames()));
+  try {
+    profile_.readFrame(*reference_, values_);
+  } catch (const Error& error) {
+    throw Error(std::string("the reference frame can't be read: ") + error.what());
+  }
+}
+
+void SlipRun::takeAngles() {
+  const auto sample = profile_.angleSampleAt(values_.hostUs);
+  if (sample == sample_) return;
+  sample_ = sample;
+  try {
+    jointsDeg_ = profile_.angles(*sample).values;
+  } catch (const Error&) {
+    if (!unreadable_) throw;
+    jointsDeg_.clear();  // as in a recording without angles
+  }
+}
+
+bool SlipRun::next() {
+  for (; upcoming_ < profile_.numFrames(); ++upcoming_) {
+    if (profile_.readFrame(upcoming_, values_, unreadable_)) break;
+    detector_.setLoss();
+  }
+  if (upcoming_ == profile_.numFrames()) return false;
+  frame_ = upcoming_++;
+  takeAngles();
+  detector_.update(values_, jointsDeg_);
+  if (reference_ == frame_) detector_.setReference();
+  return true;
+}
+
 void runSlipDetector(const Profile& profile,
                      const SlipRunOptions& options,
                      const SlipSink& sink,
                      const Progress& progress,
                      UnreadableSamples* unreadable) {
-  const bool given = options.detector.reference == SlipReference::kGiven;
-  if (given && options.referenceFrame >= profile.numFrames())
-    throw std::invalid_argument("runSlipDetector: referenceFrame is " +
-                                std::to_string(options.referenceFrame) + " of " +
-                                std::to_string(profile.numFrames()));
-  SensorSlipDetector detector(profile.hand(), options.detector);
-  TactileFrame frame;
-  if (given) {
-    try {
-      profile.readFrame(options.referenceFrame, frame);
-    } catch (const Error& error) {
-      throw Error(std::string("the reference frame can't be read: ") + error.what());
-    }
-  }
-  std::vector<double> jointsDeg;
-  std::optional<std::size_t> sample;
-  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    reportProgress(progress, i, profile.numFrames());
-    if (!profile.readFrame(i, frame, unreadable)) {
-      detector.setLoss();
-      continue;
-    }
-    if (const auto angles = profile.angleSampleAt(frame.hostUs); angles != sample) {
-      sample = angles;
-      try {
-        jointsDeg = profile.angles(*angles).values;
-      } catch (const Error&) {
-        if (!unreadable) throw;
-        jointsDeg.clear();  // as in a recording without angles
-      }
-    }
-    detector.update(frame, jointsDeg);
-    if (given && i == options.referenceFrame) detector.setReference();
-    sink(i, frame.hostUs, detector.last());
+  SlipRun run(profile, options, unreadable);
+  while (run.next()) {
+    reportProgress(progress, run.frame(), profile.numFrames());
+    sink(run.frame(), run.timeUs(), run.detections());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/signal_rows.h"
@@ -16,6 +17,12 @@
 
 namespace palpate::batch_task_test {
 namespace {
+
+std::string csvOf(ResultTable& table) {
+  std::string csv;
+  writeTableText(table, {}, [&](const std::string& text) { csv += text; });
+  return csv;
+}
 
 class BatchTasks : public ::testing::Test {
  protected:
@@ -121,9 +128,10 @@ TEST_F(BatchTasks, WithoutAGraspNothingIsMade) {
 
 TEST_F(BatchTasks, SignalsAreTheRowsOfTheRecording) {
   const Profile profile = openRecording(item_.source);
-  std::string rows = std::string(kSignalColumns) + "\n";
-  writeSignalRows(profile, 1, {}, "\n", [&](const std::string& lines) { rows += lines; });
-  EXPECT_TRUE(made(signalsTask({.matrix = 1}), "s.csv") == rows);
+  EXPECT_TRUE(made(signalsTask({.matrix = 1}), "s.csv") ==
+              csvOf(*signalTable(profile, {.matrix = 1})));
+  const Json json = Json::parse(made(signalsTask({.matrix = 1}), "s.json"));
+  EXPECT_EQ(json.at("rows").size(), profile.numFrames());
   EXPECT_NE(refusalOf(signalsTask({.matrix = 6})).find("has no matrix 6, only 0..5"),
             std::string::npos);
   std::filesystem::remove(item_.source);  // vanished since it was found
@@ -137,11 +145,12 @@ TEST_F(BatchTasks, UnitsStandInTheSecondRow) {
     const std::size_t begin = text.find('\n') + 1;
     return text.substr(begin, text.find('\n', begin) - begin);
   };
-  const Profile profile = openRecording(item_.source);
-  EXPECT_EQ(secondRow(made(signalsTask({.unitsRow = true}), "u.csv")), signalUnits(profile.hand()));
-  EXPECT_EQ(secondRow(made(slipTask({.unitsRow = true}), "v.csv")), kSlipUnits);
+  EXPECT_EQ(secondRow(made(signalsTask({.unitsRow = true}), "u.csv")),
+            ",ms,,counts,counts,counts,counts,counts,taxels,mm^2");
+  EXPECT_EQ(secondRow(made(slipTask({.unitsRow = true}), "v.csv")),
+            ",ms,,taxels,,taxels,taxels,taxels,taxels,,deg,deg,deg,,,,,,,");
   EXPECT_EQ(secondRow(made(slipTask({.segments = true, .unitsRow = true}), "w.csv")),
-            kSlipSegmentUnits);
+            ",,ms,ms,,taxels,deg,");
   EXPECT_EQ(secondRow(made(convertTask({.choices = {.unitsRow = true}}), "x.csv")),
             ",ms,,,,counts,us");
   EXPECT_NE(signalsTask({.unitsRow = true}).options, signalsTask({}).options);
@@ -159,9 +168,7 @@ TEST_F(BatchTasks, FiltersAreApplied) {
 
 TEST_F(BatchTasks, SlipIsTheRowsOfTheRecording) {
   const Profile profile = openRecording(item_.source);
-  std::string rows = std::string(kSlipColumns) + "\n";
-  forEachSlipRow(profile, {}, {}, [&](const std::string& row) { rows += row + "\n"; });
-  EXPECT_TRUE(made(slipTask({}), "slip.csv") == rows);
+  EXPECT_TRUE(made(slipTask({}), "slip.csv") == csvOf(*slipTable(profile, {})));
   SlipRowsOptions late;
   late.pass.detector.reference = SlipReference::kGiven;
   late.pass.referenceFrame = profile.numFrames();

@@ -6,7 +6,6 @@
 
 #include "palpate/core/csv_rows.h"
 #include "palpate/core/error.h"
-#include "palpate/core/text_table.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/label_table.h"
 
@@ -36,8 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require(event.t1Us <= profile.frameTimeUs(profile.numFrames() - 1) + 1);
     }
     require(newLabels(table, table.events).empty());
-    std::string csv = csvLine(labelHeader());
-    for (const auto& row : labelRows(table.events, profile)) csv += csvLine(row);
+    std::string csv;
+    writeTableText(*labelRows(table.events, profile), {}, [&](const auto& text) { csv += text; });
     readLabelTable(csv, profile);
   } catch (const Error&) {
   }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
-#include "palpate/core/text_table.h"
 #include "palpate/emulator/synthetic_profile.h"
 
 namespace palpate::label_table_test {
@@ -12,8 +11,8 @@ namespace {
 Profile tenSeconds() { return synthesize({.durationS = 10.0, .grasps = 1}); }
 
 std::string csvOf(std::span<const Event> events, const Profile& profile) {
-  std::string csv = csvLine(labelHeader());
-  for (const auto& row : labelRows(events, profile)) csv += csvLine(row);
+  std::string csv;
+  writeTableText(*labelRows(events, profile), {}, [&](const auto& text) { csv += text; });
   return csv;
 }
 

@@ -26,51 +26,53 @@ Profile oneTaxel() {
   return builder.finish({});
 }
 
-std::string rowsOf(std::optional<std::size_t> matrix, const Recipe& smooth = {}) {
+std::string rowsOf(std::optional<std::int64_t> matrix,
+                   const Recipe& smooth = {},
+                   bool unitsRow = false) {
   std::string rows;
-  writeSignalRows(
-      oneTaxel(), matrix, smooth, ";\n", [&](const std::string& lines) { rows += lines; });
+  writeTableText(*signalTable(oneTaxel(), {.matrix = matrix, .smooth = smooth}),
+                 {.unitsRow = unitsRow},
+                 [&](const std::string& lines) { rows += lines; });
   return rows;
 }
 
 TEST(SignalRows, HaveTheColumnsOfTheHeader) {
-  EXPECT_EQ(std::string(kSignalColumns),
-            "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2");
   // All taxels of matrix 0 exist; the Gaussian spreads 16 over nine of them: 16 / 9. A taxel is
   // 3.4 mm x 3.4 mm: 11.56 mm2.
   const std::string rows = rowsOf(0);
-  EXPECT_EQ(rows.rfind("0,1000,0,0,0,0,0,0,0,0;\n1,1031,0,16,1.77", 0), 0U) << rows;
+  EXPECT_EQ(rows.rfind("frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2\n"
+                       "0,1000,0,0,0,0,0,0,0,0\n1,1031,0,16,1.77",
+                       0),
+            0U)
+      << rows;
   EXPECT_NE(rows.find(",16,16,16,1,11.5"), std::string::npos) << rows;
 }
 
 TEST(SignalRows, AreOneForEachFrameAndMatrix) {
   const std::string rows = rowsOf({});
-  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 2 * 6);
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2 * 6);
 }
 
 TEST(SignalRows, AreSmoothedOverTime) {
   const std::vector<std::string> kalman = {"kalman"};
   const std::string rows = rowsOf(0, parseRecipe(kalman));
-  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 2);
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2);
   EXPECT_NE(rows, rowsOf(0));
   const std::vector<std::string> median = {"median"};
   EXPECT_THROW(rowsOf(0, parseRecipe(median)), std::invalid_argument);
 }
 
 TEST(SignalRows, CanBeCancelled) {
-  EXPECT_THROW(writeSignalRows(
-                   oneTaxel(), {}, {}, "\n", [](const auto&) {}, [](double) { return false; }),
-               Cancelled);
+  const auto table = signalTable(oneTaxel(), {}, [](double) { return false; });
+  std::vector<Cell> cells;
+  EXPECT_THROW(table->next(cells), Cancelled);
 }
 
 TEST(SignalRows, HaveAUnitForEachColumn) {
-  HandDescription hand;
-  hand.unit = "kPa";
-  EXPECT_EQ(signalUnits(hand), ",ms,,kPa,kPa,kPa,kPa,kPa,taxels,mm^2");
-  const std::string columns = kSignalColumns;
-  const std::string units = signalUnits(hand);
-  EXPECT_EQ(std::count(units.begin(), units.end(), ','),
-            std::count(columns.begin(), columns.end(), ','));
+  EXPECT_NE(rowsOf(0, {}, true).find("\n,ms,,counts,counts,counts,counts,counts,taxels,mm^2\n"),
+            std::string::npos);
+  EXPECT_EQ(columnNamed(signalColumns("kPa"), "max").column.unit, "kPa");
+  EXPECT_EQ(columnNamed(signalColumns("kPa"), "active").column.unit, "taxels");
 }
 
 }  // namespace

@@ -33,48 +33,63 @@ Profile movedContact() {
   return builder.finish({});
 }
 
+std::string csvOf(const SlipRowsOptions& options) {
+  std::string csv;
+  writeTableText(*slipTable(movedContact(), options), {}, [&](const auto& text) { csv += text; });
+  return csv;
+}
+
 TEST(SlipRows, AreOneForEachFrameAndMatrixWithAContact) {
-  std::size_t rows = 0, cells = 0;
-  std::string first;
-  forEachSlipRow(movedContact(), {}, {}, [&](const std::string& row) {
-    if (rows++ == 0) first = row;
-    cells = static_cast<std::size_t>(std::count(row.begin(), row.end(), ','));
-  });
-  EXPECT_EQ(rows, 2U * 90U);
-  EXPECT_EQ(first.rfind("0,1031,1,", 0), 0U) << first;
-  const std::string columns = kSlipColumns;
-  EXPECT_EQ(cells, static_cast<std::size_t>(std::count(columns.begin(), columns.end(), ',')));
-  std::size_t ofOne = 0;
-  forEachSlipRow(movedContact(), {}, 3, [&](const std::string& row) {
-    ofOne += row.find(",3,") != std::string::npos ? 1 : 0;
-  });
-  EXPECT_EQ(ofOne, 90U);
+  const std::string csv = csvOf({});
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 90);
+  EXPECT_EQ(csv.rfind("frame,time_ms,matrix,active,valid,dx,dy,ref_dx,ref_dy,rotation_valid,"
+                      "rotation_deg,ref_rotation_deg,orientation_deg,eccentricity,roundness,"
+                      "residual,confidence,p_moved,state,slipping\n0,1031,1,",
+                      0),
+            0U)
+      << csv.substr(0, 300);
+  const std::string ofOne = csvOf({.matrix = 3});
+  EXPECT_EQ(std::count(ofOne.begin(), ofOne.end(), '\n'), 1 + 90);
+  EXPECT_NE(ofOne.find("\n89,3790,3,"), std::string::npos);
+}
+
+// As the detector says them, frame by frame.
+TEST(SlipRows, HaveTheValuesOfTheDetector) {
+  const auto table = slipTable(movedContact(), {.matrix = 1});
+  std::vector<Cell> cells;
+  std::size_t known = 0;
+  runSlipDetector(
+      movedContact(), {}, [&](std::size_t frame, std::int64_t, const auto& detections) {
+        ASSERT_TRUE(table->next(cells));
+        const SlipDetection& detection = detections[1];
+        EXPECT_EQ(std::get<std::int64_t>(cells[0]), static_cast<std::int64_t>(frame));
+        EXPECT_EQ(std::get<bool>(cells[4]), detection.motion.valid);
+        EXPECT_EQ(std::holds_alternative<std::monostate>(cells[5]), !detection.motion.valid);
+        if (detection.motion.valid) {
+          EXPECT_EQ(std::get<double>(cells[6]), detection.motion.dy + 0.0);
+          ++known;
+        }
+        EXPECT_EQ(std::get<std::string>(cells[18]), nameOf(detection.state));
+        EXPECT_EQ(std::get<bool>(cells[19]), detection.slipping);
+      });
+  EXPECT_GT(known, 50u);
+  EXPECT_FALSE(table->next(cells));
 }
 
 TEST(SlipRows, OfSlipsAreOneForEachSlip) {
-  std::string rows;
-  forEachSlipSegmentRow(
-      movedContact(), {}, {}, [&](const std::string& row) { rows += row + "\n"; });
-  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1) << rows;
-  EXPECT_EQ(std::count(rows.begin(), rows.end(), ','), 7) << rows;
-  std::size_t ofThree = 0;
-  forEachSlipSegmentRow(movedContact(), {}, 3, [&](const std::string&) { ++ofThree; });
-  EXPECT_EQ(ofThree, 0U);
+  const std::string csv = csvOf({.segments = true});
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 1) << csv;
+  EXPECT_EQ(csv.rfind("begin,end,begin_ms,end_ms,matrix,path_taxels,rotation_deg,confidence\n", 0),
+            0U);
+  const std::string ofThree = csvOf({.matrix = 3, .segments = true});
+  EXPECT_EQ(std::count(ofThree.begin(), ofThree.end(), '\n'), 1);
 }
 
-TEST(SlipRows, LeaveUnknownCellsEmpty) {
-  std::string row = "x";
-  appendSlipCell(row, false, 1.5);
-  appendSlipCell(row, true, 1.5);
-  EXPECT_EQ(row, "x,,1.5");
-}
-
-TEST(SlipRows, HaveAUnitForEachColumn) {
-  const auto cells = [](const std::string& line) {
-    return std::count(line.begin(), line.end(), ',');
-  };
-  EXPECT_EQ(cells(kSlipUnits), cells(kSlipColumns));
-  EXPECT_EQ(cells(kSlipSegmentUnits), cells(kSlipSegmentColumns));
+TEST(SlipRows, HaveUnits) {
+  EXPECT_EQ(columnNamed(slipColumns(), "ref_dx").column.unit, "taxels");
+  EXPECT_EQ(columnNamed(slipColumns(), "orientation_deg").column.unit, "deg");
+  EXPECT_EQ(columnNamed(slipColumns(), "p_moved").column.unit, "");
+  EXPECT_THROW(columnNamed(slipColumns(), "speed"), std::out_of_range);
 }
 
 TEST(SlipRowsOptions, TakesTheWordsOfTheCommand) {

@@ -11,6 +11,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -49,7 +50,7 @@ int featuresCommand(const Arguments& words) {
            "are, or the only one. A grasp without features (no joint angles, or pads that don't "
            "face each other) and a recording without a grasp are reported on standard error; then "
            "the exit code is 3. With -o there is a table for each recording.",
-       .options = withBatchOptions(withFilterOptions(
+       .options = withTableOptions(withFilterOptions(
            {{"set",
              "SET",
              "study, best (default where two pads pinch), session or statistics (default of "
@@ -64,9 +65,9 @@ int featuresCommand(const Arguments& words) {
   options.filters = recipeOf(given);
   if (given.has("output"))
     return runBatchCommand(
-        given, batchTemplateOf(given, {".csv"}), featuresTask(options.set, options.filters));
+        given, batchTemplateOf(given, {".csv", ".json"}), featuresTask(options.set, options.filters));
   refuseBatchOptions(given);
-  const FeatureTable table = gather(given, options);
+  FeatureTable table = gather(given, options);
 
   if (table.set == FeatureSet::kSession && !given.quiet())
     sayFeatures(std::string(sessionSetWarning()));
@@ -76,11 +77,9 @@ int featuresCommand(const Arguments& words) {
                 (table.numFiles == 1 ? " recording" : " recordings"));
     return kFailed;
   }
-  StandardOutput out;
-  out.write(featureHeaderLine(table));
-  for (const FeatureRow& row : table.rows) out.write(featureLine(row));
-  out.finish();
-  return table.problems.empty() ? kDone : kPartlyDone;
+  const bool isWhole = table.problems.empty();
+  writeTable(given, *featureTable(std::move(table)));
+  return isWhole ? kDone : kPartlyDone;
 }
 
 }  // namespace palpate::commands

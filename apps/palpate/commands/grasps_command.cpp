@@ -1,52 +1,14 @@
 // The command `palpate grasps PATH...` finds the grasps in recordings and prints them as CSV.
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
-
-#include "palpate/core/error.h"
-#include "palpate/core/number_text.h"
-#include "palpate/core/text_table.h"
-#include "palpate/core/time.h"
-#include "palpate/model/hand_file.h"
-#include "palpate/recognition/grasp_segments.h"
-
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "commands/export_options.h"
 #include "commands/filter_options.h"
-#include "commands/recording_list.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
-namespace {
-
-// Throws when the rule of the study has no matrices: the result "no grasp" would be wrong.
-void requirePads(const std::filesystem::path& file,
-                 const Profile& profile,
-                 const GraspSegmentOptions& options) {
-  const HandDescription& hand = profile.hand();
-  if (options.rule == GraspRule::kStudy && !(hand.file && hand.file->pinch))
-    throw FileError(file,
-                    "rule study needs two pads that pinch, which the description of '" + hand.name +
-                        "' doesn't name: use --rule general");
-}
-
-std::vector<std::string> graspsCellsOf(const Profile& profile, const GraspSegment& grasp) {
-  std::string fingers;
-  for (const int finger : grasp.fingers)
-    fingers += (fingers.empty() ? "" : " ") + std::to_string(finger);
-  return {std::to_string(grasp.begin),
-          std::to_string(grasp.end),
-          std::to_string(profile.frameTimeUs(grasp.begin) / kUsPerMs),
-          std::to_string(profile.frameTimeUs(grasp.end) / kUsPerMs),
-          fingers,
-          numberText(grasp.quality)};
-}
-
-}  // namespace
 
 int graspsCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate grasps PATH... [--rule general|study]",
+      {.synopsis = "palpate grasps PATH... [--rule general|study] [-o TEMPLATE]",
        .purpose =
            "Finds the grasps in recordings and prints one per row as CSV: first and last frame "
            "(both inclusive), their host times [ms since 1970], the fingers, and a quality. PATH "
@@ -64,35 +26,15 @@ int graspsCommand(const Arguments& words) {
            "one or none of its ends are inside the recording (not at its first or last frame, nor "
            "beside a gap)",
        .options =
-           withFilterOptions({{"rule", "RULE", "general (default) or study"}, unitsRowOption()}),
+           withTableOptions(withFilterOptions({{"rule", "RULE", "general (default) or study"}})),
        .example = "palpate grasps recordings --rule general > grasps.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  GraspSegmentOptions options;
-  if (given.choice("rule", {"general", "study"}) == "study") options.rule = GraspRule::kStudy;
-  const Recipe recipe = recipeOf(given);
-  const RecordingList list = recordingsIn(given.words());
-  std::vector<std::string> header = {"begin", "end", "begin_ms", "end_ms", "fingers", "quality"};
-  if (list.several) header.emplace_back("file");
-  std::vector<std::string> units = {"", "", "ms", "ms", "", ""};
-  units.resize(header.size());
-  return writeOpenedTexts(
-      list,
-      given.quiet(),
-      {.begin = csvLine(header) + (given.has("units-row") ? csvLine(units) : "")},
-      [&](const std::filesystem::path& file,
-          const Recording& whole,
-          const TextSink& write,
-          const Progress& progress) {
-        const Profile profile = filteredBy(recipe, whole, file, progress);
-        requirePads(file, profile, options);
-        for (const GraspSegment& grasp : findGrasps(profile, options, progress)) {
-          std::vector<std::string> cells = graspsCellsOf(profile, grasp);
-          if (list.several) cells.push_back(file.string());
-          write(csvLine(cells));
-        }
-      });
+  GraspRowsOptions options{.filters = recipeOf(given)};
+  if (given.choice("rule", {"general", "study"}) == "study")
+    options.segments.rule = GraspRule::kStudy;
+  return runTableCommand(given, graspsOf(options));
 }
 
 }  // namespace palpate::commands

@@ -6,7 +6,6 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_file.h"
-#include "palpate/core/text_table.h"
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/label_table.h"
 #include "palpate/recording/recording.h"
@@ -14,6 +13,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/recording_list.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -71,7 +71,7 @@ int labelsCommand(const Arguments& words) {
            "end_s is a moment, a row without kind is a label. Where a column names the file, only "
            "the rows of FILE are added. Wrong rows are left out and named by "
            "their line number; then the exit code is 3, or 1 if all rows are wrong.",
-       .options = {{"import", "LABELS.csv", "add the labels of this table to FILE"}},
+       .options = withTableOptions({{"import", "LABELS.csv", "add the labels of this table to FILE"}}),
        .example = "palpate labels recordings > labels.csv",
        .minArguments = 1},
       words);
@@ -80,22 +80,14 @@ int labelsCommand(const Arguments& words) {
     if (given.words().size() != 1) throw UsageError("--import takes one FILE");
     return importLabels(given, given.words()[0], *from);
   }
-  const RecordingList list = recordingsIn(given.words());
-  std::vector<std::string> header = labelHeader();
-  if (list.several) header.emplace_back("file");
-  return writeReadableTexts(
-      list,
-      given.quiet(),
-      {.begin = csvLine(header)},
-      [&](const std::filesystem::path& file,
-          const Recording& recording,
-          const TextSink& write,
-          const Progress&) {
-        for (std::vector<std::string>& cells : labelRows(recording.events, recording.profile)) {
-          if (list.several) cells.push_back(file.string());
-          write(csvLine(cells));
-        }
-      });
+  return runTableCommand(
+      given,
+      {.options = "labels",
+       .of = [](const std::filesystem::path&, const Recording& recording, const Progress&) {
+         return labelRows(recording.events, recording.profile);
+       },
+       .rowNoun = "label",
+       .readable = true});
 }
 
 }  // namespace palpate::commands

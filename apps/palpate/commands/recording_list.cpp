@@ -158,13 +158,18 @@ class ListRun {
 
 // Of a small recording more text than this isn't kept until its turn comes.
 constexpr std::size_t kMostTextAhead = 4u << 20;
+constexpr std::size_t kPieceOfRows = 1u << 16;  // bytes
+// Why a recording can't stand in a table whose columns and units are those of an earlier one.
+constexpr const char* kOtherColumns =
+    "its values have another unit, or other columns, than those of the recordings before; give it "
+    "a table of its own";
 class TooMuchText {};
 
 // What became of one recording before its turn.
 struct TextAhead {
   bool done = false;  // otherwise the work is done when its turn comes
   std::vector<std::string> notes = {};
-  std::string units = {};
+  std::string head = {};
   std::string text = {};
   std::string damage = {};
   std::exception_ptr failure = {};
@@ -180,24 +185,43 @@ std::string damageOf(const Recording& recording, Reading reading) {
                                                     : eventsLeftOutText(damage.events);
 }
 
+// What is written of all recordings: the head once, which must be the same for each, then texts.
+struct TextForm {
+  std::string between = {};
+  std::string end = {};
+  bool startsWithComma = false;  // each text; that of the first one is left out
+};
+
+// What the work on one recording writes, and says.
+struct TextTarget {
+  TextSink head;  // once, before any text
+  TextSink write;
+  std::vector<std::string> notes = {};
+  std::vector<std::string> problems = {};
+};
+using TextWork = std::function<void(
+    const fs::path& file, const Recording&, TextTarget& target, const Progress&)>;
+
+std::string joined(std::string text, const std::vector<std::string>& more) {
+  for (const std::string& each : more) text += (text.empty() ? "" : "; ") + each;
+  return text;
+}
+
 // Runs `work` for each file: ahead of its turn for small recordings, whose text is kept until then;
 // otherwise at its turn, straight to standard output.
 int writeTexts(const RecordingList& list,
                bool quiet,
-               const TextFrame& frame,
+               const TextForm& form,
                Reading reading,
                const std::vector<std::string>& topics,
-               const OpenedText& work) {
+               const TextWork& work) {
   ListRun run(list, quiet);
   StandardOutput out;
-  bool begun = false;
-  std::string units;  // of the first recording
+  bool begun = false, written = false;
+  std::string firstHead;
   const auto read = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
     return (reading == Reading::kWhole ? readRecording : readableRecording)(
         file, {threads, topics}, partOf(progress, 0.0, 0.5));
-  };
-  const auto unitsOf = [&](const Recording& recording) {
-    return frame.units ? frame.units(recording.profile) : std::string();
   };
   // The report on a single readable recording has its warnings.
   const auto notesOf = [&](const fs::path& file, const Recording& recording) {
@@ -205,25 +229,26 @@ int writeTexts(const RecordingList& list,
     return reported ? std::vector<std::string>()
                     : notedWarnings(file, recording.profile, list.several);
   };
-  const auto begin = [&](const fs::path& file, const std::string& itsUnits) {
-    if (begun && itsUnits != units) throw Error(file.string() + ": " + kOtherUnits);
-    out.write(begun ? frame.between : frame.begin + itsUnits);
-    units = itsUnits;
+  const auto begin = [&](const fs::path& file, const std::string& head) {
+    if (begun && head != firstHead) throw Error(file.string() + ": " + kOtherColumns);
+    out.write(begun ? form.between : head);
+    firstHead = head;
     begun = true;
+  };
+  const auto put = [&](const std::string& text) {
+    if (text.empty()) return;
+    out.write(form.startsWithComma && !written ? text.substr(1) : text);
+    written = true;
   };
 
   const auto atItsTurn = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
     const Recording recording = read(file, progress, threads);
     for (const std::string& note : notesOf(file, recording)) run.note(note);
     run.leaveTheTerminal();
-    bool first = true;
-    const auto write = [&](const std::string& text) {
-      if (std::exchange(first, false)) begin(file, unitsOf(recording));
-      out.write(text);
-    };
-    work(file, recording, write, partOf(progress, 0.5, 1.0));
-    write({});
-    return damageOf(recording, reading);
+    TextTarget target{.head = [&](const std::string& head) { begin(file, head); }, .write = put};
+    work(file, recording, target, partOf(progress, 0.5, 1.0));
+    for (const std::string& note : target.notes) run.note(file.string() + ": " + note);
+    return joined(damageOf(recording, reading), target.problems);
   };
 
   const auto ahead = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
@@ -232,13 +257,17 @@ int writeTexts(const RecordingList& list,
     try {
       const Recording recording = read(file, progress, threads);
       result.notes = notesOf(file, recording);
-      result.units = unitsOf(recording);
-      const auto write = [&](const std::string& text) {
-        if (result.text.size() + text.size() > kMostTextAhead) throw TooMuchText();
-        result.text += text;
-      };
-      work(file, recording, write, partOf(progress, 0.5, 1.0));
-      result.damage = damageOf(recording, reading);
+      TextTarget target{.head = [&](const std::string& head) { result.head = head; },
+                        .write =
+                            [&](const std::string& text) {
+                              if (result.text.size() + text.size() > kMostTextAhead)
+                                throw TooMuchText();
+                              result.text += text;
+                            }};
+      work(file, recording, target, partOf(progress, 0.5, 1.0));
+      for (const std::string& note : target.notes)
+        result.notes.push_back(file.string() + ": " + note);
+      result.damage = joined(damageOf(recording, reading), target.problems);
     } catch (const TooMuchText&) {
       return TextAhead();
     } catch (...) {
@@ -265,8 +294,8 @@ int writeTexts(const RecordingList& list,
       for (const std::string& note : result.notes) run.note(note);
       run.leaveTheTerminal();
       if (!result.failure || !result.text.empty()) {
-        begin(file, result.units);
-        out.write(result.text);
+        begin(file, result.head);
+        put(result.text);
       }
     }
     // The rows of each recording at once.
@@ -275,8 +304,35 @@ int writeTexts(const RecordingList& list,
     return FileOutcome{.problem =
                            result.damage.empty() ? "" : file.string() + ": " + result.damage};
   });
+  if (begun) out.write(form.end);
   out.finish();
   return code;
+}
+
+// Texts that all stand behind the same beginning.
+int writeFramedTexts(const RecordingList& list,
+                     bool quiet,
+                     const TextFrame& frame,
+                     Reading reading,
+                     const std::vector<std::string>& topics,
+                     const OpenedText& work) {
+  return writeTexts(list,
+                    quiet,
+                    {.between = frame.between},
+                    reading,
+                    topics,
+                    [&](const fs::path& file,
+                        const Recording& recording,
+                        TextTarget& target,
+                        const Progress& progress) {
+                      bool first = true;
+                      const auto write = [&](const std::string& text) {
+                        if (std::exchange(first, false)) target.head(frame.begin);
+                        target.write(text);
+                      };
+                      work(file, recording, write, progress);
+                      write({});
+                    });
 }
 
 }  // namespace
@@ -359,7 +415,7 @@ int writeOpenedTexts(const RecordingList& list,
                      bool quiet,
                      const TextFrame& frame,
                      const OpenedText& work) {
-  return writeTexts(list, quiet, frame, Reading::kWhole, {}, work);
+  return writeFramedTexts(list, quiet, frame, Reading::kWhole, {}, work);
 }
 
 int writeReadableTexts(const RecordingList& list,
@@ -367,7 +423,37 @@ int writeReadableTexts(const RecordingList& list,
                        const TextFrame& frame,
                        const OpenedText& work,
                        const std::vector<std::string>& topics) {
-  return writeTexts(list, quiet, frame, Reading::kAsFarAsReadable, topics, work);
+  return writeFramedTexts(list, quiet, frame, Reading::kAsFarAsReadable, topics, work);
+}
+
+int writeTables(const RecordingList& list, bool quiet, const TableRun& run) {
+  TableTextOptions options = run.text;
+  if (list.several) options.addedName = "file";
+  const bool isJson = options.form == TableForm::kJson;
+  return writeTexts(list,
+                    quiet,
+                    {.end = isJson ? kJsonTableEnd : "", .startsWithComma = isJson},
+                    run.readable ? Reading::kAsFarAsReadable : Reading::kWhole,
+                    {},
+                    [&](const fs::path& file,
+                        const Recording& recording,
+                        TextTarget& target,
+                        const Progress& progress) {
+                      const std::unique_ptr<ResultTable> table =
+                          run.of(file, recording, progress);
+                      const TableText text(*table, options);
+                      target.head(text.begin());
+                      std::string rows;
+                      for (std::vector<Cell> cells; table->next(cells);) {
+                        text.appendRow(rows, cells, file.string());
+                        if (rows.size() < kPieceOfRows) continue;
+                        target.write(rows);
+                        rows.clear();
+                      }
+                      target.write(rows);
+                      target.notes = table->notes();
+                      target.problems = table->problems();
+                    });
 }
 
 void reportLeftOut(const Profile& profile, const std::filesystem::path& out) {

@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/core/result_table.h>
 #include <palpate/model/profile.h>
 #include <palpate/recording/recording.h>
 
@@ -48,16 +50,10 @@ using TextSink = std::function<void(const std::string& text)>;
 // These are called from several threads at once, each with another file.
 using OpenedText = std::function<void(
     const std::filesystem::path& file, const Recording&, const TextSink& write, const Progress&)>;
-// Why a recording can't stand in a table whose row of units is that of an earlier one.
-inline constexpr const char* kOtherUnits =
-    "its values have another unit than those of the recordings before; give it a table of its own";
 // What stands between the texts of the recordings.
 struct TextFrame {
   std::string begin = {};    // once, in front of the first recording that is done or wrote text
   std::string between = {};  // in front of every further one
-  // The row with the units behind `begin`; may be empty: none. A recording that has other units
-  // than the first one fails.
-  std::function<std::string(const Profile&)> units = {};
 };
 
 // The line that says what a recording lost when it was read (lostText()); empty: nothing.
@@ -101,6 +97,20 @@ int writeReadableTexts(const RecordingList& list,
                        const TextFrame& frame,
                        const OpenedText& work,
                        const std::vector<std::string>& topics = {});
+
+// Makes the result table of a recording; called from several threads at once.
+using TableOfRecording = std::function<std::unique_ptr<ResultTable>(
+    const std::filesystem::path& file, const Recording&, const Progress&)>;
+struct TableRun {
+  TableOfRecording of;
+  TableTextOptions text = {};
+  // Every recording is read completely; of a damaged one the readable part is used.
+  bool readable = false;
+};
+// As writeOpenedTexts(): one table of all recordings, in whose last column `file` each row of
+// several recordings names its own. A recording with other columns or units than the first one
+// fails.
+int writeTables(const RecordingList& list, bool quiet, const TableRun& run);
 
 // Says on standard error, before a profile is saved as `out`, what will be missing there.
 void reportLeftOut(const Profile& profile, const std::filesystem::path& out);

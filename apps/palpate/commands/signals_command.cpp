@@ -1,19 +1,13 @@
 // The command `palpate signals PATH... [--matrix M] [--filter SPEC..]` prints characteristic
-// signals as CSV.
+// signals as a table.
 #include <cstdint>
-#include <filesystem>
 
-#include "palpate/batch/batch_task.h"
-#include "palpate/core/text_table.h"
 #include "palpate/signals/signal_filter.h"
-#include "palpate/signals/signal_rows.h"
 
-#include "commands/batch_options.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "commands/export_options.h"
 #include "commands/filter_options.h"
-#include "commands/recording_list.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -42,44 +36,17 @@ int signalsCommand(const Arguments& words) {
                   "recording below it. With several recordings a last column names the file; one "
                   "that can't be read is reported, and the rows of the others are printed: exit "
                   "code 3. With -o there is a table for each recording.",
-       .options = withBatchOptions(withFilterOptions(
+       .options = withTableOptions(withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
-            unitsRowOption(),
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}})),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  const auto matrix = given.integer("matrix", 0, INT64_MAX);
-  const Recipe recipe = recipeOf(given);
-  const Recipe smooth = smoothOf(given);
-  const bool unitsRow = given.has("units-row");
-  if (given.has("output"))
-    return runBatchCommand(
-        given,
-        batchTemplateOf(given, {".csv"}),
-        signalsTask({.matrix = matrix, .filters = recipe, .smooth = smooth, .unitsRow = unitsRow}));
-  refuseBatchOptions(given);
-  const RecordingList recordings = recordingsIn(given.words());
-  const char* const noUnit = recordings.several ? ",\n" : "\n";
-  TextFrame frame{.begin = std::string(kSignalColumns) +
-                           std::string(recordings.several ? ",file\n" : "\n")};
-  if (unitsRow)
-    frame.units = [noUnit](const Profile& profile) { return signalUnits(profile.hand()) + noUnit; };
-  return writeOpenedTexts(recordings,
-                          given.quiet(),
-                          frame,
-                          [&](const std::filesystem::path& file,
-                              const Recording& unfiltered,
-                              const TextSink& write,
-                              const Progress& progress) {
-                            const Profile profile = filteredBy(recipe, unfiltered, file);
-                            requireBelowHalfRate(smooth, profile, file);
-                            requireMatrix(file, profile.layout(), matrix);
-                            const std::string lineEnd =
-                                recordings.several ? "," + csvLine({file.string()}) : "\n";
-                            writeSignalRows(profile, matrix, smooth, lineEnd, write, progress);
-                          });
+  return runTableCommand(given,
+                         signalsOf({.matrix = given.integer("matrix", 0, INT64_MAX),
+                                    .filters = recipeOf(given),
+                                    .smooth = smoothOf(given)}));
 }
 
 }  // namespace palpate::commands

@@ -1,24 +1,15 @@
 // The command `palpate slip FILE...` prints as CSV how contacts move on every matrix, and whether
 // that is slip.
 #include <cstdint>
-#include <filesystem>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "palpate/batch/batch_task.h"
-#include "palpate/core/error.h"
-#include "palpate/core/number_text.h"
-#include "palpate/core/text_table.h"
-#include "palpate/core/time.h"
 #include "palpate/slip/slip_rows.h"
 
-#include "commands/batch_options.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "commands/export_options.h"
 #include "commands/filter_options.h"
-#include "commands/recording_list.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -41,7 +32,6 @@ SlipRowsOptions slipOptionsOf(const CommandLine& given) {
   rule.referenceTaxels = given.number("limit", 1e-3, 100.0).value_or(rule.referenceTaxels);
   rule.rotationDeg = given.number("rotation", 0.1, 360.0).value_or(rule.rotationDeg);
   request.segments = given.has("segments");
-  request.unitsRow = given.has("units-row");
   request.filters = recipeOf(given);
   return request;
 }
@@ -59,7 +49,7 @@ int slipCommand(const Arguments& words) {
            "columns. With --segments there is a row per slip instead. PATH is a recording, or a "
            "folder: every recording below it. With several recordings a last column names the "
            "file. With -o there is a table for each recording.",
-       .options = withBatchOptions(withFilterOptions(
+       .options = withTableOptions(withFilterOptions(
            {{"method",
              "METHOD",
              "centroid, alcazar, ncc-paraboloid, ncc-gauss3, phase, phase-normalized, "
@@ -72,42 +62,12 @@ int slipCommand(const Arguments& words) {
             {"step", "T", "threshold per frame [taxels], default 0.20"},
             {"limit", "T", "threshold since the reference [taxels], default 1.0"},
             {"rotation", "DEG", "threshold of the rotation [deg], default 5"},
-            {"segments", "", "a row per slip: frames, matrix, length of the path"},
-            unitsRowOption()})),
+            {"segments", "", "a row per slip: frames, matrix, length of the path"}})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  const SlipRowsOptions request = slipOptionsOf(given);
-  const bool segments = request.segments;
-  if (given.has("output"))
-    return runBatchCommand(given, batchTemplateOf(given, {".csv"}), slipTask(request));
-  refuseBatchOptions(given);
-  const RecordingList recordings = recordingsIn(given.words());
-  StandardOutput out;
-  bool headerWritten = false;
-  return forEachOpened(
-      recordings,
-      given.quiet(),
-      [&](const std::filesystem::path& file, const Recording& whole, const Progress& progress) {
-        const Profile profile = filteredBy(request.filters, whole, file, progress);
-        requireThere(file, profile, request);
-        if (!headerWritten)
-          out.write(std::string(segments ? kSlipSegmentColumns : kSlipColumns) +
-                    (recordings.several ? ",file\n" : "\n"));
-        if (!headerWritten && request.unitsRow)
-          out.write(std::string(segments ? kSlipSegmentUnits : kSlipUnits) +
-                    (recordings.several ? ",\n" : "\n"));
-        headerWritten = true;
-        const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
-        (segments ? forEachSlipSegmentRow : forEachSlipRow)(
-            profile,
-            request.pass,
-            request.matrix,
-            [&](const std::string& row) { out.write(row + lineEnd); },
-            progress);
-        out.finish();
-      });
+  return runTableCommand(given, slipOf(slipOptionsOf(given)));
 }
 
 }  // namespace palpate::commands

@@ -3,14 +3,21 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include <palpate/batch/batch_run.h>
 #include <palpate/batch/export_extras.h>
 #include <palpate/batch/grasp_files.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/recognition/feature_table.h>
+#include <palpate/recognition/grasp_segments.h>
+#include <palpate/core/result_table.h>
 #include <palpate/recording/recording.h>
+#include <palpate/signals/signal_rows.h>
 #include <palpate/slip/slip_rows.h>
 
 namespace palpate {
@@ -31,15 +38,34 @@ BatchTask convertTask(const ConvertOptions& options = {});
 // without a grasp fails.
 BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options = {});
 
-struct SignalRowsOptions {
-  std::optional<std::int64_t> matrix = {};  // only this one
-  Recipe filters = {};                      // of the frames, first
-  Recipe smooth = {};                       // of the signals, over time
-  bool unitsRow = false;                    // a second row with the units
+// A result table of a recording, as a command prints it and a batch writes it.
+struct RecordingTable {
+  // Everything that the rows depend on beside the recording, as in BatchTask.
+  std::string options;
+  // Makes the table; `file` is for messages. Throws Error, std::invalid_argument.
+  std::function<std::unique_ptr<ResultTable>(
+      const std::filesystem::path& file, const Recording& recording, const Progress& progress)>
+      of;
+  // What a row is, for what a batch says: "slip"; empty: it says how many frames were read.
+  std::string rowNoun = {};
+  bool unitsRow = false;  // of CSV
+  bool readable = false;  // made of the readable part of a damaged recording, too
 };
-BatchTask signalsTask(const SignalRowsOptions& table);
+RecordingTable signalsOf(const SignalRowsOptions& options);
+RecordingTable slipOf(const SlipRowsOptions& options);
+struct GraspRowsOptions {
+  GraspSegmentOptions segments = {};
+  Recipe filters = {};  // of the frames, first
+};
+// Its work throws FileError for the rule `study` where the hand names no pads that pinch.
+RecordingTable graspsOf(const GraspRowsOptions& options);
 
-BatchTask slipTask(const SlipRowsOptions& table);
+// Writes the table of each recording, in the form of the result's ending: .csv or .json.
+BatchTask tableTask(const RecordingTable& table);
+inline BatchTask signalsTask(const SignalRowsOptions& options) {
+  return tableTask(signalsOf(options));
+}
+inline BatchTask slipTask(const SlipRowsOptions& options) { return tableTask(slipOf(options)); }
 // Without grasps with features the work fails. The class of a grasp is as in feature_table.h.
 BatchTask featuresTask(std::optional<FeatureSet> set = {}, const Recipe& filters = {});
 }  // namespace palpate

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -19,6 +20,7 @@
 #include <Eigen/Core>
 
 #include <palpate/core/progress.h>
+#include <palpate/core/result_table.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/recognition/grasp_features.h>
 
@@ -114,8 +116,8 @@ FeatureTable extractFeatures(const std::vector<std::filesystem::path>& paths,
                              const FeatureExtractionOptions& options = {},
                              const Progress& progress = {});
 
-// The table as lines of CSV, each with its line end.
-std::string featureHeaderLine(const FeatureTable& table);
-std::string featureLine(const FeatureRow& row);
+// The table as a result table: class, file, first and last frame, those that the features use, then
+// the features.
+std::unique_ptr<ResultTable> featureTable(FeatureTable table);
 
 }  // namespace palpate

@@ -11,9 +11,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/core/result_table.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/timing.h>
 #include <palpate/signals/characteristic_signals.h>
@@ -69,5 +71,10 @@ std::vector<GraspSegment> findGrasps(const Profile& profile,
                                      const SignalTable& table,
                                      const TimingReport& timing,
                                      const GraspSegmentOptions& options = {});
+
+// The grasps as a result table: first and last frame, their host times, the fingers, the quality.
+std::unique_ptr<ResultTable> graspTable(const Profile& profile,
+                                        const GraspSegmentOptions& options = {},
+                                        const Progress& progress = {});
 
 }  // namespace palpate

@@ -9,11 +9,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <palpate/core/result_table.h>
 #include <palpate/model/event.h>
 #include <palpate/model/profile.h>
 
@@ -22,11 +24,9 @@ namespace palpate {
 // The kinds that a table of labels has.
 bool isTabledLabel(const Event& event);
 
-// The names of the columns.
-std::vector<std::string> labelHeader();
-// The cells of each label among the events, in order of time. A profile without frames has none.
-std::vector<std::vector<std::string>> labelRows(std::span<const Event> events,
-                                                const Profile& profile);
+// The labels among the events as a result table, in order of time. A profile without frames has
+// none.
+std::unique_ptr<ResultTable> labelRows(std::span<const Event> events, const Profile& profile);
 
 struct LabelTable {
   std::vector<Event> events;  // of the good rows, in order of the lines

@@ -1,32 +1,36 @@
-// The characteristic signals of a recording as CSV: one row for each frame and matrix.
+// The characteristic signals of a recording as a result table: one row for each frame and matrix.
 // docs/signals.md explains the columns.
 #pragma once
 
 #include <cstddef>
-#include <functional>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/core/result_table.h>
 #include <palpate/filter/recipe.h>
-#include <palpate/model/hand_description.h>
 #include <palpate/model/profile.h>
+#include <palpate/signals/signal_filter.h>
 
 namespace palpate {
 
-// The header row without line end.
-extern const char* const kSignalColumns;
-// The units of these columns, in a row of as many cells without line end.
-std::string signalUnits(const HandDescription& hand);
-// Passes the rows of one frame at a time to `sink`, each with `lineEnd`; of one matrix or of all.
-// `smooth`: filters over time that are applied to the signals themselves; may be empty. Throws
-// Cancelled, std::invalid_argument (a filter over space, or a frequency that is
-// not below half of the rate, 1 / median interval), and what the sink throws.
-void writeSignalRows(const Profile& profile,
-                     std::optional<std::size_t> onlyMatrix,
-                     const Recipe& smooth,
-                     const std::string& lineEnd,
-                     const std::function<void(const std::string& lines)>& sink,
-                     const Progress& progress = {});
+// The signals of a matrix, values in `unit`.
+std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit);
+
+struct SignalRowsOptions {
+  std::optional<std::int64_t> matrix = {};  // only this one
+  Recipe filters = {};                      // of the frames, first
+  Recipe smooth = {};                       // of the signals, over time
+  bool unitsRow = false;                    // of CSV: a second row with the units
+};
+// The table "signals" of a profile that is filtered already. Throws std::invalid_argument (a filter
+// over space, or a frequency that is not below half of the rate, 1 / median interval); its rows
+// throw Cancelled and FileError.
+std::unique_ptr<ResultTable> signalTable(const Profile& profile,
+                                         const SignalRowsOptions& options = {},
+                                         const Progress& progress = {});
 
 }  // namespace palpate

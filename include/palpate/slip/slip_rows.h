@@ -1,47 +1,38 @@
-// Slip as CSV: one row for each frame and matrix with an active taxel, or one for each slip.
-// docs/slip.md explains the columns.
+// Slip as result tables: one row for each frame and matrix with an active taxel, or one for each
+// slip. docs/slip.md explains the columns.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/core/result_table.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
 #include <palpate/slip/slip_segments.h>
 
 namespace palpate {
 
-// The header row without line end.
-extern const char* const kSlipColumns;
-// The units of these columns, in a row of as many cells without line end.
-extern const char* const kSlipUnits;
-// Calls `sink` for each row, without line end; of one matrix or of all. Throws as runSlipDetector()
-// does, and what the sink throws.
-void forEachSlipRow(const Profile& profile,
-                    const SlipRunOptions& pass,
-                    std::optional<std::int64_t> matrix,
-                    const std::function<void(const std::string& row)>& sink,
-                    const Progress& progress = {});
-// The same for the slips of findSlips().
-extern const char* const kSlipSegmentColumns;
-extern const char* const kSlipSegmentUnits;
-void forEachSlipSegmentRow(const Profile& profile,
-                           const SlipRunOptions& pass,
-                           std::optional<std::int64_t> matrix,
-                           const std::function<void(const std::string& row)>& sink,
-                           const Progress& progress = {});
+// What is known of a matrix with an active taxel in one frame.
+std::vector<ColumnOf<SlipDetection>> slipColumns();
+
 struct SlipRowsOptions {
   SlipRunOptions pass = {};
-  std::optional<std::int64_t> matrix = {};
+  std::optional<std::int64_t> matrix = {};  // only this one
   bool segments = false;  // a row per slip instead of one per frame and matrix
-  bool unitsRow = false;  // a second row with the units
+  bool unitsRow = false;  // of CSV: a second row with the units
   Recipe filters = {};    // of the frames, first
 };
+// The table "slip" of a profile that is filtered already, or "slip_segments". Throws as SlipRun.
+std::unique_ptr<ResultTable> slipTable(const Profile& profile,
+                                       const SlipRowsOptions& options,
+                                       const Progress& progress = {});
+
 // Set the method by its name (slip_method.h), and the reference: "first", "rest", or the number of
 // a frame. Both throw std::invalid_argument.
 void setSlipMethod(SlipRowsOptions& table, std::string_view name);
@@ -50,8 +41,5 @@ void setSlipReference(SlipRowsOptions& table, const std::string& word);
 void requireThere(const std::filesystem::path& file,
                   const Profile& profile,
                   const SlipRowsOptions& table);
-
-// Appends ",VALUE", or "," when the value is unknown.
-void appendSlipCell(std::string& row, bool known, double value);
 
 }  // namespace palpate

@@ -19,11 +19,37 @@ struct SlipRunOptions {
   std::size_t referenceFrame = 0;
 };
 
-// Runs the slip detector over a profile: `sink` receives every frame in order with one result per
-// matrix. Joint angles of the profile are used if it has any. With `unreadable`, frames that can't
-// be read because the recording is damaged are added to it and left out, as in a gap. Throws
-// Cancelled; std::invalid_argument (options, reference frame not in the profile); Error (the
-// reference frame can't be read; without `unreadable`, any frame).
+// Runs the slip detector over a profile, frame by frame. Joint angles of the profile are used if it
+// has any.
+class SlipRun {
+ public:
+  // With `unreadable`, frames that can't be read because the recording is damaged are added to it
+  // and left out, as in a gap. Throws std::invalid_argument (options, reference frame not in the
+  // profile); Error (the reference frame can't be read).
+  SlipRun(Profile profile, const SlipRunOptions& options, UnreadableSamples* unreadable = nullptr);
+
+  // Takes the next frame; false after the last one. Throws Error for a frame that can't be read,
+  // unless there is `unreadable`.
+  bool next();
+  // The frame that was taken, its time [us since 1970], and a result per matrix.
+  std::size_t frame() const noexcept { return frame_; }
+  std::int64_t timeUs() const noexcept { return values_.hostUs; }
+  const std::vector<SlipDetection>& detections() const noexcept { return detector_.last(); }
+
+ private:
+  void takeAngles();
+
+  Profile profile_;
+  std::optional<std::size_t> reference_;
+  UnreadableSamples* unreadable_;
+  SensorSlipDetector detector_;
+  TactileFrame values_;
+  std::vector<double> jointsDeg_;
+  std::optional<std::size_t> sample_;
+  std::size_t frame_ = 0, upcoming_ = 0;
+};
+
+// The same over all frames: `sink` receives each in order. Throws Cancelled, and as SlipRun.
 using SlipSink = std::function<void(
     std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections)>;
 void runSlipDetector(const Profile& profile,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -147,28 +148,31 @@ bool isTabledLabel(const Event& event) {
   return isLabelKind(event.kind) && !noGrasp;
 }
 
-std::vector<std::string> labelHeader() { return {"begin_s", "end_s", "kind", "text", "matrix"}; }
-
-std::vector<std::vector<std::string>> labelRows(std::span<const Event> events,
-                                                const Profile& profile) {
-  std::vector<std::vector<std::string>> rows;
-  if (profile.numFrames() == 0) return rows;
-  const std::int64_t beginUs = profile.frameTimeUs(0);
-  const auto seconds = [beginUs](std::int64_t us) {
-    return fixedText(static_cast<double>(us - beginUs) / kUsPerS, kTimeDecimals);
+std::unique_ptr<ResultTable> labelRows(std::span<const Event> events, const Profile& profile) {
+  std::vector<Event> labels;
+  if (profile.numFrames() > 0)
+    std::copy_if(events.begin(), events.end(), std::back_inserter(labels), isTabledLabel);
+  std::stable_sort(labels.begin(), labels.end(), [](const Event& a, const Event& b) {
+    return a.tUs < b.tUs;
+  });
+  const std::int64_t beginUs = labels.empty() ? 0 : profile.frameTimeUs(0);
+  const auto seconds = [beginUs](const char* name, const char* meaning, std::int64_t Event::*of) {
+    return columnOf<Event>(
+        name,
+        "s",
+        meaning,
+        [beginUs, of](const Event& e) { return static_cast<double>(e.*of - beginUs) / kUsPerS; },
+        kTimeDecimals);
   };
-  std::vector<const Event*> labels;
-  for (const Event& event : events)
-    if (isTabledLabel(event)) labels.push_back(&event);
-  std::stable_sort(
-      labels.begin(), labels.end(), [](const auto* a, const auto* b) { return a->tUs < b->tUs; });
-  for (const Event* event : labels)
-    rows.push_back({seconds(event->tUs),
-                    seconds(event->t1Us),
-                    event->kind,
-                    event->text,
-                    event->matrix ? std::to_string(*event->matrix) : ""});
-  return rows;
+  return std::make_unique<RowTable<Event>>(
+      "labels",
+      std::vector<ColumnOf<Event>>{
+          seconds("begin_s", "begin, from the first frame of the recording", &Event::tUs),
+          seconds("end_s", "end, from the first frame of the recording", &Event::t1Us),
+          columnOf<Event>("kind", "", "label, note, mark or segment", &Event::kind),
+          columnOf<Event>("text", "", "what was noted", &Event::text),
+          columnOf<Event>("matrix", "", "number of the matrix, from 0", &Event::matrix)},
+      std::move(labels));
 }
 
 LabelTable readLabelTable(std::string_view csv,

@@ -7,7 +7,6 @@
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 #include <palpate/core/text_file.h>
-#include <palpate/core/text_table.h>
 
 #include "gui/appearance/captions.h"
 
@@ -73,8 +72,10 @@ void LabelExchange::exportLabels() {
   const OpenedRecordingPtr recording = windowState_.displayed.recorded();
   EventEditor* editor = windowState_.events.editor();
   if (!recording || !editor) return;
-  const auto rows = labelRows(editor->events(), recording->profile);
-  if (rows.empty()) return windowState_.messages.flash("there are no labels to export");
+  const auto& events = editor->events();
+  const auto count = static_cast<std::size_t>(
+      std::count_if(events.begin(), events.end(), isTabledLabel));
+  if (count == 0) return windowState_.messages.flash("there are no labels to export");
   const QFileInfo source(pathText(recording->path));
   QString path = windowState_.ask.newFile(
       "Export labels",
@@ -84,12 +85,9 @@ void LabelExchange::exportLabels() {
   if (QFileInfo(path).suffix().isEmpty()) path += ".csv";
   try {
     // The dialogue has already asked whether an existing file may be replaced.
-    writeTable({.header = labelHeader(),
-                .numRows = rows.size(),
-                .row = [&rows](std::size_t row) { return rows[row]; }},
-               path.toStdString(),
-               Overwrite::kReplace);
-    windowState_.messages.flash("written: " + path + " (" + labelCount(rows.size()) + ")");
+    writeTableFile(
+        *labelRows(events, recording->profile), path.toStdString(), Overwrite::kReplace);
+    windowState_.messages.flash("written: " + path + " (" + labelCount(count) + ")");
   } catch (const Error& error) {
     windowState_.messages.fail(QString::fromUtf8(error.what()));
   }

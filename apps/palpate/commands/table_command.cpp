@@ -1,0 +1,40 @@
+#include "commands/table_command.h"
+
+#include "commands/batch_options.h"
+#include "commands/export_options.h"
+#include "commands/recording_list.h"
+
+namespace palpate::commands {
+
+std::vector<OptionSpec> withTableOptions(std::vector<OptionSpec> options) {
+  options.push_back(unitsRowOption());
+  options.push_back({"json", "", "one object of JSON instead of CSV; -o: by the ending"});
+  return withBatchOptions(std::move(options));
+}
+
+TableTextOptions tableTextOf(const CommandLine& given) {
+  const bool asJson = given.has("json"), unitsRow = given.has("units-row");
+  if (asJson && unitsRow)
+    throw UsageError("--units-row is a row of CSV; --json names the units of its columns");
+  return {.form = asJson ? TableForm::kJson : TableForm::kCsv, .unitsRow = unitsRow};
+}
+
+void writeTable(const CommandLine& given, ResultTable& table) {
+  StandardOutput out;
+  writeTableText(table, tableTextOf(given), [&](const std::string& text) { out.write(text); });
+  out.finish();
+}
+
+int runTableCommand(const CommandLine& given, const RecordingTable& table) {
+  RecordingTable chosen = table;
+  chosen.unitsRow = given.has("units-row");
+  if (given.has("output"))
+    return runBatchCommand(given, batchTemplateOf(given, {".csv", ".json"}), tableTask(chosen));
+  refuseBatchOptions(given);
+  return writeTables(
+      recordingsIn(given.words()),
+      given.quiet(),
+      {.of = table.of, .text = tableTextOf(given), .readable = table.readable});
+}
+
+}  // namespace palpate::commands
