@@ -5,8 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "palpate/core/progress.h"
-#include "palpate/kinematics/contact_geometry.h"
-#include "palpate/kinematics/joint_range.h"
+#include "palpate/kinematics/contact_rows.h"
 #include "palpate/kinematics/object_size.h"
 
 #include "python/arrays.h"
@@ -28,32 +27,14 @@ struct ContactRow {
 };
 
 std::vector<ContactRow> contactRowsOf(const Profile& profile,
-                                      const HandGeometry& geometry,
-                                      const std::optional<std::vector<double>>& assumed,
-                                      std::pair<std::size_t, std::size_t> range,
-                                      const ContactOptions& options,
+                                      const GeometryDescription& geometry,
+                                      const ContactRowsOptions& options,
                                       const Progress& progress) {
-  const auto [first, last] = range;
-  std::vector<ContactRow> rows(last - first);
-  TactileFrame frame;
-  HandPose pose =
-      geometry.pose(assumed.value_or(std::vector<double>(geometry.description().numAxes, 0.0)));
-  std::optional<std::size_t> posedBy;
-  bool usable = assumed.has_value();
-  for (std::size_t i = first; i < last; ++i) {
-    reportProgress(progress, i - first, rows.size());
-    profile.readFrame(i, frame);
-    const auto sample = profile.angleSampleAt(frame.hostUs);
-    if (!assumed && sample != posedBy) {
-      posedBy = sample;
-      const std::vector<double> anglesDeg = profile.angles(*sample).values;
-      usable = checkAngles(anglesDeg, profile.hand().axes).state != AngleValidity::kUnusable;
-      if (usable) geometry.pose(anglesDeg, pose);
-    }
-    ContactRow& row = rows[i - first];
-    row.posed = usable;
-    contactOf(frame, pose, options, row.contact);
-    row.contact.activeMm = {};  // large, and not part of the result
+  std::vector<ContactRow> rows;
+  for (ContactRun run(profile, geometry, options); run.next();) {
+    reportProgress(progress, run.frame() - options.first, options.last - options.first + 1);
+    rows.push_back({run.contact(), run.isPosed()});
+    rows.back().contact.activeMm = {};  // large, and not part of the result
   }
   return rows;
 }
@@ -132,18 +113,22 @@ py::dict contact(const Profile& profile,
                  const std::string& fingertip,
                  std::int64_t start,
                  std::optional<std::int64_t> stop) {
-  const HandGeometry geometry(geometryNamed(profile.hand(), fingertip));
-  std::optional<std::vector<double>> assumed;
-  if (anglesDeg) assumed = vectorOf(*anglesDeg, "angles_deg");
-  if (!assumed && profile.numAngles() == 0)
+  const GeometryDescription geometry = geometryNamed(profile.hand(), fingertip);
+  ContactRowsOptions options;
+  if (anglesDeg) options.anglesDeg = vectorOf(*anglesDeg, "angles_deg");
+  if (!options.anglesDeg && profile.numAngles() == 0)
     throw py::value_error("this recording has no joint angles: assume some with angles_deg");
-  ContactOptions options;
-  options.threshold = threshold;
-  options.validate();
+  options.contact.threshold = threshold;
+  options.contact.validate();
   const auto range = sliceOf(start, stop, profile.numFrames());
-  const std::vector<ContactRow> rows = unlocked([&](const Progress& progress) {
-    return contactRowsOf(profile, geometry, assumed, range, options, progress);
-  });
+  options.first = range.first;
+  std::vector<ContactRow> rows;
+  if (range.second > range.first) {
+    options.last = range.second - 1;
+    rows = unlocked([&](const Progress& progress) {
+      return contactRowsOf(profile, geometry, options, progress);
+    });
+  }
   py::dict table;
   table["frame"] =
       column<std::int64_t>(rows.size(), [&](std::size_t i) { return range.first + i; });

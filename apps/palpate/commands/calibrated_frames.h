@@ -34,8 +34,7 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given);
 // Computes the pressures of one frame after the other.
 class CalibratedFrames {
  public:
-  // `profile`: that of the recording, as it is or filtered; it must outlive this object. Subtracts
-  // the tare that the recording's events contain. Throws Error for a sensor that the calibration
+  // `profile`: that of the recording, as it is or filtered. Subtracts the tare that the recording's events contain. Throws Error for a sensor that the calibration
   // cannot be applied to; FileError or FormatError where the tare or the settings are wanted and
   // the events can't be read.
   CalibratedFrames(const CalibrationChoice& choice,
@@ -50,7 +49,7 @@ class CalibratedFrames {
   bool areaKnown() const { return map_.calibration().pressure.knowsArea(); }
 
  private:
-  const Profile& profile_;
+  const Profile profile_;
   PressureMap map_;
   std::optional<Tare> tare_;
   TactileFrame tared_;

@@ -62,6 +62,10 @@ class CommandLine {
   // The value of an option (the last one when it is repeated); nothing when it is missing.
   std::optional<std::string> text(const std::string& option) const;
   std::vector<std::string> texts(const std::string& option) const;
+  // All options that are given, by name.
+  const std::map<std::string, std::vector<std::string>>& options() const noexcept {
+    return values_;
+  }
   // The value as a number in a range; throw UsageError that names the option and the range.
   std::optional<std::int64_t> integer(const std::string& option,
                                       std::int64_t least,

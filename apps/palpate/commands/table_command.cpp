@@ -1,15 +1,35 @@
 #include "commands/table_command.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "commands/batch_options.h"
 #include "commands/export_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
+namespace {
+
+constexpr const char* kOptionsOfTheRun[] = {
+    "output", "force", "resume", "threads", "report", "quiet", "json", "units-row"};
+
+}  // namespace
 
 std::vector<OptionSpec> withTableOptions(std::vector<OptionSpec> options) {
   options.push_back(unitsRowOption());
   options.push_back({"json", "", "one object of JSON instead of CSV; -o: by the ending"});
   return withBatchOptions(std::move(options));
+}
+
+std::string choicesText(const CommandLine& given) {
+  std::string text;
+  for (const auto& [name, values] : given.options()) {
+    const auto is = [&name](const char* other) { return name == other; };
+    if (std::any_of(std::begin(kOptionsOfTheRun), std::end(kOptionsOfTheRun), is)) continue;
+    text += "; " + name;
+    for (const std::string& value : values) text += " " + value;
+  }
+  return text;
 }
 
 TableTextOptions tableTextOf(const CommandLine& given) {

@@ -2,6 +2,7 @@
 // as CSV or JSON, or a file for each.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <palpate/batch/batch_task.h>
@@ -12,6 +13,9 @@ namespace palpate::commands {
 
 // `options` followed by --units-row, --json and those of batch_options.h.
 std::vector<OptionSpec> withTableOptions(std::vector<OptionSpec> options);
+
+// What the options choose, for RecordingTable::options: those that the rows depend on.
+std::string choicesText(const CommandLine& given);
 
 // How the options want a table as text. Throws UsageError.
 TableTextOptions tableTextOf(const CommandLine& given);
