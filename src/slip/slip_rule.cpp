@@ -25,9 +25,9 @@ double shiftOf(const WindowEvidence& window) {
 
 void SlipRuleOptions::validate() const {
   constexpr OptionCheck check{"SlipRuleOptions"};
-  check(stepTaxels > 0.0, "stepTaxels", stepTaxels);
-  check(referenceTaxels > 0.0, "referenceTaxels", referenceTaxels);
-  check(rotationDeg > 0.0, "rotationDeg", rotationDeg);
+  check(kStepTaxels, "stepTaxels", stepTaxels);
+  check(kReferenceTaxels, "referenceTaxels", referenceTaxels);
+  check(kRotationDeg, "rotationDeg", rotationDeg);
   check(shortSteps > 0.0, "shortSteps", shortSteps);
   check(middleSteps > 0.0, "middleSteps", middleSteps);
   check(longReferences > 0.0, "longReferences", longReferences);

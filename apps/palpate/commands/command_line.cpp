@@ -54,8 +54,8 @@ po::options_description described(const CommandSpec& spec) {
                             option.help.c_str());
   };
   for (const OptionSpec& option : spec.options) add(option);
-  add({"quiet,q", "", "no progress and no remarks; errors are still printed"});
-  add({"help,h", "", "this text"});
+  add({"quiet,q", "", "no progress and no remarks; errors are still printed", {}});
+  add({"help,h", "", "this text", {}});
   return options;
 }
 
@@ -121,6 +121,22 @@ constexpr std::int64_t kShowProgressAfterUs = 1'000'000;
 
 }  // namespace
 
+std::string detail::rangeText(const OptionRange& range, std::optional<double> usual, bool isWhole) {
+  std::string text = *range.unit ? std::string(" [") + range.unit + "]" : "";
+  const bool isOpen = isWhole ? range.maximum >= static_cast<double>(INT32_MAX)
+                              : !std::isfinite(range.maximum);
+  text += isOpen ? "; from " + numberText(range.minimum)
+                 : "; " + numberText(range.minimum) + ".." + numberText(range.maximum);
+  return usual ? text + ", default " + numberText(*usual) : text;
+}
+
+OptionSpec bound(const std::string& name, std::string help, bool& field) {
+  return {name, "", std::move(help), [option = name.substr(0, name.find(',')), &field](
+                                         const CommandLine& given) {
+            if (given.has(option)) field = true;
+          }};
+}
+
 OptionSpec topicOption() {
   return {"topic",
           "TOPIC",
@@ -162,6 +178,8 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
     throw UsageError("'" + words_[spec.maxArguments] +
                      "' is one argument too many; usage: " + inOneLine(spec.synopsis));
   if (words_.size() < spec.minArguments) throw UsageError("usage: " + inOneLine(spec.synopsis));
+  for (const OptionSpec& option : spec.options)
+    if (option.take) option.take(*this);
 }
 
 std::optional<std::string> CommandLine::text(const std::string& option) const {

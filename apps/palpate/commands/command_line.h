@@ -4,13 +4,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <palpate/core/error.h>
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 
 namespace palpate::commands {
@@ -21,6 +25,8 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+class CommandLine;
+
 // One option of a command.
 struct OptionSpec {
   // The long name, or the long name with a short form: "frame", "output,o".
@@ -28,7 +34,18 @@ struct OptionSpec {
   // The name of its value in the help ("N"); empty for a flag.
   std::string value;
   std::string help;
+  // Sets what the option is bound to; empty: the command asks for the value.
+  std::function<void(const CommandLine&)> take = {};
 };
+
+// Options that are bound to a field: where the option is given, CommandLine checks it and sets the
+// field, which must outlive it. The help names unit, range and default, which is the field's value
+// as it is now (none of a std::optional).
+template <typename T>
+OptionSpec bound(
+    const std::string& name, std::string value, std::string help, T& field, OptionRange range);
+// A flag.
+OptionSpec bound(const std::string& name, std::string help, bool& field);
 
 // --topic TOPIC, which may be repeated (CommandLine::texts).
 OptionSpec topicOption();
@@ -80,6 +97,38 @@ class CommandLine {
   std::vector<std::string> words_;
   bool helpShown_ = false;
 };
+
+namespace detail {
+std::string rangeText(const OptionRange& range, std::optional<double> usual, bool isWhole);
+}  // namespace detail
+
+template <typename T>
+OptionSpec bound(
+    const std::string& name, std::string value, std::string help, T& field, OptionRange range) {
+  constexpr bool isOptional = requires { field.has_value(); };
+  using Number = typename decltype([] {
+    if constexpr (isOptional)
+      return std::type_identity<typename T::value_type>();
+    else
+      return std::type_identity<T>();
+  }())::type;
+  std::optional<double> usual;
+  if constexpr (!isOptional) usual = static_cast<double>(field);
+  const auto take = [option = name.substr(0, name.find(',')), &field, range](const auto& given) {
+    if constexpr (std::is_integral_v<Number>) {
+      if (const auto whole = given.integer(option,
+                                           static_cast<std::int64_t>(range.minimum),
+                                           static_cast<std::int64_t>(range.maximum)))
+        field = static_cast<Number>(*whole);
+    } else if (const auto number = given.number(option, range.minimum, range.maximum)) {
+      field = *number;
+    }
+  };
+  return {name,
+          std::move(value),
+          std::move(help) + detail::rangeText(range, usual, std::is_integral_v<Number>),
+          take};
+}
 
 // Shows a percentage on stderr when the work takes longer than a second; shows nothing when quiet
 // or when stderr is not a terminal. It must outlive the callback.

@@ -14,31 +14,25 @@
 namespace palpate::commands {
 namespace {
 
-SlipRowsOptions slipOptionsOf(const CommandLine& given) {
-  SlipRowsOptions request;
-  SlipDetectorOptions& detector = request.pass.detector;
+// What isn't bound to a field.
+void takeWords(const CommandLine& given, SlipRowsOptions& options) {
   std::vector<std::string> methods;
   for (const SlipMethod method : slipMethods()) methods.emplace_back(nameOf(method));
   const auto name = given.choice("method", methods);
-  setSlipMethod(request, name ? std::string_view(*name) : nameOf(detector.method));
+  setSlipMethod(options, name ? std::string_view(*name) : nameOf(options.pass.detector.method));
   try {
-    setSlipReference(request, given.text("reference").value_or("first"));
+    setSlipReference(options, given.text("reference").value_or("first"));
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--reference is ") + error.what());
   }
-  request.matrix = given.integer("matrix", 0, INT32_MAX);
-  SlipRuleOptions& rule = detector.rule;
-  rule.stepTaxels = given.number("step", 1e-3, 100.0).value_or(rule.stepTaxels);
-  rule.referenceTaxels = given.number("limit", 1e-3, 100.0).value_or(rule.referenceTaxels);
-  rule.rotationDeg = given.number("rotation", 0.1, 360.0).value_or(rule.rotationDeg);
-  request.segments = given.has("segments");
-  request.filters = recipeOf(given);
-  return request;
+  options.filters = recipeOf(given);
 }
 
 }  // namespace
 
 int slipCommand(const Arguments& words) {
+  SlipRowsOptions options;
+  SlipRuleOptions& rule = options.pass.detector.rule;
   const CommandLine given(
       {.synopsis =
            "palpate slip PATH... [--method METHOD] [--reference first|rest|FRAME] [-o TEMPLATE]",
@@ -54,20 +48,31 @@ int slipCommand(const Arguments& words) {
              "METHOD",
              "centroid, alcazar, ncc-paraboloid, ncc-gauss3, phase, phase-normalized, "
              "register, contest (default: compares a motion with a load shift)"},
-            {"matrix", "M", "only this matrix"},
+            bound("matrix", "M", "only this matrix", options.matrix, {0, INT32_MAX}),
             {"reference",
              "WHAT",
              "first: first frame with an active taxel (default); rest: each contact from when "
              "it is at rest; or a frame"},
-            {"step", "T", "threshold per frame [taxels], default 0.20"},
-            {"limit", "T", "threshold since the reference [taxels], default 1.0"},
-            {"rotation", "DEG", "threshold of the rotation [deg], default 5"},
-            {"segments", "", "a row per slip: frames, matrix, length of the path"}})),
+            bound("step", "T", "threshold per frame", rule.stepTaxels, rule.kStepTaxels),
+            bound("limit",
+                  "T",
+                  "threshold since the reference",
+                  rule.referenceTaxels,
+                  rule.kReferenceTaxels),
+            bound("rotation",
+                  "DEG",
+                  "threshold of the rotation",
+                  rule.rotationDeg,
+                  rule.kRotationDeg),
+            bound("segments",
+                  "a row per slip: frames, matrix, length of the path",
+                  options.segments)})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  return runTableCommand(given, slipOf(slipOptionsOf(given)));
+  takeWords(given, options);
+  return runTableCommand(given, slipOf(options));
 }
 
 }  // namespace palpate::commands

@@ -1,12 +1,23 @@
-// What validate() of an Options struct does with each of its fields.
+// The ranges of the fields of an Options struct, for validate(), the command line and its help; and
+// what validate() does with each field.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
+#include <palpate/core/number_text.h>
+
 namespace palpate {
 
-// Throws std::invalid_argument "OPTIONS: FIELD is VALUE" unless a field is good.
+// Both ends inclusive; a value that is not a number is outside.
+struct OptionRange {
+  double minimum;
+  double maximum;
+  const char* unit = "";
+  constexpr bool contains(double value) const { return value >= minimum && value <= maximum; }
+};
+
+// Throws std::invalid_argument "OPTIONS: FIELD is VALUE" unless a field is good, or in its range.
 struct OptionCheck {
   const char* options;  // name of the struct
 
@@ -14,6 +25,12 @@ struct OptionCheck {
     if (!good)
       throw std::invalid_argument(std::string(options) + ": " + field + " is " +
                                   std::to_string(value));
+  }
+  void operator()(const OptionRange& range, const char* field, double value) const {
+    if (!range.contains(value))
+      throw std::invalid_argument(std::string(options) + ": " + field + " is " +
+                                  numberText(value) + ", not " + numberText(range.minimum) + ".." +
+                                  numberText(range.maximum));
   }
 };
 

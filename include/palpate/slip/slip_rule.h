@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <optional>
 
+#include <palpate/core/option_check.h>
 #include <palpate/slip/slip_hypotheses.h>
 #include <palpate/slip/slip_sequence.h>
 #include <palpate/slip/slip_state.h>
@@ -64,11 +65,14 @@ struct SlipEvidence {
 };
 
 struct SlipRuleOptions {
-  // Motion per frame that counts as slip [taxels], > 0; at 31 Hz it is 6 taxels/s.
+  static constexpr OptionRange kStepTaxels{1e-3, 100.0, "taxels"};
+  static constexpr OptionRange kReferenceTaxels{1e-3, 100.0, "taxels"};
+  static constexpr OptionRange kRotationDeg{0.1, 360.0, "deg"};
+  // Motion per frame that counts as slip; at 31 Hz it is 6 taxels/s.
   double stepTaxels = 0.20;
-  // Total motion that counts as slip [taxels], > 0.
+  // Total motion that counts as slip.
   double referenceTaxels = 1.0;
-  // Rotation that counts as slip [deg], > 0.
+  // Rotation that counts as slip.
   double rotationDeg = 5.0;
   // Thresholds of the windows as multiples of stepTaxels and referenceTaxels.
   double shortSteps = 1.75;
