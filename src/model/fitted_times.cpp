@@ -1,5 +1,6 @@
 #include "palpate/model/fitted_times.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -43,15 +44,15 @@ class AtOtherTimes final : public ProfileStorage {
 };
 
 FittedClock clockOf(std::string name, const std::vector<ClockStamp>& stamps) {
-  FittedClock clock{.name = std::move(name), .base = {}, .why = {}};
+  FittedClock clock;
+  clock.name = std::move(name);
+  clock.isWithoutTimes = std::none_of(
+      stamps.begin(), stamps.end(), [](const ClockStamp& stamp) { return stamp.deviceUs; });
   clock.base = TimeBase::fit(stamps, &clock.why);
   return clock;
 }
 
-// By the series of the clocks, the frames as kMaxSeries.
-std::map<std::size_t, FittedClock> clocksBySeries(const Profile& profile,
-                                                  const Progress& progress) {
-  std::map<std::size_t, FittedClock> clocks;
+std::vector<ClockStamp> stampsOfFrames(const Profile& profile, const Progress& progress) {
   std::vector<ClockStamp> stamps(profile.numFrames());
   TactileFrame frame;
   UnreadableSamples unreadable;
@@ -60,16 +61,22 @@ std::map<std::size_t, FittedClock> clocksBySeries(const Profile& profile,
     const bool isRead = profile.readFrame(i, frame, &unreadable);
     stamps[i] = {frame.hostUs, isRead ? frame.deviceUs : std::nullopt};
   }
+  return stamps;
+}
+
+// By the series of the clocks, the frames as kMaxSeries.
+std::map<std::size_t, FittedClock> clocksBySeries(const Profile& profile,
+                                                  std::vector<ClockStamp> stamps) {
+  std::map<std::size_t, FittedClock> clocks;
   clocks.emplace(kMaxSeries, clockOf("frames", stamps));
   for (std::size_t series = 0; series < profile.series().size(); ++series) {
-    bool hasDevice = false;
     stamps.resize(profile.numSamples(series));
     for (std::size_t i = 0; i < stamps.size(); ++i) {
       const Sample sample = profile.sample(series, i);
       stamps[i] = {sample.hostUs, sample.deviceUs};
-      hasDevice = hasDevice || sample.deviceUs;
     }
-    if (hasDevice) clocks.emplace(series, clockOf(profile.series()[series].name, stamps));
+    FittedClock clock = clockOf(profile.series()[series].name, stamps);
+    if (!clock.isWithoutTimes) clocks.emplace(series, std::move(clock));
   }
   return clocks;
 }
@@ -85,15 +92,23 @@ std::vector<FittedClock> inOrder(std::map<std::size_t, FittedClock> clocks) {
 }  // namespace
 
 std::string FittedClock::text() const {
-  return name + ": " + (base ? clockText(base->report()) : why);
+  return name + ": " + (base ? clockText(base->report()) : why + "; the times of arrival are used");
 }
 
 std::vector<FittedClock> clocksOf(const Profile& profile, const Progress& progress) {
-  return inOrder(clocksBySeries(profile, progress));
+  return inOrder(clocksBySeries(profile, stampsOfFrames(profile, progress)));
+}
+
+std::vector<FittedClock> clocksOf(const Profile& profile,
+                                  std::span<const std::optional<std::int64_t>> framesDeviceUs) {
+  std::vector<ClockStamp> stamps(framesDeviceUs.size());
+  for (std::size_t i = 0; i < stamps.size(); ++i)
+    stamps[i] = {profile.frameTimeUs(i), framesDeviceUs[i]};
+  return inOrder(clocksBySeries(profile, std::move(stamps)));
 }
 
 FittedTimes fittedTimes(const Profile& profile, const Progress& progress) {
-  auto clocks = clocksBySeries(profile, progress);
+  auto clocks = clocksBySeries(profile, stampsOfFrames(profile, progress));
   std::vector<std::int64_t> frames;
   std::map<std::size_t, std::vector<std::int64_t>> series;
   bool any = false;

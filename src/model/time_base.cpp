@@ -191,7 +191,7 @@ std::optional<TimeBase> TimeBase::fit(std::span<const ClockStamp> stamps, std::s
     return std::nullopt;
   };
   if (std::none_of(stamps.begin(), stamps.end(), [](const auto& stamp) { return stamp.deviceUs; }))
-    return refuse("has no times of the sender's clock");
+    return refuse("no times of the sender's clock");
   std::vector<Judged> judged, byItem(stamps.size());
   ClockTracker tracker;
   for (const ClockStamp& stamp : stamps) {
@@ -208,7 +208,7 @@ std::optional<TimeBase> TimeBase::fit(std::span<const ClockStamp> stamps, std::s
   }
   byItem = {};
   if (usable.size() < kFewestItems)
-    return refuse("has only " + counted(usable.size(), "usable time") + " of the sender's clock, " +
+    return refuse("only " + counted(usable.size(), "usable time") + " of the sender's clock, " +
                   std::to_string(kFewestItems) + " are needed");
   begins.push_back(usable.size());
   std::vector<Part> parts;
@@ -220,7 +220,7 @@ std::optional<TimeBase> TimeBase::fit(std::span<const ClockStamp> stamps, std::s
   for (Part& part : parts) {
     part.line = clockLineOf(part.windows.all());
     if (runsWrong(part.line))
-      return refuse("has a sender's clock that runs " +
+      return refuse("the sender's clock runs " +
                     fixedText(1.0 / (1.0 + part.line.slope() / 1e6), 3) +
                     " times as fast as ours: is the unit of its times right?");
     if (!part.line.measured || part.end - part.begin <= longest) continue;

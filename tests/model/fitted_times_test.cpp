@@ -63,7 +63,9 @@ TEST(FittedTimes, WithoutTimesOfTheSenderTheTimesOfArrivalStay) {
   const FittedTimes fitted = fittedTimes(profile);
   ASSERT_EQ(fitted.clocks.size(), 1u);
   EXPECT_FALSE(fitted.clocks[0].base);
-  EXPECT_EQ(fitted.clocks[0].text(), "frames: has no times of the sender's clock");
+  EXPECT_TRUE(fitted.clocks[0].isWithoutTimes);
+  EXPECT_EQ(fitted.clocks[0].text(),
+            "frames: no times of the sender's clock; the times of arrival are used");
   for (std::size_t i = 0; i < kFrames; ++i)
     ASSERT_EQ(fitted.profile.frameTimeUs(i), profile.frameTimeUs(i));
 }
@@ -74,6 +76,17 @@ TEST(FittedTimes, ClocksAreToldInOneLineEach) {
   EXPECT_EQ(
       clocks[1].text(),
       "cell: drift 0.0 ppm, delays vary by 40.0 ms, 0 restarts, error 0.00 ms (at most 0.00)");
+}
+
+TEST(FittedTimes, TheTimesOfFramesCanBeGiven) {
+  const Profile profile = recorded(true);
+  std::vector<std::optional<std::int64_t>> deviceUs;
+  for (std::size_t i = 0; i < kFrames; ++i) deviceUs.push_back(profile.frame(i).deviceUs);
+  const auto given = clocksOf(profile, deviceUs), read = clocksOf(profile);
+  ASSERT_EQ(given.size(), 2u);
+  EXPECT_EQ(given[0].text(), read[0].text());
+  EXPECT_TRUE(
+      clocksOf(profile, std::span<const std::optional<std::int64_t>>()).front().isWithoutTimes);
 }
 
 TEST(FittedTimes, CanBeCancelled) {

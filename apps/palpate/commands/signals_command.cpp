@@ -45,6 +45,7 @@ int signalsCommand(const Arguments& words) {
        .options = withBatchOptions(withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
             unitsRowOption(),
+            timeOption(),
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}})),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .minArguments = 1},
@@ -54,11 +55,15 @@ int signalsCommand(const Arguments& words) {
   const Recipe recipe = recipeOf(given);
   const Recipe smooth = smoothOf(given);
   const bool unitsRow = given.has("units-row");
+  const TimeChoice times = timeChoiceOf(given);
   if (given.has("output"))
-    return runBatchCommand(
-        given,
-        batchTemplateOf(given, {".csv"}),
-        signalsTask({.matrix = matrix, .filters = recipe, .smooth = smooth, .unitsRow = unitsRow}));
+    return runBatchCommand(given,
+                           batchTemplateOf(given, {".csv"}),
+                           signalsTask({.matrix = matrix,
+                                        .filters = recipe,
+                                        .smooth = smooth,
+                                        .unitsRow = unitsRow,
+                                        .times = times}));
   refuseBatchOptions(given);
   const RecordingList recordings = recordingsIn(given.words());
   const char* const noUnit = recordings.several ? ",\n" : "\n";
@@ -73,7 +78,7 @@ int signalsCommand(const Arguments& words) {
                               const Recording& unfiltered,
                               const TextSink& write,
                               const Progress& progress) {
-                            const Profile profile = filteredBy(recipe, unfiltered, file);
+                            const Profile profile = filteredBy(recipe, unfiltered, file, {}, times);
                             requireBelowHalfRate(smooth, profile, file);
                             requireMatrix(file, profile.layout(), matrix);
                             const std::string lineEnd =

@@ -43,6 +43,7 @@ SlipRowsOptions slipOptionsOf(const CommandLine& given) {
   request.segments = given.has("segments");
   request.unitsRow = given.has("units-row");
   request.filters = recipeOf(given);
+  request.times = timeChoiceOf(given);
   return request;
 }
 
@@ -73,7 +74,8 @@ int slipCommand(const Arguments& words) {
             {"limit", "T", "threshold since the reference [taxels], default 1.0"},
             {"rotation", "DEG", "threshold of the rotation [deg], default 5"},
             {"segments", "", "a row per slip: frames, matrix, length of the path"},
-            unitsRowOption()})),
+            unitsRowOption(),
+            timeOption()})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);
@@ -90,7 +92,7 @@ int slipCommand(const Arguments& words) {
       recordings,
       given.quiet(),
       [&](const std::filesystem::path& file, const Recording& whole, const Progress& progress) {
-        const Profile profile = filteredBy(request.filters, whole, file, progress);
+        const Profile profile = filteredBy(request.filters, whole, file, progress, request.times);
         requireThere(file, profile, request);
         if (!headerWritten)
           out.write(std::string(segments ? kSlipSegmentColumns : kSlipColumns) +

@@ -9,6 +9,7 @@
 #include <palpate/batch/export_extras.h>
 #include <palpate/batch/grasp_files.h>
 #include <palpate/filter/recipe.h>
+#include <palpate/model/time_base.h>
 #include <palpate/recognition/feature_table.h>
 #include <palpate/recording/recording.h>
 #include <palpate/slip/slip_rows.h>
@@ -21,6 +22,7 @@ namespace palpate {
 struct ConvertOptions {
   Recipe filters = {};
   ExportChoices choices = {};
+  TimeChoice times = TimeChoice::kArrival;
 };
 // The form is that of the result's ending (formatOf()); requirePossible() says which choices it
 // can have.
@@ -36,6 +38,7 @@ struct SignalRowsOptions {
   Recipe filters = {};                      // of the frames, first
   Recipe smooth = {};                       // of the signals, over time
   bool unitsRow = false;                    // a second row with the units
+  TimeChoice times = TimeChoice::kArrival;
 };
 BatchTask signalsTask(const SignalRowsOptions& table);
 

@@ -1,6 +1,9 @@
 // A recording seen over the clocks of its senders instead of the times of arrival (time_base.h).
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,15 +17,20 @@ namespace palpate {
 // The clock of the frames or of a series.
 struct FittedClock {
   std::string name;  // "frames", or that of the series
-  // Empty where the times of arrival stay; `why` says why: "has no times of the sender's clock".
+  // Empty where the times of arrival stay; `why` says why: "no times of the sender's clock".
   std::optional<TimeBase> base;
   std::string why;
-  // "frames: drift 100 ppm, ..", "frames: has no times of the sender's clock".
+  bool isWithoutTimes = false;  // no item has a time of a sender
+  // "frames: drift 100 ppm, ..", "frames: no times of the sender's clock; the times of arrival
+  // are used".
   std::string text() const;
 };
 // That of the frames, then those of the series with a time of their sender. A frame that can't be
 // read has no time of its sender. Throws Error (a series that can't be read), Cancelled.
 std::vector<FittedClock> clocksOf(const Profile& profile, const Progress& progress = {});
+// The same where the frames have been read: their times of the sender [us]; empty: none has one.
+std::vector<FittedClock> clocksOf(const Profile& profile,
+                                  std::span<const std::optional<std::int64_t>> framesDeviceUs);
 
 struct FittedTimes {
   Profile profile;  // the same frames and samples at fitted times

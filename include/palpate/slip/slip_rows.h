@@ -12,6 +12,7 @@
 #include <palpate/core/progress.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/time_base.h>
 #include <palpate/slip/slip_segments.h>
 
 namespace palpate {
@@ -41,6 +42,7 @@ struct SlipRowsOptions {
   bool segments = false;  // a row per slip instead of one per frame and matrix
   bool unitsRow = false;  // a second row with the units
   Recipe filters = {};    // of the frames, first
+  TimeChoice times = TimeChoice::kArrival;
 };
 // Set the method by its name (slip_method.h), and the reference: "first", "rest", or the number of
 // a frame. Both throw std::invalid_argument.
