@@ -9,6 +9,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "palpate/core/number_text.h"
+#include "palpate/model/fitted_times.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/recording.h"
@@ -332,6 +333,14 @@ void bindValues(ProfileClass& profile) {
           "sensors). ValueError without temperatures.");
 }
 
+Profile atFittedTimes(const Profile& profile) {
+  const FittedTimes fitted =
+      unlocked([&](const Progress& progress) { return fittedTimes(profile, progress); });
+  for (const FittedClock& clock : fitted.clocks)
+    if (clock.base) return fitted.profile;
+  throw py::value_error("times can't be fitted: " + fitted.clocks.front().why);
+}
+
 void bindTimes(ProfileClass& profile) {
   profile
       .def_property_readonly(
@@ -352,6 +361,11 @@ void bindTimes(ProfileClass& profile) {
           "temperature_time_ms",
           [](const Profile& p) { return sampleTimes(p, kTemperatureSeries, kUsPerMs); },
           "Host time of each sample of the temperatures [ms since 1970]: int64 (n,).")
+      .def(
+          "fitted_times",
+          &atFittedTimes,
+          "The same recording at the times of the senders' clocks, fitted to the times of arrival: "
+          "frames and each series by their own. ValueError without usable times of a sender.")
       .def("timing",
            &timing,
            "dict duration_s [s], rate_hz (from the median interval) and mean_rate_hz [Hz] (0 with "

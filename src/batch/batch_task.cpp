@@ -24,13 +24,23 @@ std::string filtersText(const Recipe& filters) {
   return filters.empty() ? "" : "; " + recipeText(filters);
 }
 
+std::string timesText(TimeChoice times) {
+  return times == TimeChoice::kFitted ? "; times fitted" : "";
+}
+
 // The recording of an item, filtered; the first half of the progress.
 Recording openFiltered(const BatchItem& item,
                        const Recipe& filters,
                        const Progress& progress,
-                       std::size_t threads) {
+                       std::size_t threads,
+                       TimeChoice times = TimeChoice::kArrival,
+                       std::string* said = nullptr) {
   Recording recording =
       readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, 0.5));
+  if (times == TimeChoice::kFitted && said)
+    *said = takeFittedTimes(recording, item.source);
+  else
+    recording.profile = atTimes(times, recording.profile, item.source);
   recording.profile = filteredBy(filters, recording, item.source, partOf(progress, 0.5, 0.5));
   return recording;
 }
@@ -78,13 +88,16 @@ std::string classIn(const BatchItem& item) {
 BatchTask convertTask(const ConvertOptions& options) {
   options.filters.validate();
   return {
-      .options = "convert; " + recipeText(options.filters) + choicesText(options.choices),
+      .options = "convert; " + recipeText(options.filters) + choicesText(options.choices) +
+                 timesText(options.times),
       .work = [options](const BatchItem& item,
                         Overwrite overwrite,
                         const Progress& progress,
                         std::size_t threads) {
         formatOf(item.target);
-        const Recording recording = openFiltered(item, options.filters, progress, threads);
+        std::string said;
+        const Recording recording =
+            openFiltered(item, options.filters, progress, threads, options.times, &said);
         recording.requireEvents();
         const Profile& profile = recording.profile;
         const SaveExtras extras = exportExtras(
@@ -92,6 +105,7 @@ BatchTask convertTask(const ConvertOptions& options) {
         const SaveReport saved = saveRecording(
             profile, recording.events, item.target, overwrite, partOf(progress, 0.5, 1.0), extras);
         BatchAnswer answer{.said = counted(profile.numFrames(), "frame")};
+        if (!said.empty()) answer.said += "; " + said;
         if (const std::string leftOut = leftOutText(profile, item.target); !leftOut.empty())
           answer.said += "; " + leftOut;
         if (saved.movedStamps > 0)
@@ -108,57 +122,59 @@ BatchTask convertTask(const ConvertOptions& options) {
 
 BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) {
   options.filters.validate();
-  return {
-      .options = "convert grasps; " + recipeText(options.filters) + choicesText(options.choices),
-      .work =
-          [names, options](const BatchItem& item,
-                           Overwrite overwrite,
-                           const Progress& progress,
-                           std::size_t threads) {
-            formatOf(item.target);
-            const Recording whole =
-                readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, 0.3));
-            whole.requireEvents();
-            const std::vector<GraspFrames> grasps = graspFrames(whole.profile, whole.events);
-            if (grasps.empty()) throw FileError(item.source, "has no grasp");
-            const Profile profile =
-                filteredBy(options.filters, whole, item.source, partOf(progress, 0.3, 0.5));
-            BatchNameFields fields = nameFieldsOf(item);
-            fields.timeUs = whole.profile.frameTimeUs(0);
-            BatchAnswer answer{.said = counted(grasps.size(), "grasp")};
-            for (std::size_t i = 0; i < grasps.size(); ++i)
-              answer.results.push_back(names.pathFor(fields, i + 1, grasps.size()));
-            if (const std::string leftOut = leftOutText(profile, answer.results.front());
-                !leftOut.empty())
-              answer.said += "; " + leftOut;
-            GraspFilesOptions files{.overwrite = overwrite, .replaceable = item.earlier};
-            const ExportSource source(item.source, whole.meta);
-            files.extras = [&](const Profile& part, const fs::path& out) {
-              SaveExtras extras = exportExtras(options.choices, source, out, part, options.filters);
-              extras.meta.erase("settings");  // those at the start of the whole recording
-              return extras;
-            };
-            saveGrasps(item.source,
-                       profile,
-                       whole.events,
-                       grasps,
-                       answer.results,
-                       files,
-                       partOf(progress, 0.5, 1.0));
-            answer.problem = partText(item, profile, whole.damage.events);
-            return answer;
-          },
-      .namesResults = true};
+  return {.options = "convert grasps; " + recipeText(options.filters) +
+                     choicesText(options.choices) + timesText(options.times),
+          .work =
+              [names, options](const BatchItem& item,
+                               Overwrite overwrite,
+                               const Progress& progress,
+                               std::size_t threads) {
+                formatOf(item.target);
+                const Recording whole =
+                    readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, 0.3));
+                whole.requireEvents();
+                const std::vector<GraspFrames> grasps = graspFrames(whole.profile, whole.events);
+                if (grasps.empty()) throw FileError(item.source, "has no grasp");
+                const Profile profile = filteredBy(
+                    options.filters, whole, item.source, partOf(progress, 0.3, 0.5), options.times);
+                BatchNameFields fields = nameFieldsOf(item);
+                fields.timeUs = whole.profile.frameTimeUs(0);
+                BatchAnswer answer{.said = counted(grasps.size(), "grasp")};
+                for (std::size_t i = 0; i < grasps.size(); ++i)
+                  answer.results.push_back(names.pathFor(fields, i + 1, grasps.size()));
+                if (const std::string leftOut = leftOutText(profile, answer.results.front());
+                    !leftOut.empty())
+                  answer.said += "; " + leftOut;
+                GraspFilesOptions files{.overwrite = overwrite, .replaceable = item.earlier};
+                const ExportSource source(item.source, whole.meta);
+                files.extras = [&](const Profile& part, const fs::path& out) {
+                  SaveExtras extras =
+                      exportExtras(options.choices, source, out, part, options.filters);
+                  extras.meta.erase("settings");  // those at the start of the whole recording
+                  return extras;
+                };
+                saveGrasps(item.source,
+                           profile,
+                           whole.events,
+                           grasps,
+                           answer.results,
+                           files,
+                           partOf(progress, 0.5, 1.0));
+                answer.problem = partText(item, profile, whole.damage.events);
+                return answer;
+              },
+          .namesResults = true};
 }
 
 RecordingTable signalsOf(const SignalRowsOptions& options) {
   options.filters.validate();
   SignalFilter(options.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
   return {.options = "signals; " + recipeText(options.filters) + "; smooth " +
-                     recipeText(options.smooth) + matrixText(options.matrix),
+                     recipeText(options.smooth) + matrixText(options.matrix) +
+                     timesText(options.times),
           .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile =
-                filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5));
+            const Profile profile = filteredBy(
+                options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
             requireMatrix(file, profile.layout(), options.matrix);
             requireBelowHalfRate(options.smooth, profile, file);
             return signalTable(profile, options, partOf(progress, 0.5, 1.0));
@@ -170,10 +186,10 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
   options.filters.validate();
   return {.options = std::string("slip") + (options.segments ? "; segments" : "") + "; " +
                      passText(options.pass) + matrixText(options.matrix) +
-                     filtersText(options.filters),
+                     filtersText(options.filters) + timesText(options.times),
           .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile =
-                filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.3));
+            const Profile profile = filteredBy(
+                options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
             requireThere(file, profile, options);
             return slipTable(profile, options, partOf(progress, 0.3, 1.0));
           },

@@ -139,6 +139,10 @@ void CaptureSession::start() {
     shown_.clear();
     lastTemperatures_.reset();
   }
+  {
+    const std::lock_guard lock(clocksMutex_);
+    clocks_.clear();
+  }
   hand_ = device_->hand();
   if (options_.ownThread) recorder_.run();
   device_->start(*this);
@@ -279,6 +283,7 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   }
   // Only the line of a controller that scans by itself has a known rate.
   meter_.frame(clock_.monotonicUs(), saturated, scansItself_ ? dsaRunsOf(frame) : 0);
+  addToClock(kMaxSeries, frame.hostUs, frame.deviceUs);
   auto shared = std::make_shared<const TactileFrame>(std::move(frame));
   if (!shared->readings.empty()) {
     const std::lock_guard lock(baselineMutex_);
@@ -290,7 +295,16 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   pass(CaptureItem(std::move(shared)));
 }
 
+void CaptureSession::addToClock(std::size_t of,
+                                std::int64_t hostUs,
+                                std::optional<std::int64_t> deviceUs) {
+  if (!deviceUs) return;
+  const std::lock_guard lock(clocksMutex_);
+  clocks_[of].add({hostUs, deviceUs});
+}
+
 void CaptureSession::onSample(Sample&& sample) {
+  addToClock(sample.series, sample.hostUs, sample.deviceUs);
   if (sample.series == kAngleSeries) screenAngles_.put(sample);
   if (sample.series == kTemperatureSeries) {
     screenTemperatures_.put(sample);
@@ -360,6 +374,13 @@ LinkInputs CaptureSession::inputs() const {
   inputs.queues = recorder_.queueStats();
   inputs.recorder = recorder_.status();
   for (const auto& source : sources_) inputs.series.push_back(source->status());
+  {
+    const std::vector<std::string> names = seriesNames();
+    const std::lock_guard clocksLock(clocksMutex_);
+    for (const auto& [of, clock] : clocks_)
+      if (const auto report = clock.report())
+        inputs.clocks.push_back({of < names.size() ? names[of] : "frames", *report});
+  }
   const std::lock_guard lock(shownMutex_);
   inputs.temperatures = lastTemperatures_;
   return inputs;

@@ -221,6 +221,7 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
   health.queues = inputs.queues;
   health.recorder = inputs.recorder;
   health.series = inputs.series;
+  health.clocks = inputs.clocks;
   health.lost = inputs.device.tactile.lost;
   health.badChecksums = inputs.device.tactile.badChecksums;
   if (inputs.device.motion) health.badChecksums += inputs.device.motion->badChecksums;

@@ -99,6 +99,22 @@ TEST(CaptureSession, ASilenceAtTheEndOfTheRecordingIsAGap) {
   EXPECT_EQ(events[0].t1Us, kWallStartUs + 2'010'000) << "2 s from the first frame";
 }
 
+// Frames at 31.25 Hz by their own clock, every second one 20 ms late.
+TEST(CaptureSession, KnowsTheClockOfTheSender) {
+  ScriptedSession scripted;
+  EXPECT_TRUE(scripted.session->health().clocks.empty());
+  for (std::size_t n = 0; n < 1000; ++n)
+    scripted.device->frame(
+        n, testing::kWallStartUs + static_cast<std::int64_t>(n) * 32'000 + (n % 2) * 20'000);
+  const auto clocks = scripted.session->health().clocks;
+  ASSERT_EQ(clocks.size(), 1u);
+  EXPECT_EQ(clocks[0].of, "frames");
+  EXPECT_EQ(clocks[0].report.items, 1000u);
+  EXPECT_NEAR(clocks[0].report.delaySpreadMs, 20.0, 1e-9);
+  EXPECT_NEAR(clocks[0].report.driftPpm.value(), 0.0, 1e-9);
+  EXPECT_EQ(clocks[0].report.restarts, 0u);
+}
+
 // The sender comes back while the recording ends: the link counts the frames that the gap at the
 // end told already, and those of a gap that begins later.
 TEST(CaptureSession, AGapAtTheEndIsCountedOnce) {

@@ -9,6 +9,7 @@
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/dsa_writer.h"
+#include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
 
@@ -52,6 +53,55 @@ void writeTone(const std::filesystem::path& path, std::size_t frames = 200) {
     builder.addFrame(1'400'000'000'000'000 + static_cast<std::int64_t>(i) * 20'000, frame.values);
   }
   writeDsa(builder.finish({}), path, Overwrite::kReplace);
+}
+
+// 20 s at 50 frames/s that arrive ten at once, with the sender's times: the same tone throughout.
+void writeBursts(const std::filesystem::path& path) {
+  ProfileBuilder builder(sdh2().layout);
+  for (std::int64_t i = 0; i < 1000; ++i) {
+    TactileFrame frame(sdh2().layout);
+    const double turns = static_cast<double>(i) / 8.0;
+    frame.matrix(1)(7, 2) =
+        static_cast<float>(std::round(1000.0 + 400.0 * std::cos(2.0 * std::numbers::pi * turns)));
+    builder.addFrame(
+        1'400'000'000'000'000 + (i / 10 * 10 + 9) * 20'000 + i % 10, frame.values, i * 20'000);
+  }
+  saveRecording(builder.finish({}), {}, path, Overwrite::kReplace);
+}
+
+TEST(SpectrumCommand, TakesTheSendersClockByChoice) {
+  const testing::TemporaryFolder folder;
+  const std::string file = folder / "bursts.palpate";
+  writeBursts(file);
+  const auto strongest = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {
+        "spectrum", file, "--matrix", "1", "--x", "2", "--y", "7", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto result = palpate(words);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return Json::parse(result.out).at("strongest");
+  };
+  EXPECT_LT(strongest({}).at("frequency_hz").asDouble(), 5.0);
+  EXPECT_EQ(strongest({}).text(), strongest({"--time", "arrival"}).text());
+  const Json fitted = strongest({"--time", "fitted"});
+  EXPECT_NEAR(fitted.at("frequency_hz").asDouble(), 6.25, 1e-3);
+  EXPECT_NEAR(fitted.at("magnitude").asDouble(), 400.0, 1.0);
+  const auto info = palpate({"info", file});
+  EXPECT_NE(info.out.find("frames: drift 0.0 ppm, delays vary by 180.0 ms, 0 restarts"),
+            std::string::npos)
+      << info.out;
+  EXPECT_EQ(Json::parse(palpate({"info", file, "--json"}).out).at("clocks").size(), 1u);
+  const auto times = palpate({"signals", file, "--matrix", "1", "--time", "fitted"}).out;
+  EXPECT_NE(times.find("\n1,1400000000020,1,"), std::string::npos) << times.substr(0, 300);
+  const std::string out = folder / "fitted.palpate";
+  const auto converted = palpate({"convert", file, out, "--time", "fitted"});
+  EXPECT_EQ(converted.exitCode, 0) << converted.err;
+  EXPECT_NE(converted.err.find("frames: drift 0.0 ppm"), std::string::npos) << converted.err;
+  EXPECT_NE(palpate({"info", out}).out.find("times fitted to the sender's clock"),
+            std::string::npos);
+  writeTone(folder / "tone.dsa");
+  expectOneLineError(
+      palpate({"signals", folder / "tone.dsa", "--time", "fitted"}), 1, {"no times of the sender"});
 }
 
 TEST(SpectrumCommand, ReadsTheAmplitudeOfATone) {

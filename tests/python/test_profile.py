@@ -240,6 +240,8 @@ class Errors(unittest.TestCase):
             profile.matrix(6)
         with self.assertRaises(IndexError):
             profile.matrix(-7)
+        with self.assertRaisesRegex(ValueError, "no times of the sender's clock"):
+            palpate.from_arrays([0, 10], np.zeros((2, 486))).fitted_times()
         with self.assertRaises(OSError):
             palpate.load("missing.palpate")
         for name in ("mask", "view", "counts", "page"):

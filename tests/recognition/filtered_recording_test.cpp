@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/emulator/synthetic_profile.h"
+#include "palpate/model/profile_builder.h"
 
 #include "testing/testing.h"
 
@@ -37,6 +38,51 @@ TEST_F(FilteredRecording, NamesTheFileWhoseMatrixIsMissing) {
   } catch (const Error& error) {
     EXPECT_TRUE(std::string(error.what()).starts_with("a.palpate: ")) << error.what();
   }
+}
+
+// 100 frames/s that arrive five at once.
+Recording bursts(bool withSendersTimes) {
+  ProfileBuilder builder(
+      std::make_shared<SensorLayout>(std::vector{MatrixLayout::full(1, 1, 1.0)}));
+  for (std::int64_t i = 0; i < 200; ++i)
+    builder.addFrame(1'000'000 + (i / 5 * 5 + 4) * 10'000 + i % 5,
+                     std::vector{1.0F},
+                     withSendersTimes ? std::optional(i * 10'000) : std::nullopt);
+  return {.profile = builder.finish({})};
+}
+
+TEST(AtTimes, TakesTheSendersClockByChoiceOnly) {
+  const Recording recording = bursts(true);
+  EXPECT_EQ(filteredBy({}, recording, "a.palpate").frameTimeUs(0), 1'040'000);
+  const Profile fitted = filteredBy({}, recording, "a.palpate", {}, TimeChoice::kFitted);
+  for (std::size_t i = 0; i < 200; ++i)
+    ASSERT_EQ(fitted.frameTimeUs(i), 1'000'004 + static_cast<std::int64_t>(i) * 10'000);
+  std::string said;
+  atTimes(TimeChoice::kFitted, recording.profile, "a.palpate", {}, &said);
+  EXPECT_TRUE(said.starts_with("frames: drift not known yet, delays vary by 40.0 ms")) << said;
+}
+
+TEST(AtTimes, RefusesWhatCantBeFitted) {
+  const Recording recording = bursts(false);
+  try {
+    atTimes(TimeChoice::kFitted, recording.profile, "a.palpate");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "a.palpate: times can't be fitted: no times of the sender's clock; take the times "
+                 "of arrival");
+  }
+}
+
+TEST(TakeFittedTimes, LeavesANote) {
+  Recording recording = bursts(true);
+  recording.events = {{0, 0, "mark", {}, "", ""}, {5'000'000, 5'000'000, "mark", {}, "", ""}};
+  const std::string said = takeFittedTimes(recording, "a.palpate");
+  ASSERT_EQ(recording.events.size(), 3u);
+  EXPECT_EQ(recording.events[1].tUs, 1'000'004);
+  EXPECT_EQ(recording.events[1].kind, "note");
+  EXPECT_EQ(recording.events[1].text, "times fitted to the sender's clock: " + said);
+  EXPECT_EQ(recording.profile.frameTimeUs(0), 1'000'004);
 }
 
 }  // namespace

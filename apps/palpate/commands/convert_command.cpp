@@ -56,6 +56,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
     return readRecording(in, {.topics = given.texts("topic")}, progress.callback());
   }();
   recording.requireEvents();
+  takeTimes(given, recording, in);
   Profile& profile = recording.profile;
   if (from || to) {
     if (profile.numFrames() == 0) throw Error(in + ": has no frames");
@@ -96,8 +97,9 @@ std::vector<std::string> formNames() {
 
 BatchTask convertTaskOf(const CommandLine& given, const std::string& ending) {
   const Recipe recipe = recipeOf(given);
-  return convertTask(
-      {.filters = recipe, .choices = exportChoicesOf(given, recipe, "result" + ending)});
+  return convertTask({.filters = recipe,
+                      .choices = exportChoicesOf(given, recipe, "result" + ending),
+                      .times = timeChoiceOf(given)});
 }
 
 // --each-grasp PATH.. -o TEMPLATE
@@ -118,7 +120,9 @@ int convertGrasps(const CommandLine& given) {
   const ExportChoices choices = exportChoicesOf(given, recipe, "result" + names.ending());
   formatOf("result" + names.ending());
   return runBatchCommand(
-      given, names.planned(), graspsTask(names, {.filters = recipe, .choices = choices}));
+      given,
+      names.planned(),
+      graspsTask(names, {.filters = recipe, .choices = choices, .times = timeChoiceOf(given)}));
 }
 
 int convertBatch(const CommandLine& given) {
@@ -163,6 +167,7 @@ int convertCommand(const Arguments& words) {
             {"to", "M", "last frame (inclusive), default the last one"},
             {"each-grasp", "", "a file for each grasp, as -o out/{name}_{n}.palpate"},
             {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5, mat or mcap"},
+            timeOption(),
             topicOption()}))),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
        .minArguments = 1},

@@ -53,8 +53,9 @@ int deriveCommand(const Arguments& words) {
            "min max exp ln sin .., and of signals: der(x), the slope of x over time [1/s]; "
            "smooth(x,n) and median(x,n) over n samples; lowpass(x,hz), highpass(x,hz), "
            "bandpass(x,low,high), bandstop(x,low,high). A value that isn't known is an empty cell.",
-       .options = withFilterOptions(
-           {{"from", "N", "first frame, default 0"}, {"to", "N", "last frame, inclusive"}}),
+       .options = withFilterOptions({{"from", "N", "first frame, default 0"},
+                                     {"to", "N", "last frame, inclusive"},
+                                     timeOption()}),
        .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",
        .minArguments = 2},
       words);
@@ -69,7 +70,8 @@ int deriveCommand(const Arguments& words) {
     if (!names.insert(one.name).second)
       throw UsageError("two columns would have the name '" + one.name + "': give another one");
   ProgressLine line("reading " + file, given.quiet());
-  const Recording recorded = openReported(file, line, given.quiet());
+  Recording recorded = openReported(file, line, given.quiet());
+  takeTimes(given, recorded, file, line.callback());
   const Profile profile = filteredBy(recipe, recorded, file, line.callback());
   if (profile.numFrames() == 0) throw Error(file + ": has no frames");
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;

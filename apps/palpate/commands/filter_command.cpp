@@ -48,6 +48,7 @@ int filterCommand(const Arguments& words) {
                     "a recipe, as the Filter dock saves it, before every --filter"},
                    {"save-recipe", "R.json", "write the filters as a recipe, too"},
                    {"list", "", "list all filters with options, ranges and sources"},
+                   timeOption(),
                    {"force", "", "replace OUT and R.json"}},
        .example = "palpate filter foam_ball.dsa calm.palpate --filter median --filter kalman:q=0.1",
        .maxArguments = 2},
@@ -76,7 +77,8 @@ int filterCommand(const Arguments& words) {
   if (recipePath) requireWritable(*recipePath, overwrite);
 
   ProgressLine line("reading " + in, given.quiet());
-  const Recording recording = openReported(in, line, given.quiet());
+  Recording recording = openReported(in, line, given.quiet());
+  takeTimes(given, recording, in, line.callback());
   const Profile& profile = recording.profile;
   line.setLabel("filtering " + in);
   const Profile filtered = filteredBy(recipe, recording, in, line.callback());

@@ -1,7 +1,9 @@
 #include "commands/filter_options.h"
 
+#include <cstdio>
 #include <stdexcept>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 #include "commands/commands.h"
@@ -54,6 +56,29 @@ std::vector<OptionSpec> filterOptions() {
 std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options) {
   for (OptionSpec& option : filterOptions()) options.push_back(std::move(option));
   return options;
+}
+
+OptionSpec timeOption() {
+  return {"time",
+          "WHICH",
+          "times of frames and series: arrival (default), or fitted: the sender's clock, fitted to "
+          "it (docs/spectra.md)"};
+}
+
+TimeChoice timeChoiceOf(const CommandLine& given) {
+  return given.choice("time", {"arrival", "fitted"}).value_or("arrival") == "fitted"
+             ? TimeChoice::kFitted
+             : TimeChoice::kArrival;
+}
+
+void takeTimes(const CommandLine& given,
+               Recording& recording,
+               const std::filesystem::path& file,
+               const Progress& progress) {
+  if (timeChoiceOf(given) == TimeChoice::kArrival) return;
+  const std::string said = takeFittedTimes(recording, file, progress);
+  if (given.quiet()) return;
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(file.string() + ": " + said).c_str());
 }
 
 Recipe recipeOf(const CommandLine& given) {

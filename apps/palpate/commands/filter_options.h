@@ -2,10 +2,12 @@
 // --signal.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include <palpate/filter/recipe.h>
+#include <palpate/model/time_base.h>
 #include <palpate/recognition/filtered_recording.h>
 #include <palpate/signals/characteristic_signals.h>
 
@@ -17,6 +19,16 @@ namespace palpate::commands {
 std::vector<OptionSpec> filterOptions();
 // `options` followed by the filter options.
 std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options);
+
+// --time, and what it chooses. Throws UsageError.
+OptionSpec timeOption();
+TimeChoice timeChoiceOf(const CommandLine& given);
+// Takes the times that --time chooses (takeFittedTimes()), and says on standard error what is known
+// of the clocks, unless quiet.
+void takeTimes(const CommandLine& given,
+               Recording& recording,
+               const std::filesystem::path& file,
+               const Progress& progress = {});
 
 // The recipe that the options describe; empty when there are none. Throws UsageError for an invalid
 // text and Error for an invalid file.

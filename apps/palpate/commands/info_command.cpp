@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "palpate/core/progress.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
+#include "palpate/model/fitted_times.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_losses.h"
@@ -26,6 +28,8 @@ namespace {
 struct ValueReport {
   double maximum = 0.0;
   std::size_t saturatedFrames = 0;  // with at least one taxel at or above saturation
+  // Of the sender; empty where no frame has one.
+  std::vector<std::optional<std::int64_t>> deviceUs = {};
 };
 
 ValueReport valuesOf(const Profile& profile, const Progress& progress) {
@@ -38,6 +42,8 @@ ValueReport valuesOf(const Profile& profile, const Progress& progress) {
     const float largest = *std::max_element(frame.values.begin(), frame.values.end());
     report.maximum = std::max(report.maximum, static_cast<double>(largest));
     if (numSaturated(profile.hand(), frame) > 0) ++report.saturatedFrames;
+    if (frame.deviceUs && report.deviceUs.empty()) report.deviceUs.resize(profile.numFrames());
+    if (frame.deviceUs) report.deviceUs[i] = frame.deviceUs;
   }
   return report;
 }
@@ -154,6 +160,27 @@ Json furtherSeriesJson(const Profile& profile) {
   return all;
 }
 
+// The senders' clocks; empty where no frame and no sample has a time of one.
+std::vector<FittedClock> sendersClocks(const Profile& profile, const ValueReport& values) {
+  std::vector<FittedClock> clocks = clocksOf(profile, values.deviceUs);
+  std::erase_if(clocks, [](const FittedClock& clock) { return clock.isWithoutTimes; });
+  return clocks;
+}
+
+Json clocksJson(const std::vector<FittedClock>& clocks) {
+  return jsonList(clocks, [](const FittedClock& clock) {
+    Json json = Json::object().set("of", clock.name);
+    if (!clock.base) return json.set("problem", clock.why);
+    const ClockReport& report = clock.base->report();
+    return json.set("drift_ppm", report.driftPpm ? Json(*report.driftPpm) : Json())
+        .set("delay_spread_ms", report.delaySpreadMs)
+        .set("restarts", report.restarts)
+        .set("rms_ms", report.rmsMs)
+        .set("bound_ms", report.boundMs)
+        .set("unusable", report.unusable);
+  });
+}
+
 // `report` contains the members that come first.
 Json infoJsonOf(Json report,
                 const Recording& recording,
@@ -165,6 +192,7 @@ Json infoJsonOf(Json report,
     return Json::object().set("frame", gap.frame).set("seconds", gap.seconds);
   });
   Json warnings = jsonList(warningsOf(recording));
+  const std::vector<FittedClock> clocks = sendersClocks(profile, values);
   report.set("format", info.format)
       .set("value_type", valueTypeText(profile))
       .set("frames", profile.numFrames())
@@ -185,6 +213,7 @@ Json infoJsonOf(Json report,
       .set("hand", profile.hand().name)
       .set("start_utc", profile.numFrames() ? Json(utcText(profile.frameTimeUs(0))) : Json())
       .set("warnings", warnings);
+  if (!clocks.empty()) report.set("clocks", clocksJson(clocks));
   for (const char* key : kSaid) report.set(key, saidOf(recording, key));
   Json labels = jsonList(labelsOf(recording));
   report.set("labels", labels)
@@ -276,6 +305,8 @@ std::string plainText(const std::string& file,
   text += row("temperatures", counted(profile.numTemperatures(), "sample"));
   for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
     text += row("series", profile.series()[i].name + ": " + seriesText(profile, i));
+  for (const FittedClock& clock : sendersClocks(profile, values))
+    text += row("clock", clock.text());
   text += row("largest value",
               numberText(values.maximum) + ", " + counted(values.saturatedFrames, "frame") +
                   " with a saturated taxel (>= " + profile.hand().saturationText() + ")");

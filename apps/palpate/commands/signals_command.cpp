@@ -38,6 +38,7 @@ int signalsCommand(const Arguments& words) {
                   "code 3. With -o there is a table for each recording.",
        .options = withTableOptions(withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
+            timeOption(),
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}})),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .minArguments = 1},
@@ -46,7 +47,8 @@ int signalsCommand(const Arguments& words) {
   return runTableCommand(given,
                          signalsOf({.matrix = given.integer("matrix", 0, INT64_MAX),
                                     .filters = recipeOf(given),
-                                    .smooth = smoothOf(given)}));
+                                    .smooth = smoothOf(given),
+                                    .times = timeChoiceOf(given)}));
 }
 
 }  // namespace palpate::commands

@@ -26,6 +26,7 @@ void takeWords(const CommandLine& given, SlipRowsOptions& options) {
     throw UsageError(std::string("--reference is ") + error.what());
   }
   options.filters = recipeOf(given);
+  options.times = timeChoiceOf(given);
 }
 
 }  // namespace
@@ -66,7 +67,8 @@ int slipCommand(const Arguments& words) {
                   rule.kRotationDeg),
             bound("segments",
                   "a row per slip: frames, matrix, length of the path",
-                  options.segments)})),
+                  options.segments),
+            timeOption()})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);

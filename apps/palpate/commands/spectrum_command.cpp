@@ -348,6 +348,7 @@ int spectrumCommand(const Arguments& words) {
             {"rate",
              "HOW",
              "sampling rate after interpolation: mean (default) or median of the intervals"},
+            timeOption(),
             {"from", "N", "first frame, default 0"},
             {"to", "N", "last frame, inclusive"},
             {"json",
@@ -371,7 +372,8 @@ int spectrumCommand(const Arguments& words) {
   const Recipe recipe = recipeOf(given);
   const std::string& file = given.words().front();
   ProgressLine line("reading " + file, given.quiet());
-  const Recording recorded = openReported(file, line, given.quiet());
+  Recording recorded = openReported(file, line, given.quiet());
+  takeTimes(given, recorded, file, line.callback());
   const Profile profile = filteredBy(recipe, recorded, file, line.callback());
   if (twoSignals) return writeCoherence(given, profile, options, line);
   const Series series = seriesOf(given, profile, choiceOf(given, profile), line.callback());

@@ -13,6 +13,7 @@
 #include <palpate/batch/export_extras.h>
 #include <palpate/batch/grasp_files.h>
 #include <palpate/filter/recipe.h>
+#include <palpate/model/time_base.h>
 #include <palpate/recognition/feature_table.h>
 #include <palpate/recognition/grasp_segments.h>
 #include <palpate/core/result_table.h>
@@ -28,6 +29,7 @@ namespace palpate {
 struct ConvertOptions {
   Recipe filters = {};
   ExportChoices choices = {};
+  TimeChoice times = TimeChoice::kArrival;
 };
 // The form is that of the result's ending (formatOf()); requirePossible() says which choices it
 // can have.

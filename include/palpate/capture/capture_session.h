@@ -27,6 +27,7 @@
 #include <palpate/core/time.h>
 #include <palpate/device/device.h>
 #include <palpate/device/series_source.h>
+#include <palpate/model/time_base.h>
 
 namespace palpate {
 
@@ -133,6 +134,7 @@ class CaptureSession : private DeviceSink {
 
   void pass(const CaptureItem& item, bool ofHand = true);
   void show(const Event& event);
+  void addToClock(std::size_t of, std::int64_t hostUs, std::optional<std::int64_t> deviceUs);
   LinkInputs inputs() const;
   std::map<std::string, std::int64_t> counters() const;
   std::vector<std::string> seriesNames() const;
@@ -149,6 +151,9 @@ class CaptureSession : private DeviceSink {
   std::shared_ptr<const SensorLayout> expectedFor_;
   HandDescription hand_;  // of the device when it was started
   std::atomic<bool> started_ = false;
+
+  mutable std::mutex clocksMutex_;
+  std::map<std::size_t, ClockMonitor> clocks_;  // by series; of the frames kMaxSeries
 
   std::mutex baselineMutex_;
   std::shared_ptr<const Baseline> baseline_;

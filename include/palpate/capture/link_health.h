@@ -16,6 +16,7 @@
 #include <palpate/device/device.h>
 #include <palpate/device/series_source.h>
 #include <palpate/model/series.h>
+#include <palpate/model/time_base.h>
 
 namespace palpate {
 
@@ -104,6 +105,12 @@ struct Alarm {
   std::string text;  // one line: what, and what to do
 };
 
+// The clock of a sender, of the last five minutes.
+struct LinkClock {
+  std::string of;  // "frames", or the name of the series
+  ClockReport report;
+};
+
 // State of the session at one moment; input of assessHealth().
 struct LinkInputs {
   bool started = false;
@@ -114,6 +121,7 @@ struct LinkInputs {
   // The newest temperatures; empty before the first ones.
   std::optional<Sample> temperatures;
   std::vector<SeriesStatus> series;  // of the sources of further series
+  std::vector<LinkClock> clocks;
 };
 
 struct LinkHealth {
@@ -122,6 +130,7 @@ struct LinkHealth {
   std::vector<SeriesStatus> series;  // of the sources of further series
   std::uint64_t lost = 0;            // frames that were sent but not received completely
   std::uint64_t badChecksums = 0;    // of both ports
+  std::vector<LinkClock> clocks;     // of what comes with times of its sender
   CaptureQueueStats queues;          // queues of the recorder
   // Bytes written to disk, measured (or HealthOptions::nominalBytesPerS).
   double bytesPerS = 0.0;

@@ -13,6 +13,7 @@
 #include <palpate/core/result_table.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/time_base.h>
 #include <palpate/signals/signal_filter.h>
 
 namespace palpate {
@@ -25,6 +26,7 @@ struct SignalRowsOptions {
   Recipe filters = {};                      // of the frames, first
   Recipe smooth = {};                       // of the signals, over time
   bool unitsRow = false;                    // of CSV: a second row with the units
+  TimeChoice times = TimeChoice::kArrival;  // of the frames, before the filters
 };
 // The table "signals" of a profile that is filtered already. Throws std::invalid_argument (a filter
 // over space, or a frequency that is not below half of the rate, 1 / median interval); its rows

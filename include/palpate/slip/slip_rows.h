@@ -14,6 +14,7 @@
 #include <palpate/core/result_table.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/time_base.h>
 #include <palpate/slip/slip_segments.h>
 
 namespace palpate {
@@ -27,6 +28,7 @@ struct SlipRowsOptions {
   bool segments = false;  // a row per slip instead of one per frame and matrix
   bool unitsRow = false;  // of CSV: a second row with the units
   Recipe filters = {};    // of the frames, first
+  TimeChoice times = TimeChoice::kArrival;
 };
 // The table "slip" of a profile that is filtered already, or "slip_segments". Throws as SlipRun.
 std::unique_ptr<ResultTable> slipTable(const Profile& profile,

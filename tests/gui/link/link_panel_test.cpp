@@ -41,6 +41,16 @@ TEST(LinkPanel, SaysHowTheLinkDoesInUnits) {
   for (const Fact& each : facts) EXPECT_FALSE(each.warning) << each.name.toStdString();
 }
 
+TEST(LinkPanel, TellsOfTheClocksOfSenders) {
+  LinkHealth health = goodHealth();
+  health.clocks = {{"frames", {.restarts = 1, .driftPpm = 12.3, .delaySpreadMs = 41.0}},
+                   {"wrist", {}}};
+  const auto facts = factsOf(health);
+  EXPECT_EQ(fact(facts, "clock").value,
+            "drift 12.3 ppm, delays vary by 41.0 ms, 1 restart, error 0.00 ms (at most 0.00)");
+  EXPECT_TRUE(fact(facts, "clock of wrist").value.startsWith("drift not known yet"));
+}
+
 TEST(LinkPanel, WarnsOfWhatIsWrong) {
   LinkHealth health = goodHealth();
   health.device.tactile.state = PortState::kLost;

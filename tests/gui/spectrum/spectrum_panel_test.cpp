@@ -2,6 +2,7 @@
 #include "gui/spectrum/spectrum_panel.h"
 
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -73,6 +74,30 @@ class SpectrumPanelTest : public ::testing::Test {
                       QSettings::IniFormat};
   std::unique_ptr<SpectrumPanel> panel_ = std::make_unique<SpectrumPanel>(settings_);
 };
+
+// A sine of 6.25 Hz at 50 frames/s that come ten at once: only by the sender's clock it is one
+// line.
+TEST_F(SpectrumPanelTest, TakesTheSendersClock) {
+  ProfileBuilder builder(sdh2().layout);
+  TactileFrame frame = emptyFrame();
+  for (std::int64_t i = 0; i < 1000; ++i) {
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(i);
+    frame.matrix(1)(7, 2) = static_cast<float>(1000.0 + 400.0 * std::cos(turn / 8.0));
+    builder.addFrame(
+        1'400'000'000'000'000 + (i / 10 * 10 + 9) * 20'000 + i % 10, frame.values, i * 20'000);
+  }
+  show(makeOpenedRecording("bursts.palpate", builder.finish({})));
+  EXPECT_LT(spectra().mean.strongestHz(), 5.0);
+  auto* times = find<QCheckBox>("spectrumTimes");
+  times->setChecked(true);
+  panel_->settle();
+  EXPECT_NEAR(spectra().mean.strongestHz(), 6.25, 1e-3);
+  EXPECT_NEAR(spectra().largestMagnitude, 400.0, 1.0);
+  EXPECT_TRUE(times->toolTip().contains("frames: drift 0.0 ppm")) << times->toolTip().toStdString();
+  show(tones(400));
+  EXPECT_TRUE(panel_->emptyText().contains("no times of the sender's clock"))
+      << panel_->emptyText().toStdString();
+}
 
 TEST_F(SpectrumPanelTest, ShowsTheStrongestTaxelWhileNoneIsChosen) {
   show(tones(400));

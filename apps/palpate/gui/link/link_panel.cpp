@@ -79,6 +79,10 @@ std::vector<Fact> factsOf(const LinkHealth& health) {
   facts.push_back({"lost", count(health.lost), health.lost > 0});
   facts.push_back({"bad checksums", count(health.badChecksums), health.badChecksums > 0});
   facts.push_back({"suspect", count(tactile.suspect), tactile.suspect > 0});
+  for (const LinkClock& clock : health.clocks)
+    facts.push_back(
+        {clock.of == "frames" ? QString("clock") : "clock of " + QString::fromStdString(clock.of),
+         QString::fromStdString(clockText(clock.report))});
   facts.push_back({"saturated",
                    numberOf(health.frames.saturatedFrames, "frame") + ", " +
                        figure(health.frames.saturatedFraction * 100.0, 0) + " % now",

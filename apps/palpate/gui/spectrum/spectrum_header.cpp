@@ -1,5 +1,6 @@
 #include "gui/spectrum/spectrum_header.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QSignalBlocker>
@@ -16,6 +17,10 @@ namespace {
 
 constexpr int kShortest = 2;  // [samples]
 constexpr int kLongest = 65'536;
+constexpr const char* kTimesTip =
+    "Takes the times of the sender's clock, fitted to the times of arrival: for senders whose "
+    "frames "
+    "arrive in bursts.";
 
 }  // namespace
 
@@ -74,6 +79,11 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
                  "Quantity shown as colour");
   scale_->setFocusPolicy(Qt::TabFocus);
   for (const SpectrumScale each : kAllSpectrumScales) scale_->addItem(nameOf(each));
+  times_ = named(new QCheckBox("Sender's clock", this),
+                 "spectrumTimes",
+                 kTimesTip,
+                 "Times of the sender's clock");
+  times_->setFocusPolicy(Qt::TabFocus);
   setLayout(inRow({{name_, 1},
                    Space::kNarrow,
                    signal_,
@@ -85,7 +95,9 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
                    "Overlap",
                    overlap_,
                    Space::kNarrow,
-                   scale_}));
+                   scale_,
+                   Space::kNarrow,
+                   times_}));
   show(setting_);
   connect(window_, &QSpinBox::valueChanged, this, [this](int window) {
     SpectrumSetting setting = setting_;
@@ -110,6 +122,11 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
     }
     take(setting);
   });
+  connect(times_, &QCheckBox::toggled, this, [this](bool on) {
+    SpectrumSetting setting = setting_;
+    setting.fitsTimes = on;
+    take(setting);
+  });
   connect(scale_, &QComboBox::activated, this, [this](int index) {
     SpectrumSetting setting = setting_;
     setting.scale = kAllSpectrumScales[static_cast<std::size_t>(index)];
@@ -119,13 +136,15 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
 
 void SpectrumHeader::show(const SpectrumSetting& setting) {
   setting_ = setting;
-  const QSignalBlocker window(window_), overlap(overlap_), scale(scale_), view(view_);
+  const QSignalBlocker window(window_), overlap(overlap_), scale(scale_), view(view_),
+      times(times_);
   window_->setValue(setting.window);
   overlap_->setRange(0, setting.window - 1);
   overlap_->setValue(setting.overlap);
   scale_->setCurrentText(nameOf(setting.scale));
   scale_->setEnabled(setting.view != SpectrumView::kCoherence);
   view_->setCurrentText(nameOf(setting.view));
+  times_->setChecked(setting.fitsTimes);
 }
 
 void SpectrumHeader::setSetting(const SpectrumSetting& setting) {
@@ -145,6 +164,10 @@ void SpectrumHeader::setName(const QString& name) {
   whole_ = name;
   name_->setToolTip(name);
   elide();
+}
+
+void SpectrumHeader::setClock(const QString& clock) {
+  times_->setToolTip(clock.isEmpty() ? QString(kTimesTip) : kTimesTip + ("\n" + clock));
 }
 
 void SpectrumHeader::setFormulas(const QStringList& names) {

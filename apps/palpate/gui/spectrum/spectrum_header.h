@@ -8,6 +8,7 @@
 
 #include "gui/spectrum/spectrum_chart.h"
 
+class QCheckBox;
 class QComboBox;
 class QLabel;
 class QSpinBox;
@@ -35,6 +36,7 @@ struct SpectrumSetting {
   int overlap = SpectrumOptions{}.overlap;  // [samples] 0..window-1
   SpectrumScale scale = SpectrumScale::kDecibels;
   SpectrumView view = SpectrumView::kMap;
+  bool fitsTimes = false;  // times of the sender's clock instead of those of arrival
   bool operator==(const SpectrumSetting&) const = default;
 };
 
@@ -45,6 +47,8 @@ class SpectrumHeader : public QWidget {
   void setSetting(const SpectrumSetting& setting);
   const SpectrumSetting& setting() const noexcept { return setting_; }
   void setName(const QString& name);
+  // What is known of the sender's clock; empty: nothing.
+  void setClock(const QString& clock);
   // The curves by formulas that can be chosen instead of the chosen taxels.
   void setFormulas(const QStringList& names);
   // The chosen one; empty: the chosen taxels.
@@ -69,6 +73,7 @@ class SpectrumHeader : public QWidget {
   QSpinBox* overlap_;
   QComboBox* scale_;
   QComboBox* view_;
+  QCheckBox* times_;
 };
 
 }  // namespace palpate::gui

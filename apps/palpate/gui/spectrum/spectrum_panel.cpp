@@ -25,12 +25,14 @@ void settingFields(SettingsTable& table, SpectrumSetting& setting) {
   table.number("spectrum/overlap", setting.overlap, Any::min(), Any::max());
   table.choice("spectrum/scale", setting.scale, kAllSpectrumScales);
   table.choice("spectrum/view", setting.view, kAllSpectrumViews);
+  table.flag("spectrum/sender_clock", setting.fitsTimes);
 }
 
 bool sameWork(const SpectrumQuestion& a, const SpectrumQuestion& b) {
   const SpectrumOptions &one = a.options.spectrum, &other = b.options.spectrum;
   if (a.recording != b.recording || a.taxels != b.taxels || one.window != other.window ||
-      one.overlap != other.overlap || a.work != b.work || a.formula != b.formula)
+      one.overlap != other.overlap || a.work != b.work || a.formula != b.formula ||
+      a.times != b.times)
     return false;
   if (b.work != SpectrumWork::kOverTime)
     return a.span == b.span && (b.work == SpectrumWork::kMean || a.other == b.other);
@@ -187,6 +189,7 @@ void SpectrumPanel::ask() {
     if (each.name == header_->formula()) question.formula = each;
   question.options.spectrum.window = header_->setting().window;
   question.options.spectrum.overlap = header_->setting().overlap;
+  if (header_->setting().fitsTimes) question.times = TimeChoice::kFitted;
   const SpectrumView view = header_->setting().view;
   if (view != SpectrumView::kMap) {
     question.work = view == SpectrumView::kLine ? SpectrumWork::kMean : SpectrumWork::kCoherence;
@@ -223,6 +226,7 @@ QString SpectrumPanel::nameOf(const SpectrumAnswer& answer) const {
 }
 
 void SpectrumPanel::take(const SpectrumAnswer& answer) {
+  header_->setClock(answer.clock);
   if (!answer.failure.isEmpty()) return say(answer.failure, "Try again");
   if (!answer.formula.isEmpty() && !answer.series) {
     header_->setName({});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include <palpate/recognition/filtered_recording.h>
 #include <palpate/signals/resampled_series.h>
 #include <palpate/signals/signal_name.h>
 #include <palpate/signals/strongest_taxel.h>
@@ -46,19 +47,23 @@ Progress part(const Progress& whole, double base, double share) {
 // Results for the last recording; the pointer is weak, so that a closed recording is freed.
 struct SpectrumKept {
   std::weak_ptr<const OpenedRecording> of = {};
+  TimeChoice times = TimeChoice::kArrival;
   bool looked = false;
   // Valid once `looked`; empty when no taxel has a signal.
   TaxelSelection strongest = {};
   // What is kept of the whole recording.
   SeriesChoice choice = {};
   std::shared_ptr<const Series> series = {};
+  // The recording at fitted times; empty until it was asked for.
+  std::optional<Profile> fitted = {};
+  QString clock = {};
 };
 
 void answerOverSpan(const SpectrumQuestion& question,
+                    const Profile& profile,
                     const SeriesChoice& choice,
                     SpectrumAnswer& answer,
                     const Progress& progress) {
-  const Profile& profile = question.recording->profile;
   const double half = kSpectrumWorkerReadShare / 2.0, read = kLookShare + kSpectrumWorkerReadShare;
   answer.series = std::make_shared<Series>(
       spanOf(profile, choice, question.span, part(progress, kLookShare, half)));
@@ -82,18 +87,29 @@ void answerOverSpan(const SpectrumQuestion& question,
 SpectrumAnswer answerTo(SpectrumKept& kept,
                         const SpectrumQuestion& question,
                         const Progress& progress) {
-  const Profile& profile = question.recording->profile;
-  if (kept.of.lock() != question.recording) {
+  if (kept.of.lock() != question.recording || kept.times != question.times) {
     kept = {};
     kept.of = question.recording;
+    kept.times = question.times;
   }
+  if (question.times == TimeChoice::kFitted && !kept.fitted) {
+    std::string said;
+    kept.fitted = atTimes(question.times,
+                          question.recording->profile,
+                          question.recording->path.filename(),
+                          part(progress, 0.0, kLookShare),
+                          &said);
+    kept.clock = QString::fromStdString(said);
+  }
+  const Profile& profile = kept.fitted ? *kept.fitted : question.recording->profile;
   SpectrumAnswer answer{.taxels = question.taxels,
                         .unit = unitOf(profile.hand()),
                         .strongest = question.taxels.empty(),
                         .whole = fitsWhole(question),
                         .options = question.options.limitedToCells(),
                         .work = question.work,
-                        .span = question.span};
+                        .span = question.span,
+                        .clock = kept.clock};
   if (question.formula) {
     answer.strongest = false;
     answer.formula = question.formula->name;
@@ -115,7 +131,7 @@ SpectrumAnswer answerTo(SpectrumKept& kept,
   if (!hasSeries(profile, choice)) return answer;
   const Progress reading = part(progress, kLookShare, kSpectrumWorkerReadShare);
   if (question.work != SpectrumWork::kOverTime) {
-    answerOverSpan(question, choice, answer, progress);
+    answerOverSpan(question, profile, choice, answer, progress);
     return answer;
   }
   if (!answer.whole) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <palpate/model/time_base.h>
 #include <palpate/model/timing.h>
 #include <palpate/signals/coherence.h>
 #include <palpate/signals/profile_series.h>
@@ -39,6 +40,7 @@ struct SpectrumQuestion {
   TimeSpan span = {};
   // The other signal of the coherence.
   SeriesChoice other = {};
+  TimeChoice times = TimeChoice::kArrival;
 };
 
 // The computed spectrum.
@@ -66,6 +68,8 @@ struct SpectrumAnswer {
   // Null unless it was requested; without bins when the span is too short for two segments.
   std::shared_ptr<const Coherence> coherence = nullptr;
   TimeSpan span = {};
+  // Of fitted times, what is known of the clocks.
+  QString clock = {};
   // Why the work failed, in one line; for example an unreadable block.
   QString failure = {};
 };
