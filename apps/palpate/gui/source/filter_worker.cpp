@@ -47,7 +47,8 @@ FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe) {
   for (const FilterStep& step : recipe.steps)
     figures.latencies.push_back(latencyFrames(step, rateHz));
   Nowhere nowhere;
-  FilterChain chain(recipe, nowhere);
+  FilterChain chain(withRest(recipe, source.profile, {settingsTimesUs(source.events.events)}),
+                    nowhere);
   const std::size_t numFrames = source.profile.numFrames();
   const std::size_t loudest = source.isLong() ? numFrames / 2 : source.table.frameOfLargestSum();
   const std::size_t from = loudest > kMeasuredFrames / 2 ? loudest - kMeasuredFrames / 2 : 0;
