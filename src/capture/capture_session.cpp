@@ -215,7 +215,7 @@ void CaptureSession::startRecording(RecordingOptions options) {
   recorder_.start(std::move(options));
 }
 
-CaptureSession::Rest CaptureSession::restNow() const {
+Rest CaptureSession::restNow() const {
   std::deque<SharedFrame> recent;
   {
     const std::lock_guard lock(baselineMutex_);

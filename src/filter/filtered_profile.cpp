@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <deque>
 #include <mutex>
 #include <optional>
 
 #include "palpate/core/error.h"
-#include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
-#include "palpate/core/time.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/model/rest_span.h"
 #include "palpate/model/timing.h"
 
 namespace palpate {
@@ -199,36 +197,6 @@ Profile computedWhole(const Profile& source,
   return builder.finish(source.info());
 }
 
-// What a chain takes of the frames between two times, see withRest().
-Baseline restIn(const Profile& profile, double fromS, double toS) {
-  // The ends of a span that was chosen are rounded.
-  constexpr std::int64_t kToleranceUs = 1'000;
-  const std::size_t numFrames = profile.numFrames();
-  const std::int64_t beginUs = numFrames > 0 ? profile.frameTimeUs(0) : 0;
-  const auto after = [beginUs](double seconds) {
-    return beginUs + std::llround(seconds * kUsPerS);
-  };
-  const auto refuse = [&](const std::string& why) {
-    throw std::invalid_argument("baseline: " + why + " (from=" + numberText(fromS) +
-                                ",to=" + numberText(toS) + ")");
-  };
-  const std::int64_t lastsUs = profile.durationUs();
-  if (after(toS) > beginUs + lastsUs + kToleranceUs)
-    refuse("the recording ends after " + fixedText(static_cast<double>(lastsUs) / kUsPerS, 2) +
-           " s, before the readings at rest do");
-  RestMeter meter;
-  UnreadableSamples unreadable;
-  TactileFrame frame;
-  for (std::size_t i = profile.frameAt(after(fromS)).value_or(0); i < numFrames; ++i) {
-    const std::int64_t timeUs = profile.frameTimeUs(i);
-    if (timeUs < after(fromS) - kToleranceUs) continue;
-    if (timeUs > after(toS) + kToleranceUs) break;
-    if (profile.readFrame(i, frame, &unreadable)) meter.add(frame.allValues());
-  }
-  if (meter.numFrames() < 2) refuse("fewer than two frames are in the span of the rest");
-  return meter.baseline();
-}
-
 }  // namespace
 
 Recipe withRest(const Recipe& recipe,
@@ -243,7 +211,9 @@ Recipe withRest(const Recipe& recipe,
     before.steps.assign(made.steps.begin(), made.steps.begin() + static_cast<std::ptrdiff_t>(i));
     step.rest = restIn(filteredProfile(source, before, options, progress),
                        step.value("from"),
-                       step.value("to"));
+                       step.value("to"),
+                       RestOf::kValues)
+                    .baseline;
     step.explicitOptions.erase("from");
     step.explicitOptions.erase("to");
   }

@@ -170,16 +170,15 @@ Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames)
 
 std::string baselineText(const Baseline& baseline, std::size_t numFrames) {
   const auto [low, high] = std::minmax_element(baseline.rest.begin(), baseline.rest.end());
-  std::string text = counted(numFrames, "frame") + ": " +
-                     counted(baseline.rest.size(), "reading") + " at rest";
+  std::string text =
+      counted(numFrames, "frame") + ": " + counted(baseline.rest.size(), "reading") + " at rest";
   if (low != baseline.rest.end())
     text += " from " + fixedText(static_cast<double>(*low), 1) + " to " +
             fixedText(static_cast<double>(*high), 1);
   if (!baseline.noise.empty())
-    text += ", noise up to " +
-            fixedText(static_cast<double>(*std::max_element(baseline.noise.begin(),
-                                                            baseline.noise.end())),
-                      1);
+    text += ", noise up to " + fixedText(static_cast<double>(*std::max_element(
+                                             baseline.noise.begin(), baseline.noise.end())),
+                                         1);
   return text;
 }
 

@@ -27,6 +27,7 @@
 #include <palpate/core/time.h>
 #include <palpate/device/device.h>
 #include <palpate/device/series_source.h>
+#include <palpate/model/rest_span.h>
 
 namespace palpate {
 
@@ -81,10 +82,6 @@ class CaptureSession : private DeviceSink {
   bool canUndoBaseline() const;
   // The same readings (counts, of a hand that doesn't decide touch) without taking them. Throws
   // Error as takeBaseline().
-  struct Rest {
-    Baseline baseline;
-    std::size_t numFrames = 0;
-  };
   Rest restNow() const;
 
   // As Recorder::start(). The recording also contains the device's properties (serial number,

@@ -1,7 +1,7 @@
 // One filter with its options: one step of a recipe. As text it is written "median:size=3,masked=1"
 // (names and keys: filter_catalog.h). The keys may have any order; a missing key has its default.
-// `matrices=1+3` restricts a filter to some matrices. The filter "baseline" may have its rest with it:
-// "baseline:rest=3/2.5/0,noise=0.5/1/0".
+// `matrices=1+3` restricts a filter to some matrices. The filter "baseline" may have its rest with
+// it: "baseline:rest=3/2.5/0,noise=0.5/1/0".
 #pragma once
 
 #include <cstddef>
