@@ -95,7 +95,7 @@ std::array<float, 3> forceAt(const TactileFrame& frame, const TaxelPlace& place)
 namespace {
 
 constexpr std::size_t kMostReadings = std::size_t{1} << 26;  // that a baseline is taken of: 256 MB
-constexpr std::size_t kFramesThatTell = 8;                   // whether readings are at rest
+constexpr std::size_t kFramesThatTell = 16;                  // whether readings are at rest
 constexpr double kRestSigmas = 3.0;
 constexpr double kRestShare = 0.002;  // of the full scale
 
@@ -128,7 +128,8 @@ void requireAtRest(std::span<const float> readings, std::size_t numFrames, doubl
   double farthest = 0.0;
   for (std::size_t i = 0; i < first.means.size(); ++i) {
     const double change = std::abs(second.means[i] - first.means[i]);
-    const double noise = std::sqrt((first.variances[i] + second.variances[i]) / 2.0);
+    // Of what begins to press within one half the other one knows the noise.
+    const double noise = std::sqrt(std::min(first.variances[i], second.variances[i]));
     if (change <= kRestSigmas * noise || change <= kRestShare * fullScale) continue;
     ++moving;
     farthest = std::max(farthest, change);

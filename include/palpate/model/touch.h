@@ -49,8 +49,9 @@ class RestMeter {
   void add(std::span<const float> readings);
   std::size_t numFrames() const noexcept { return numFrames_; }
   // Throws std::invalid_argument: fewer than two frames. With a full scale, throws Error where
-  // the readings aren't at rest: from eight frames on, where the mean of one differs between the
-  // earlier and the later half by more than 3 standard deviations and 0.2 % of the full scale.
+  // the readings aren't at rest: from 16 frames on, where the mean of one differs between the
+  // earlier and the later half by more than 3 standard deviations (of the calmer half) and 0.2 %
+  // of the full scale.
   // Something that presses without moving can't be told from the rest.
   Baseline baseline() const;
 

@@ -32,6 +32,7 @@ class TimelineFeature : public Feature {
   ~TimelineFeature() override;
 
   TimelinePanel& panel() noexcept { return *panel_; }
+  BaselineControls& baselines() noexcept { return *baselines_; }
   LiveChart& liveChart() noexcept { return *liveChart_; }
   SignalTree& signalTree() noexcept { return *signalTree_; }
   CropJob& cropJob() noexcept { return *crop_; }
