@@ -241,7 +241,8 @@ std::string CaptureSession::takeBaseline() {
   if (!device_->hand().layout->decidesTouch())
     throw Error(
         "a baseline needs readings of a hand that decides touch by them "
-        "(components, signed, touch_threshold or touch_sigma in its hand.json)");
+        "(components, signed, touch_threshold or touch_sigma in its hand.json); "
+        "for others there is the filter baseline");
   Rest rest = restNow();
   Event event = baselineEvent(rest.baseline, nowUs());
   event.text += ", " + baselineText(rest.baseline, rest.numFrames);
