@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
 #include "palpate/device/dsa_frame.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/recording_losses.h"
@@ -216,27 +217,72 @@ void CaptureSession::startRecording(RecordingOptions options) {
     return meta;
   };
   recorder_.start(std::move(options));
-  const HandDescription hand = device_->hand();
-  if (!hand.layout->decidesTouch()) return;
-  const std::lock_guard lock(baselineMutex_);
-  const Baseline none{std::vector<float>(hand.layout->numReadings()), {}};
-  recorder_.push(baselineEvent(baseline_ ? *baseline_ : none, nowUs()));
 }
 
-void CaptureSession::takeBaseline() {
-  std::optional<Event> event;
+Rest CaptureSession::restNow() const {
+  std::deque<SharedFrame> recent;
   {
     const std::lock_guard lock(baselineMutex_);
-    if (recent_.size() < 2)
-      throw Error(
-          "a baseline needs readings of a hand that decides touch by them "
-          "(components, signed, touch_threshold or touch_sigma in its hand.json)");
-    auto baseline = std::make_shared<const Baseline>(
-        baselineOf(std::vector<SharedFrame>(recent_.begin(), recent_.end())));
-    event = baselineEvent(*baseline, nowUs());
-    baseline_ = std::move(baseline);
+    recent = recent_;
   }
-  note(*event);
+  if (recent.size() < 2)
+    throw Error("no baseline was taken: fewer than two frames came in the last " +
+                fixedText(options_.baselineS, 1) + " s");
+  RestMeter meter(static_cast<double>(device_->hand().maximumCounts));
+  // Of a hand that was found or changed meanwhile the newest frames count.
+  const auto first = std::find_if(recent.rbegin(), recent.rend(), [&](const SharedFrame& frame) {
+    return frame->stored().size() != recent.back()->stored().size();
+  });
+  for (auto frame = first.base(); frame != recent.end(); ++frame) meter.add((*frame)->stored());
+  try {
+    return {meter.baseline(), meter.numFrames()};
+  } catch (const std::invalid_argument& error) {
+    throw Error(error.what());
+  }
+}
+
+std::string CaptureSession::takeBaseline() {
+  if (!device_->hand().layout->decidesTouch())
+    throw Error(
+        "a baseline needs readings of a hand that decides touch by them "
+        "(components, signed, touch_threshold or touch_sigma in its hand.json); "
+        "for others there is the filter baseline");
+  Rest rest = restNow();
+  Event event = baselineEvent(rest.baseline, nowUs());
+  event.text += ", " + baselineText(rest.baseline, rest.numFrames);
+  std::string text = baselineText(rest.baseline, rest.numFrames);
+  {
+    const std::lock_guard lock(baselineMutex_);
+    // A replay has its own.
+    earlierBaselines_.push_back(baseline_ || recent_.empty() ? baseline_
+                                                             : recent_.back()->baseline);
+    baseline_ = std::make_shared<const Baseline>(std::move(rest.baseline));
+  }
+  note(event);
+  return text;
+}
+
+void CaptureSession::undoBaseline() {
+  std::shared_ptr<const Baseline> before;
+  {
+    const std::lock_guard lock(baselineMutex_);
+    if (earlierBaselines_.empty()) throw Error("there is no earlier baseline");
+    before = earlierBaselines_.back();
+    earlierBaselines_.pop_back();
+    // Without an earlier one it is 0.
+    if (!before)
+      before = std::make_shared<const Baseline>(
+          Baseline{std::vector<float>(baseline_->rest.size()), {}});
+    baseline_ = before;
+  }
+  Event event = baselineEvent(*before, nowUs());
+  event.text = "the baseline before the last one";
+  note(event);
+}
+
+bool CaptureSession::canUndoBaseline() const {
+  const std::lock_guard lock(baselineMutex_);
+  return !earlierBaselines_.empty();
 }
 
 std::map<std::string, std::int64_t> CaptureSession::counters() const {
@@ -285,7 +331,7 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   meter_.frame(clock_.monotonicUs(), saturated, scansItself_ ? dsaRunsOf(frame) : 0);
   addToClock(kMaxSeries, frame.hostUs, frame.deviceUs);
   auto shared = std::make_shared<const TactileFrame>(std::move(frame));
-  if (!shared->readings.empty()) {
+  {
     const std::lock_guard lock(baselineMutex_);
     recent_.push_back(shared);
     const auto keptUs = static_cast<std::int64_t>(options_.baselineS * kUsPerS);

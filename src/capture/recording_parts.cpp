@@ -206,6 +206,7 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
   PalpateWriterOptions writerOptions;
   writerOptions.commitIntervalUs = INT64_MAX;  // this class commits by itself, by the clock
   writerOptions.vfs = vfs_;
+  writerOptions.notesBaselines = true;
   auto writer = std::make_unique<PalpateWriter>(path, layout, meta, writerOptions);
   ++nextPart_;
   paths_.push_back(path);
@@ -453,7 +454,10 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
 
 void RecordingParts::append(PalpateWriter& writer, const CaptureItem& item) const {
   if (const auto* frame = std::get_if<SharedFrame>(&item)) return writer.addFrame(**frame);
-  if (const auto* event = std::get_if<Event>(&item)) return writer.addEvent(*event);
+  if (const auto* event = std::get_if<Event>(&item)) {
+    if (event->kind != kBaselineKind) writer.addEvent(*event);  // the writer notes its own
+    return;
+  }
   const auto& sample = std::get<Sample>(item);
   if (sample.series < kHandSeries) return writer.addSample(sample);
   const std::size_t index = sample.series - kHandSeries;

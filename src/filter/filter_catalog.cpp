@@ -19,6 +19,7 @@ constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFilterCatalogLargestSize = 31;  // taxels
 constexpr double kLargestWindow = 1001;           // frames
 constexpr double kLargestThreshold = 1e6;         // counts, or the unit of the hand
+constexpr double kLargestSecond = 1e7;            // of a recording [s]
 constexpr double kLowestEdgeHz = 0.001;
 constexpr double kHighestEdgeHz = 10'000;
 
@@ -151,6 +152,19 @@ std::vector<FilterKind> spatialKinds() {
        "its own is no contact.",
        "every taxel by itself",
        "what the SDH-2's controller does"},
+      {"baseline",
+       "Baseline",
+       FilterDomain::kSpatial,
+       {real("from", 0, kLargestSecond, 0, "s", "where the readings at rest begin"),
+        real("to", 0, kLargestSecond, 1, "s", "where they end; from the first frame on"),
+        real("sigmas", 0, 100, 5, "", "so many standard deviations of the rest become 0"),
+        real("above", 0, kLargestThreshold, 0, "counts", "as do values up to this above the rest"),
+        masked()},
+       "Subtracts the readings at rest; what doesn't exceed them by more than their noise becomes "
+       "0. The rest is the mean of a span of the recording, or of a connected hand the last second "
+       "(Baseline).",
+       "every taxel by itself",
+       "what skins and pads need whose readings aren't 0 at rest"},
   };
 }
 

@@ -17,6 +17,10 @@ using FilterStepKind = FilterOption::Kind;
 constexpr std::size_t kMostMatrices = 1024;
 constexpr int kMostMedianValues = 2001;  // number of values of a median; takes some ms per frame
 constexpr const char* kMatrices = "matrices";
+constexpr const char* kRest = "rest";
+constexpr const char* kNoise = "noise";
+constexpr float kLargestRest = 1e9F;
+constexpr char kBetweenValues = '/';
 
 std::vector<std::string_view> split(std::string_view text, char at) {
   std::vector<std::string_view> parts;
@@ -86,6 +90,39 @@ std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view 
   return matrices;
 }
 
+std::vector<float> parseRest(const FilterStep& step, std::string_view key, std::string_view text) {
+  std::vector<float> values;
+  for (const std::string_view part : split(text, kBetweenValues)) {
+    const auto number = parseDouble(part);
+    if (!number || !(std::abs(*number) <= static_cast<double>(kLargestRest)))
+      throw std::invalid_argument(step.name + ": " + std::string(key) +
+                                  " must be numbers joined by /, as 3/2.5, is \"" +
+                                  shortened(text) + "\"");
+    values.push_back(static_cast<float>(*number));
+  }
+  return values;
+}
+
+void requireRest(const FilterStep& step) {
+  if (!step.rest) return;
+  const Baseline& rest = *step.rest;
+  const auto refuseRest = [&](const std::string& why) {
+    throw std::invalid_argument(step.name + ": " + why);
+  };
+  if (step.name != "baseline") refuseRest("only the filter baseline has a rest");
+  for (const auto& [key, value] : step.explicitOptions)
+    if (!step.uses(*step.kind().option(key)))
+      refuseRest(key + " has no meaning where the rest is given");
+  if (rest.rest.empty()) refuseRest("noise without a rest");
+  if (!rest.noise.empty() && rest.noise.size() != rest.rest.size())
+    refuseRest("rest has " + std::to_string(rest.rest.size()) + " values, noise " +
+               std::to_string(rest.noise.size()));
+  for (const float value : rest.rest)
+    if (!(std::abs(value) <= kLargestRest)) refuseRest("a value of the rest is not a number");
+  for (const float value : rest.noise)
+    if (!(value >= 0.0F && value <= kLargestRest)) refuseRest("noise must be 0 or more");
+}
+
 double parseValue(const FilterStep& step, const FilterOption& option, std::string_view text) {
   if (option.kind == FilterStepKind::kChoice) {
     const auto at = std::find(option.choices.begin(), option.choices.end(), text);
@@ -127,6 +164,10 @@ void FilterStep::validate() const {
         name + ": size * size * window must be at most " + std::to_string(kMostMedianValues) +
         ", is " + std::to_string(integer("size") * integer("size") * integer("window")));
   if (const auto butterworth = butterworthOf(*this)) butterworth->validate();
+  requireRest(*this);
+  if (name == "baseline" && !rest && value("from") >= value("to"))
+    throw std::invalid_argument("baseline: from must be below to, " + numberText(value("to")) +
+                                " s, is " + numberText(value("from")));
   if (kind.option("order") != nullptr && window != nullptr) {
     if (integer("order") >= integer("window"))
       throw std::invalid_argument(name + ": order must be below the window of " +
@@ -157,7 +198,12 @@ double FilterStep::valueOrZero(std::string_view key) const {
   return kind().option(key) == nullptr ? 0.0 : value(key);
 }
 
+bool FilterStep::uses(const FilterOption& option) const {
+  return !rest || (option.key != "from" && option.key != "to");
+}
+
 bool FilterStep::causal() const {
+  if (name == "baseline") return rest.has_value();
   if (name == "rts" || valueOrZero("centred") != 0.0) return false;
   if (name != "kelvin-voigt") return true;
   // A missing parameter is estimated from the whole stretch, so that the filter is not causal.
@@ -206,6 +252,11 @@ FilterStep parseFilterStep(std::string_view text) {
         step.matrices = parseMatrices(step, value);
         continue;
       }
+      if (kind.name == "baseline" && (key == kRest || key == kNoise)) {
+        if (!step.rest) step.rest.emplace();
+        (key == kRest ? step.rest->rest : step.rest->noise) = parseRest(step, key, value);
+        continue;
+      }
       const FilterOption* option = kind.option(key);
       if (option == nullptr) throw std::invalid_argument(unknownKey(kind, key));
       const double number = parseValue(step, *option, value);
@@ -217,12 +268,13 @@ FilterStep parseFilterStep(std::string_view text) {
 }
 
 namespace {
-std::string optionsTextOf(const FilterStep& step, bool withDefaults) {
+enum class RestText { kValues, kSize };
+std::string optionsTextOf(const FilterStep& step, bool withDefaults, RestText restText) {
   std::string text = step.name;
   char before = ':';
   for (const FilterOption& option : step.kind().options) {
     const double value = step.value(option.key);
-    if (!withDefaults && same(value, option.defaultValue)) continue;
+    if (!step.uses(option) || (!withDefaults && same(value, option.defaultValue))) continue;
     text += before + option.key + '=';
     if (std::isnan(value))
       text += "auto";
@@ -236,13 +288,32 @@ std::string optionsTextOf(const FilterStep& step, bool withDefaults) {
     text += before + std::string(kMatrices) + '=';
     for (std::size_t i = 0; i < step.matrices.size(); ++i)
       text += (i > 0 ? "+" : "") + std::to_string(step.matrices[i]);
+    before = ',';
+  }
+  if (!step.rest) return text;
+  if (restText == RestText::kSize)
+    return text + before + kRest + '=' + std::to_string(step.rest->rest.size()) + " values";
+  for (const auto& [key, values] :
+       {std::pair(kRest, &step.rest->rest), std::pair(kNoise, &step.rest->noise)}) {
+    for (std::size_t i = 0; i < values->size(); ++i)
+      text += (i > 0 ? std::string(1, kBetweenValues) : before + std::string(key) + '=') +
+              numberText((*values)[i]);
+    before = ',';
   }
   return text;
 }
 }  // namespace
 
-std::string filterText(const FilterStep& step) { return optionsTextOf(step, false); }
+std::string filterText(const FilterStep& step) {
+  return optionsTextOf(step, false, RestText::kValues);
+}
 
-std::string fullFilterText(const FilterStep& step) { return optionsTextOf(step, true); }
+std::string fullFilterText(const FilterStep& step) {
+  return optionsTextOf(step, true, RestText::kSize);
+}
+
+std::string shownFilterText(const FilterStep& step) {
+  return optionsTextOf(step, false, RestText::kSize);
+}
 
 }  // namespace palpate

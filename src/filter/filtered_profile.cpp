@@ -10,6 +10,7 @@
 #include "palpate/core/progress.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/model/rest_span.h"
 #include "palpate/model/timing.h"
 
 namespace palpate {
@@ -198,11 +199,33 @@ Profile computedWhole(const Profile& source,
 
 }  // namespace
 
+Recipe withRest(const Recipe& recipe,
+                const Profile& source,
+                const FilteredProfileOptions& options,
+                const Progress& progress) {
+  Recipe made = recipe;
+  for (std::size_t i = 0; i < made.steps.size(); ++i) {
+    FilterStep& step = made.steps[i];
+    if (!step.enabled || step.name != "baseline" || step.rest) continue;
+    Recipe before;
+    before.steps.assign(made.steps.begin(), made.steps.begin() + static_cast<std::ptrdiff_t>(i));
+    step.rest = restIn(filteredProfile(source, before, options, progress),
+                       step.value("from"),
+                       step.value("to"),
+                       RestOf::kValues)
+                    .baseline;
+    step.explicitOptions.erase("from");
+    step.explicitOptions.erase("to");
+  }
+  return made;
+}
+
 Profile filteredProfile(const Profile& source,
-                        const Recipe& recipe,
+                        const Recipe& given,
                         FilteredProfileOptions options,
                         const Progress& progress) {
-  recipe.validate();
+  given.validate();
+  const Recipe recipe = withRest(given, source, options, progress);
   for (const FilterStep& step : recipe.steps)
     if (step.enabled)
       makeFrameFilter(step, source.hand().layout);  // throws for a matrix that does not exist

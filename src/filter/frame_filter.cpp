@@ -10,7 +10,10 @@ namespace {
 
 using detail::MatrixKernel;
 
-std::unique_ptr<MatrixKernel> kernelOf(const FilterStep& step, const MatrixLayout& layout) {
+std::unique_ptr<MatrixKernel> kernelOf(const FilterStep& step,
+                                       const SensorLayout& sensor,
+                                       std::size_t matrix) {
+  const MatrixLayout& layout = sensor.matrix(matrix);
   if (step.name == "box") return detail::boxKernel(layout, step);
   if (step.name == "gaussian") return detail::gaussianKernel(layout, step);
   if (step.name == "median") return detail::medianKernel(layout, step.integer("size"));
@@ -18,6 +21,7 @@ std::unique_ptr<MatrixKernel> kernelOf(const FilterStep& step, const MatrixLayou
   if (step.name == "nlm") return detail::nonLocalMeansKernel(layout, step);
   if (step.name == "opening") return detail::openingKernel(layout, step);
   if (step.name == "threshold") return detail::thresholdKernel(layout, step);
+  if (step.name == "baseline") return detail::baselineKernel(layout, sensor.offset(matrix), step);
   throw std::logic_error("makeFrameFilter: " + step.name + " has no kernel");
 }
 
@@ -30,10 +34,14 @@ std::unique_ptr<FrameFilter> makeFrameFilter(const FilterStep& step,
     if (matrix >= layout->numMatrices())
       throw std::invalid_argument(step.name + ": there is no matrix " + std::to_string(matrix) +
                                   ", only 0.." + std::to_string(layout->numMatrices() - 1));
+  if (step.rest && step.rest->rest.size() != layout->numCells())
+    throw std::invalid_argument("baseline: its rest is of " +
+                                std::to_string(step.rest->rest.size()) + " taxels, the hand has " +
+                                std::to_string(layout->numCells()) + ": take it of this hand");
   switch (step.kind().domain) {
     case FilterDomain::kSpatial:
       return std::make_unique<detail::SpatialFilter>(
-          step, std::move(layout), [&](const MatrixLayout& of) { return kernelOf(step, of); });
+          step, layout, [&](std::size_t matrix) { return kernelOf(step, *layout, matrix); });
     case FilterDomain::kSpatioTemporal:
       return detail::spatioTemporalFilter(step, std::move(layout));
     case FilterDomain::kTemporal:

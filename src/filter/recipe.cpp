@@ -31,9 +31,14 @@ Json stepJson(const FilterStep& step) {
   json.set("filter", step.name);
   for (const FilterOption& option : step.kind().options) {
     const double value = step.value(option.key);
-    if (!std::isnan(value)) json.set(option.key, optionJson(option, value));
+    if (step.uses(option) && !std::isnan(value)) json.set(option.key, optionJson(option, value));
   }
   if (!step.matrices.empty()) json.set("matrices", jsonList(step.matrices));
+  if (step.rest) {
+    const auto number = [](float value) { return Json(parseDouble(numberText(value)).value()); };
+    json.set("rest", jsonList(step.rest->rest, number));
+    if (!step.rest->noise.empty()) json.set("noise", jsonList(step.rest->noise, number));
+  }
   json.set("enabled", step.enabled);
   return json;
 }
@@ -44,6 +49,12 @@ std::string valueText(const Json& value) {
   if (value.isString()) return value.asString();
   if (value.isNumber()) return numberText(value.asDouble());
   if (value.isNull()) return "auto";
+  if (value.isArray()) {  // of a rest
+    std::string text;
+    for (std::size_t i = 0; i < value.size(); ++i)
+      text += (i > 0 ? "/" : "") + numberText(value.at(i).asDouble());
+    return text;
+  }
   throw std::invalid_argument("a value must be a number, a text, true or false");
 }
 
@@ -140,6 +151,8 @@ std::string joinedSteps(const Recipe& recipe, std::string (*textOf)(const Filter
 std::string recipeText(const Recipe& recipe) { return joinedSteps(recipe, filterText); }
 
 std::string fullRecipeText(const Recipe& recipe) { return joinedSteps(recipe, fullFilterText); }
+
+std::string shownRecipeText(const Recipe& recipe) { return joinedSteps(recipe, shownFilterText); }
 
 Recipe parseRecipe(std::span<const std::string> texts) {
   Recipe recipe;

@@ -39,7 +39,7 @@ SpatialFilter::SpatialFilter(const FilterStep& step,
                              const MakeKernel& make)
     : layout_(std::move(layout)), masked_(step.valueOrZero("masked") != 0.0) {
   for (std::size_t m = 0; m < layout_->numMatrices(); ++m)
-    kernels_.push_back(worksOn(step, m) ? make(layout_->matrix(m)) : nullptr);
+    kernels_.push_back(worksOn(step, m) ? make(m) : nullptr);
 }
 
 void SpatialFilter::push(TactileFrame& frame, FrameSink& out) {

@@ -24,7 +24,7 @@ bool allZero(const float* values, std::size_t count);
 
 class SpatialFilter final : public FrameFilter {
  public:
-  using MakeKernel = std::function<std::unique_ptr<MatrixKernel>(const MatrixLayout&)>;
+  using MakeKernel = std::function<std::unique_ptr<MatrixKernel>(std::size_t matrix)>;
   SpatialFilter(const FilterStep& step,
                 std::shared_ptr<const SensorLayout> layout,
                 const MakeKernel& make);
@@ -48,6 +48,10 @@ std::unique_ptr<MatrixKernel> nonLocalMeansKernel(const MatrixLayout& layout,
                                                   const FilterStep& step);
 std::unique_ptr<MatrixKernel> openingKernel(const MatrixLayout& layout, const FilterStep& step);
 std::unique_ptr<MatrixKernel> thresholdKernel(const MatrixLayout& layout, const FilterStep& step);
+// `offset`: of the matrix among the values of a frame. Throws std::invalid_argument without a rest.
+std::unique_ptr<MatrixKernel> baselineKernel(const MatrixLayout& layout,
+                                             std::size_t offset,
+                                             const FilterStep& step);
 
 // Returns whether a step applies to a matrix.
 bool worksOn(const FilterStep& step, std::size_t matrix);

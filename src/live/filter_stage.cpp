@@ -68,7 +68,8 @@ Recipe livePart(const Recipe& recipe, const SensorLayout& layout) {
     const bool there = std::all_of(step.matrices.begin(), step.matrices.end(), [&](std::size_t m) {
       return m < layout.numMatrices();
     });
-    step.enabled = step.enabled && step.causal() && there;
+    const bool ofThisHand = !step.rest || step.rest->rest.size() == layout.numCells();
+    step.enabled = step.enabled && step.causal() && there && ofThisHand;
   }
   return live;
 }

@@ -92,25 +92,95 @@ std::array<float, 3> forceAt(const TactileFrame& frame, const TaxelPlace& place)
   return {of.difference(3 * cell), of.difference(3 * cell + 1), of.difference(3 * cell + 2)};
 }
 
-Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames) {
-  if (frames.size() < 2) throw std::invalid_argument("a baseline needs at least two frames");
-  const std::size_t count = frames.front()->stored().size();
-  std::vector<double> sums(count), squares(count);
-  for (const auto& frame : frames) {
-    requireSize(frame->stored().size(), count, "frame of a baseline");
-    for (std::size_t i = 0; i < count; ++i) sums[i] += static_cast<double>(frame->stored()[i]);
+namespace {
+
+constexpr std::size_t kMostReadings = std::size_t{1} << 26;  // that a baseline is taken of: 256 MB
+constexpr std::size_t kFramesThatTell = 16;                  // whether readings are at rest
+constexpr double kRestSigmas = 3.0;
+constexpr double kRestShare = 0.002;  // of the full scale
+
+// Mean and variance of every reading of frames.
+struct Moments {
+  std::vector<double> means, variances;
+};
+Moments momentsOf(std::span<const float> readings, std::size_t numFrames) {
+  const std::size_t count = readings.size() / numFrames;
+  const auto n = static_cast<double>(numFrames);
+  Moments of{std::vector<double>(count), std::vector<double>(count)};
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    of.means[i % count] += static_cast<double>(readings[i]);
+  for (double& mean : of.means) mean /= n;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const double off = static_cast<double>(readings[i]) - of.means[i % count];
+    of.variances[i % count] += off * off;
   }
-  const auto n = static_cast<double>(frames.size());
+  for (double& variance : of.variances) variance /= n - 1.0;
+  return of;
+}
+
+void requireAtRest(std::span<const float> readings, std::size_t numFrames, double fullScale) {
+  if (fullScale <= 0.0 || numFrames < kFramesThatTell) return;
+  const std::size_t half = numFrames / 2;
+  const std::size_t ofFirst = readings.size() / numFrames * half;
+  const Moments first = momentsOf(readings.first(ofFirst), half);
+  const Moments second = momentsOf(readings.subspan(ofFirst), numFrames - half);
+  std::size_t moving = 0;
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < first.means.size(); ++i) {
+    const double change = std::abs(second.means[i] - first.means[i]);
+    // Of what begins to press within one half the other one knows the noise.
+    const double noise = std::sqrt(std::min(first.variances[i], second.variances[i]));
+    if (change <= kRestSigmas * noise || change <= kRestShare * fullScale) continue;
+    ++moving;
+    farthest = std::max(farthest, change);
+  }
+  if (moving > 0)
+    throw Error("no baseline was taken: " + counted(moving, "reading") + " moved, by up to " +
+                fixedText(farthest, 1) + "; take it while nothing touches the sensor");
+}
+
+}  // namespace
+
+void RestMeter::add(std::span<const float> readings) {
+  if (numFrames_ > 0) requireSize(readings.size(), readings_.size() / numFrames_, "frame");
+  if (readings_.size() + readings.size() > kMostReadings)
+    throw std::invalid_argument("a baseline of more than " + std::to_string(numFrames_) +
+                                " frames: take a shorter span");
+  readings_.insert(readings_.end(), readings.begin(), readings.end());
+  ++numFrames_;
+}
+
+Baseline RestMeter::baseline() const {
+  if (numFrames_ < 2)
+    throw std::invalid_argument("a baseline needs at least two frames, there are " +
+                                std::to_string(numFrames_));
+  requireAtRest(readings_, numFrames_, fullScale_);
+  const Moments of = momentsOf(readings_, numFrames_);
   Baseline baseline;
-  for (const double sum : sums) baseline.rest.push_back(static_cast<float>(sum / n));
-  for (const auto& frame : frames)
-    for (std::size_t i = 0; i < count; ++i) {
-      const double off = static_cast<double>(frame->stored()[i]) - sums[i] / n;
-      squares[i] += off * off;
-    }
-  for (const double square : squares)
-    baseline.noise.push_back(static_cast<float>(std::sqrt(square / (n - 1.0))));
+  for (const double mean : of.means) baseline.rest.push_back(static_cast<float>(mean));
+  for (const double variance : of.variances)
+    baseline.noise.push_back(static_cast<float>(std::sqrt(variance)));
   return baseline;
+}
+
+Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames) {
+  RestMeter meter;
+  for (const auto& frame : frames) meter.add(frame->stored());
+  return meter.baseline();
+}
+
+std::string baselineText(const Baseline& baseline, std::size_t numFrames) {
+  const auto [low, high] = std::minmax_element(baseline.rest.begin(), baseline.rest.end());
+  std::string text =
+      counted(numFrames, "frame") + ": " + counted(baseline.rest.size(), "reading") + " at rest";
+  if (low != baseline.rest.end())
+    text += " from " + fixedText(static_cast<double>(*low), 1) + " to " +
+            fixedText(static_cast<double>(*high), 1);
+  if (!baseline.noise.empty())
+    text += ", noise up to " + fixedText(static_cast<double>(*std::max_element(
+                                             baseline.noise.begin(), baseline.noise.end())),
+                                         1);
+  return text;
 }
 
 namespace {
@@ -130,8 +200,8 @@ std::vector<float> floatsOf(const Json& list) {
 
 }  // namespace
 
-Event baselineEvent(const Baseline& baseline, std::int64_t timeUs) {
-  Event event{timeUs, timeUs, "baseline", {}, "the readings at rest", ""};
+Event baselineEvent(const Baseline& baseline, std::int64_t timeUs, const char* kind) {
+  Event event{timeUs, timeUs, kind, {}, "the readings at rest", ""};
   Json json = Json::object().set("rest", numbersOf(baseline.rest));
   if (!baseline.noise.empty()) json.set("noise", numbersOf(baseline.noise));
   event.json = json.text(-1);
@@ -141,12 +211,14 @@ Event baselineEvent(const Baseline& baseline, std::int64_t timeUs) {
   return event;
 }
 
-Baselines baselinesOf(std::span<const Event> events,
-                      const SensorLayout& layout,
-                      std::size_t* wrong) {
+namespace {
+Baselines baselinesOfKind(const char* kind,
+                          std::span<const Event> events,
+                          const SensorLayout& layout,
+                          std::size_t* wrong) {
   Baselines baselines;
   for (const Event& event : events) {
-    if (event.kind != "baseline") continue;
+    if (event.kind != kind) continue;
     try {
       const Json json = Json::parse(event.json);
       Baseline read{floatsOf(json.at("rest")), floatsOf(json.at("noise"))};
@@ -161,6 +233,19 @@ Baselines baselinesOf(std::span<const Event> events,
     return a.first < b.first;
   });
   return baselines;
+}
+}  // namespace
+
+Baselines baselinesOf(std::span<const Event> events,
+                      const SensorLayout& layout,
+                      std::size_t* wrong) {
+  Baselines recorded = baselinesOfKind(kBaselineKind, events, layout, wrong);
+  Baselines later = baselinesOfKind(kNewBaselineKind, events, layout, wrong);
+  return later.empty() ? recorded : later;
+}
+
+Baselines recordedBaselinesOf(std::span<const Event> events, const SensorLayout& layout) {
+  return baselinesOfKind(kBaselineKind, events, layout, nullptr);
 }
 
 std::vector<Event> baselineEvents(const Baselines& baselines) {

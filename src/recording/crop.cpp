@@ -62,11 +62,15 @@ std::vector<Event> eventsWithin(std::span<const Event> events, const Profile& pr
   if (profile.numFrames() == 0) return within;
   const std::int64_t beginUs = profile.frameTimeUs(0);
   const std::int64_t endUs = profile.frameTimeUs(profile.numFrames() - 1);
-  // The baseline that holds at the begin.
-  const Event* baseline = nullptr;
-  for (const Event& event : events)
-    if (event.kind == "baseline" && event.tUs < beginUs) baseline = &event;
-  if (baseline) {
+  // The baselines that hold at the begin: the first one also before its time.
+  for (const char* kind : {kBaselineKind, kNewBaselineKind}) {
+    const Event* baseline = nullptr;
+    for (const Event& event : events)
+      if (event.kind == kind && (event.tUs < beginUs || (!baseline && event.tUs > endUs)))
+        baseline = &event;
+      else if (event.kind == kind && !baseline)
+        break;  // it is within
+    if (!baseline) continue;
     within.push_back(*baseline);
     within.back().tUs = within.back().t1Us = beginUs;
   }

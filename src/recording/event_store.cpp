@@ -199,8 +199,8 @@ fs::path sidecarPathOf(const fs::path& recording) {
 }
 
 bool isUserEvent(const Event& event) {
-  constexpr std::array<std::string_view, 7> kNoted{
-      "label", "mark", "note", "recipe", "segment", "sensor_settings", "tare"};
+  constexpr std::array<std::string_view, 8> kNoted{
+      "label", "mark", "note", "new_baseline", "recipe", "segment", "sensor_settings", "tare"};
   return std::find(kNoted.begin(), kNoted.end(), event.kind) != kNoted.end();
 }
 

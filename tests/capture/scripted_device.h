@@ -62,7 +62,8 @@ class ScriptedDevice : public Device {
   std::function<void()> afterOpenGap;
 
   ScriptedDevice() { state.tactile.port = "/dev/scripted"; }
-  HandDescription hand() const override { return sdh2(); }
+  HandDescription described = sdh2();
+  HandDescription hand() const override { return described; }
   DeviceInfo info() const override { return says; }
   void start(DeviceSink& to) override {
     sink = &to;

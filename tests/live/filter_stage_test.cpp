@@ -107,5 +107,13 @@ TEST(FilterStage, AMatrixThatIsNotThereIsLeftOut) {
   EXPECT_TRUE(live.steps[1].enabled);
 }
 
+TEST(FilterStage, ABaselineThatWasTakenOfAnotherHandIsLeftOut) {
+  const SensorLayout pad({MatrixLayout::full(1, 2, 2.0)});
+  const Recipe live = livePart(recipeOf("baseline | baseline:rest=1/2/3 | baseline:rest=1/2"), pad);
+  EXPECT_FALSE(live.steps[0].enabled) << "nothing was taken";
+  EXPECT_FALSE(live.steps[1].enabled);
+  EXPECT_TRUE(live.steps[2].enabled);
+}
+
 }  // namespace
 }  // namespace palpate::filter_stage_test

@@ -87,6 +87,50 @@ TEST(Touch, TheBaselineIsMeanAndDeviation) {
   EXPECT_THROW(baselineOf({}), std::invalid_argument);
 }
 
+TEST(Touch, WhatMovesIsNoRest) {
+  const auto meterOf = [](double fullScale, float step) {
+    RestMeter meter(fullScale);
+    for (int i = 0; i < 20; ++i) {
+      const float noise = i % 2 == 0 ? 1.0F : -1.0F;
+      meter.add(Values{noise, 10.0F + (i < 10 ? 0.0F : step)});
+    }
+    EXPECT_EQ(meter.numFrames(), 20u);
+    return meter;
+  };
+  // 0.2 % of 1000 are 2.
+  EXPECT_THROW(meterOf(1'000.0, 5.0F).baseline(), Error);
+  EXPECT_NO_THROW(meterOf(1'000.0, 2.5F).baseline()) << "its noise is 1";
+  EXPECT_NO_THROW(meterOf(10'000.0, 5.0F).baseline());
+  EXPECT_NO_THROW(meterOf(1'000.0, 1.5F).baseline());
+  EXPECT_NO_THROW(meterOf(0.0, 500.0F).baseline()) << "not asked for";
+  RestMeter few(1'000.0);
+  few.add(Values{1.0F, 2.0F});
+  EXPECT_THROW(few.baseline(), std::invalid_argument) << "one frame";
+  EXPECT_THROW(few.add(Values{1.0F}), std::invalid_argument) << "of another layout";
+  few.add(Values{500.0F, 2.0F});
+  EXPECT_EQ(few.baseline().rest, (Values{250.5F, 2.0F})) << "too few frames to tell";
+}
+
+TEST(Touch, WhatWasTakenIsToldInOneLine) {
+  EXPECT_EQ(baselineText({{-3.0F, 12.0F}, {0.25F, 0.75F}}, 33),
+            "33 frames: 2 readings at rest from -3.0 to 12.0, noise up to 0.8");
+  EXPECT_EQ(baselineText({{1.0F}, {}}, 2), "2 frames: 1 reading at rest from 1.0 to 1.0");
+}
+
+TEST(Touch, ABaselineTakenLaterIsTheOneThatIsSeen) {
+  const SensorLayout layout = *layoutOf({.isSigned = true});
+  const Baseline recorded{{1.0F, 2.0F, 3.0F}, {}};
+  const Baseline later{{4.0F, 5.0F, 6.0F}, {}};
+  const std::vector<Event> events{baselineEvent(recorded, 10),
+                                  baselineEvent(later, 30, kNewBaselineKind)};
+  const Baselines seen = baselinesOf(events, layout);
+  ASSERT_EQ(seen.size(), 1u);
+  EXPECT_EQ(*baselineAt(seen, 10), later) << "of the whole recording";
+  const Baselines asRecorded = recordedBaselinesOf(events, layout);
+  ASSERT_EQ(asRecorded.size(), 1u);
+  EXPECT_EQ(*asRecorded[0].second, recorded);
+}
+
 TEST(Touch, BaselinesComeBackFromTheirEvents) {
   const SensorLayout layout = *layoutOf({.isSigned = true});
   const Baseline first{{0.1F, -2.5F, 3e-7F}, {0.25F, 0.0F, 1.0F}};

@@ -3,8 +3,10 @@
 #include "palpate/model/profile_builder.h"
 #include "palpate/model/touch.h"
 #include "palpate/recording/crop.h"
+#include "palpate/recording/event_store.h"
 #include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/second_summary.h"
 
 #include "recording/palpate_damage.h"
 #include "testing/testing.h"
@@ -77,6 +79,45 @@ TEST(ReadingsRecording, AWholeOneIsVerified) {
   EXPECT_TRUE(recovery.whole());
   ASSERT_TRUE(recovery.profile);
   EXPECT_EQ(recovery.profile->frame(7).readings, readingsOf(7));
+}
+
+// What its file says of each second is what was seen while recording.
+TEST(ReadingsRecording, ABaselineTakenLaterIsSeenAndDamagesNothing) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.palpate";
+  saveRecording(recorded(), rest(), path);
+  const auto summary = readSeconds(path);
+  Baseline later{std::vector<float>(15), {}};
+  later.rest[2] = -30.0F;
+  const Recording before = readRecording(path);
+  std::vector<Event> events = before.events;
+  events.push_back(baselineEvent(later, 1'300, kNewBaselineKind));
+  saveEvents(path, {before.events, 0}, events);
+  const Recording read = readRecording(path);
+  EXPECT_EQ(read.profile.frame(0).values[0], 30.0F) << "also before it";
+  EXPECT_EQ(read.profile.frame(39).values[0], 9.0F);
+  EXPECT_EQ(read.profile.frame(39).readings, before.profile.frame(39).readings);
+  EXPECT_TRUE(recoverPalpateProfile(path).whole());
+  EXPECT_EQ(recoverPalpateProfile(path).damagedRows, 0u);
+  EXPECT_EQ(readSeconds(path), summary);
+
+  const auto copy = folder / "copy.palpate";
+  saveRecording(read.profile, read.events, copy);
+  EXPECT_EQ(recoverPalpateProfile(copy).damagedRows, 0u);
+  EXPECT_EQ(readSeconds(copy), summary);
+  // A part that ends before the baseline was taken is seen over it, too.
+  const Profile part = cropped(read.profile, 2, 10);
+  const auto cut = folder / "cut.palpate";
+  saveRecording(part, eventsWithin(read.events, part), cut);
+  EXPECT_EQ(openRecording(cut).frame(0).values[0], 28.0F);
+  EXPECT_EQ(recoverPalpateProfile(cut).damagedRows, 0u);
+
+  saveEvents(path, {read.events, 0}, before.events);
+  EXPECT_EQ(readRecording(path).profile.frame(30).values[0], 10.0F) << "undone";
+  std::vector<Event> without = before.events;
+  without.erase(without.begin());
+  EXPECT_THROW(saveEvents(path, {before.events, 0}, without), std::invalid_argument)
+      << "what happened while recording stays";
 }
 
 TEST(ReadingsRecording, OtherFormsHoldWhatIsSeen) {

@@ -118,7 +118,8 @@ RecordingOptions recordingOptions(const CommandLine& given) {
 void takeBaseline(CaptureSession& session,
                   Interruption& interruption,
                   double seconds,
-                  double firstFrameS) {
+                  double firstFrameS,
+                  bool quiet) {
   constexpr int kLookMs = 20;
   session.start();
   std::optional<std::int64_t> firstUs;
@@ -132,7 +133,8 @@ void takeBaseline(CaptureSession& session,
         static_cast<double>(systemClock().monotonicUs() - beginUs) > firstFrameS * kUsPerS)
       throw Error("no frame arrived for the baseline");
   }
-  session.takeBaseline();
+  const std::string taken = session.takeBaseline();
+  if (!quiet) std::fprintf(stderr, "baseline of %s\n", taken.c_str());
 }
 
 // Waits until the recording stops by itself, a signal arrives, or no first frame arrives in time.
@@ -321,7 +323,7 @@ int recordCommand(const Arguments& words) {
       std::fprintf(stderr, "%s\n", escapedLine(place).c_str());
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
   if (given.has("baseline"))
-    takeBaseline(session, interruption, captureOptions.baselineS, firstFrameS);
+    takeBaseline(session, interruption, captureOptions.baselineS, firstFrameS, given.quiet());
   session.startRecording(std::move(options));
   StreamNotice notice(streamOf(session), given.quiet());
   recordUntilDone(session, interruption, firstFrameS, given.quiet(), notice);

@@ -28,6 +28,7 @@
 #include <palpate/device/device.h>
 #include <palpate/device/series_source.h>
 #include <palpate/model/time_base.h>
+#include <palpate/model/rest_span.h>
 
 namespace palpate {
 
@@ -70,11 +71,19 @@ class CaptureSession : private DeviceSink {
   void stop() noexcept;
   bool started() const noexcept { return started_.load(); }
 
-  // Takes the readings of the last CaptureOptions::baselineS, at least two frames, for the readings
-  // at rest (of a hand that decides touch by its readings): what follows is seen over them, and the
-  // event "baseline" is shown and recorded. Each recording of such a hand begins with the event of
-  // its baseline. Throws Error where there are no such readings. Safe from any thread.
-  void takeBaseline();
+  // Takes the readings of the last CaptureOptions::baselineS for the readings at rest, of a hand
+  // that decides touch by its readings: what follows is seen over them, and the event "baseline"
+  // is shown; a recording notes the baseline of its frames. Returns what was taken, in one line.
+  // Throws Error where there are fewer than two frames, where they aren't at rest (model/touch.h),
+  // and for another hand. Safe from any thread, as the functions below.
+  std::string takeBaseline();
+  // The baseline before the last one comes back, with the event "baseline". Throws Error where
+  // there is none.
+  void undoBaseline();
+  bool canUndoBaseline() const;
+  // The same readings (counts, of a hand that doesn't decide touch) without taking them. Throws
+  // Error as takeBaseline().
+  Rest restNow() const;
 
   // As Recorder::start(). The recording also contains the device's properties (serial number,
   // firmware, settings), the program's version and the counters of the connection. The device need
@@ -155,9 +164,10 @@ class CaptureSession : private DeviceSink {
   mutable std::mutex clocksMutex_;
   std::map<std::size_t, ClockMonitor> clocks_;  // by series; of the frames kMaxSeries
 
-  std::mutex baselineMutex_;
+  mutable std::mutex baselineMutex_;
   std::shared_ptr<const Baseline> baseline_;
-  std::deque<SharedFrame> recent_;  // frames with readings of the last baselineS
+  std::vector<std::shared_ptr<const Baseline>> earlierBaselines_;
+  std::deque<SharedFrame> recent_;  // frames of the last baselineS
 
   LatestValue<SharedFrame> screenFrame_;
   LatestValue<Sample> screenAngles_;

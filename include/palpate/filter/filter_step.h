@@ -1,6 +1,7 @@
 // One filter with its options: one step of a recipe. As text it is written "median:size=3,masked=1"
 // (names and keys: filter_catalog.h). The keys may have any order; a missing key has its default.
-// `matrices=1+3` restricts a filter to some matrices.
+// `matrices=1+3` restricts a filter to some matrices. The filter "baseline" may have its rest with
+// it: "baseline:rest=3/2.5/0,noise=0.5/1/0".
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,7 @@
 
 #include <palpate/filter/butterworth.h>
 #include <palpate/filter/filter_catalog.h>
+#include <palpate/model/touch.h>
 
 namespace palpate {
 
@@ -23,6 +25,9 @@ struct FilterStep {
   // Matrices to filter, in wire order, ascending; empty means all.
   std::vector<std::size_t> matrices{};
   bool enabled = true;  // a disabled step stays in the recipe and does nothing
+  // Of "baseline": the values at rest, one per place of the layout. Without it they are taken from
+  // the recording (filtered_profile.h, withRest()), and the step is not causal.
+  std::optional<Baseline> rest{};
 
   // Throws std::invalid_argument for an unknown name or key (listing the known ones), a value out
   // of range, an even window, and options that contradict each other (the order must be below the
@@ -40,6 +45,8 @@ struct FilterStep {
   bool flag(std::string_view key) const { return value(key) != 0.0; }
   // Returns value(), or 0 when this filter has no such key.
   double valueOrZero(std::string_view key) const;
+  // Whether an option has an effect: where the rest is given, the span to take it from has none.
+  bool uses(const FilterOption& option) const;
   // Returns whether the filter needs no later frame and can therefore run live.
   bool causal() const;
   bool operator==(const FilterStep&) const = default;
@@ -54,7 +61,9 @@ FilterStep parseFilterStep(std::string_view text);
 // Returns the shortest text that parses to the same step, except for `enabled`: "median:size=5".
 std::string filterText(const FilterStep& step);
 // Returns the text with the value of every option, also of those that have their default, so that
-// it says what was done: "low-pass:cutoff=10,order=2".
+// it says what was done: "low-pass:cutoff=10,order=2". Of a rest only the size: "rest=486 values".
 std::string fullFilterText(const FilterStep& step);
+// The same as filterText(), with the rest as in fullFilterText(): for people.
+std::string shownFilterText(const FilterStep& step);
 
 }  // namespace palpate

@@ -18,6 +18,15 @@ struct FilteredProfileOptions {
   std::vector<std::int64_t> restartsUs = {};
 };
 
+// The recipe with the rest of its enabled steps "baseline": the mean of what comes into the step
+// between `from` and `to` seconds after the first frame, with its noise. Throws
+// std::invalid_argument, as the functions of the filters: fewer than two frames there, or the span
+// ends after the recording.
+Recipe withRest(const Recipe& recipe,
+                const Profile& source,
+                const FilteredProfileOptions& options = {},
+                const Progress& progress = {});
+
 // Frames that are read in order pass the chain once. A frame that is read out of order is computed
 // from all earlier frames that influence it (filter_chain.h, filterLengthFrames()); with recursive
 // filters, from enough frames that the others contribute less than 1e-9 of the value. A recipe that

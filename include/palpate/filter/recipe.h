@@ -3,6 +3,7 @@
 //   {"format": "palpate-recipe", "version": 1, "name": "..", "made_by": "palpate 0.1",
 //    "steps": [{"filter": "median", "size": 3, "masked": true, "matrices": [1, 3],
 //               "enabled": true}, ..]}
+// A step "baseline" may have lists "rest" and "noise".
 #pragma once
 
 #include <filesystem>
@@ -45,6 +46,8 @@ std::string recipeText(const Recipe& recipe);
 // Returns the text with the value of every option, as fullFilterText(): for what was done to a
 // recording.
 std::string fullRecipeText(const Recipe& recipe);
+// Returns the text of a recipe as shownFilterText(): for people.
+std::string shownRecipeText(const Recipe& recipe);
 // Parses one text, such as "median:size=3|kalman", or several, whose steps follow one another.
 // Throws std::invalid_argument.
 Recipe parseRecipe(std::span<const std::string> texts);

@@ -40,17 +40,47 @@ void decideTouch(TactileFrame& frame, std::shared_ptr<const Baseline> baseline);
 // The components of a taxel over its baseline; with one component it is z.
 std::array<float, 3> forceAt(const TactileFrame& frame, const TaxelPlace& place);
 
+// Takes mean and standard deviation of readings at rest, frame by frame.
+class RestMeter {
+ public:
+  // `fullScale`: of the hand, for baseline().
+  explicit RestMeter(double fullScale = 0.0) : fullScale_(fullScale) {}
+  // Throws std::invalid_argument: another number of readings than before.
+  void add(std::span<const float> readings);
+  std::size_t numFrames() const noexcept { return numFrames_; }
+  // Throws std::invalid_argument: fewer than two frames. With a full scale, throws Error where
+  // the readings aren't at rest: from 16 frames on, where the mean of one differs between the
+  // earlier and the later half by more than 3 standard deviations (of the calmer half) and 0.2 %
+  // of the full scale.
+  // Something that presses without moving can't be told from the rest.
+  Baseline baseline() const;
+
+ private:
+  double fullScale_;
+  std::size_t numFrames_ = 0;
+  std::vector<float> readings_;  // of all frames
+};
+// What was taken, in one line: "33 frames: 486 readings at rest from 0 to 12, noise up to 0.8".
+std::string baselineText(const Baseline& baseline, std::size_t numFrames);
+
 // Mean and standard deviation of the readings of frames that follow each other at rest, at least
 // two of the same layout. Throws std::invalid_argument.
 Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames);
 
-// The event "baseline" of a recording, its JSON {"rest": [..], "noise": [..]}. Throws Error when it
-// would be longer than an event may be.
-Event baselineEvent(const Baseline& baseline, std::int64_t timeUs);
-// Those of a recording; one that doesn't fit the layout is left out and counted in `wrong`.
+// The event of a baseline, its JSON {"rest": [..], "noise": [..]}: taken while recording, or later
+// by a person, who can remove it. Throws Error when it would be longer than an event may be.
+inline constexpr const char* kBaselineKind = "baseline";
+inline constexpr const char* kNewBaselineKind = "new_baseline";
+Event baselineEvent(const Baseline& baseline,
+                    std::int64_t timeUs,
+                    const char* kind = kBaselineKind);
+// Over which a recording is seen: those taken later or, without any, those taken while recording.
+// One that doesn't fit the layout is left out and counted in `wrong`.
 Baselines baselinesOf(std::span<const Event> events,
                       const SensorLayout& layout,
                       std::size_t* wrong = nullptr);
+// Over which it was recorded, and what its file says of each second is counted.
+Baselines recordedBaselinesOf(std::span<const Event> events, const SensorLayout& layout);
 
 // Their events.
 std::vector<Event> baselineEvents(const Baselines& baselines);

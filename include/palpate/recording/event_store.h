@@ -21,8 +21,8 @@ std::filesystem::path sidecarPathOf(const std::filesystem::path& recording);
 // Whether a person may add, change and remove an event: kinds "label" and "mark" (as the recorder
 // writes them), "note", "recipe" (filters to look through, JSON: filter/recipe.h), "segment" (a
 // grasp or another part, as a person sees it), "sensor_settings" (what a person says that the
-// sensor was set to: calibration/force_series.h), and "tare" (zeros to be taken off:
-// calibration/tare.h).
+// sensor was set to: calibration/force_series.h), "tare" (zeros to be taken off:
+// calibration/tare.h), and "new_baseline" (readings at rest: model/touch.h).
 bool isUserEvent(const Event& event);
 
 struct SaveEventsOptions {

@@ -32,6 +32,9 @@ struct PalpateWriterOptions {
   // which sync at the end; then the interval only gathers samples into blocks, which are committed
   // in large pieces.
   bool synced = true;
+  // Whether a frame with readings is preceded by the event of its baseline, where that is another
+  // one than that of the frame before: so a file tells over what it was recorded.
+  bool notesBaselines = false;
 };
 
 // One recording being written; not thread-safe (the recorder's thread owns it).
@@ -92,6 +95,7 @@ class PalpateWriter {
 
  private:
   struct Impl;
+  void noteBaseline(const TactileFrame& frame);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -613,7 +613,11 @@ void buildProfile(const fs::path& path,
     recovery.profile =
         recovery.profile->withBaselines(baselinesOf(recovery.events, recovery.profile->layout()));
   if (recovery.whole() && !recovery.beingWritten)
-    recovery.damagedRows += damagedSeconds(found, *recovery.profile, recovery.unfinished, progress);
+    recovery.damagedRows += damagedSeconds(found,
+                                           recovery.profile->withBaselines(recordedBaselinesOf(
+                                               recovery.events, recovery.profile->layout())),
+                                           recovery.unfinished,
+                                           progress);
   else
     recovery.damagedRows += found.damagedSeconds;
 }

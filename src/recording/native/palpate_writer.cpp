@@ -445,6 +445,8 @@ struct PalpateWriter::Impl {
   std::int64_t numSeconds = 0;
   std::int64_t numEvents = 0;
   bool allCounts = true;  // every frame so far
+  // Of the last frame; nothing: there is none yet.
+  std::optional<std::shared_ptr<const Baseline>> notedBaseline;
   bool finished = false;
   bool unreadable = false;
 };
@@ -480,10 +482,24 @@ void PalpateWriter::addFrame(const TactileFrame& frame) {
     throw std::invalid_argument("frame: a value is not a number");
   requireLater("frame", impl_->lastFrameUs, frame.hostUs);
   impl_->requireRoom();
+  if (hasReadings && impl_->options.notesBaselines) noteBaseline(frame);
   impl_->lastFrameUs = frame.hostUs;
   impl_->tactile.addFrame(frame);
   impl_->seconds.add(frame);
   impl_->commitWhenDue(frame.hostUs);
+}
+
+void PalpateWriter::noteBaseline(const TactileFrame& frame) {
+  if (impl_->notedBaseline == frame.baseline) return;
+  const Baseline none{std::vector<float>(frame.readings.size()), {}};
+  try {
+    addEvent(baselineEvent(frame.baseline ? *frame.baseline : none, frame.hostUs));
+  } catch (const FileError&) {
+    throw;
+  } catch (const Error& error) {  // longer than an event may be
+    throw std::invalid_argument(error.what());
+  }
+  impl_->notedBaseline = frame.baseline;
 }
 
 std::size_t PalpateWriter::addSeries(const SeriesDescription& description) {
@@ -619,9 +635,9 @@ void writePalpate(const Profile& profile,
           : std::make_shared<const SensorLayout>(withoutTouchRules(profile.layout())),
       writtenMeta(profile.info(), profile.hand(), meta),
       [&](PalpateWriter& writer) {
-        // The summaries are those of the file as it will be read.
+        // The summaries are those of the file as it was recorded.
         writeAll(profile.givesReadings()
-                     ? profile.withBaselines(baselinesOf(events, profile.layout()))
+                     ? profile.withBaselines(recordedBaselinesOf(events, profile.layout()))
                      : profile,
                  events,
                  writer,

@@ -52,7 +52,8 @@ TEST_F(ManualKeysTest, ThePageOfKeysIsTheListOfF1) {
 
 TEST_F(ManualKeysTest, KeysCanBeLearnt) {
   const std::vector<KeyEntry> keys = keysOf(window().actions());
-  EXPECT_LE(keys.size(), 90u);
+  // One more than 90 for the baseline, which is taken again and again while both hands are busy.
+  EXPECT_LE(keys.size(), 91u);
   EXPECT_GT(keys.size(), 60u);
   // A path that is typed without a field changes nothing that is shown: what its letters do is ask,
   // go to an event, and hold or mark the live picture.

@@ -5,6 +5,9 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 
+#include <palpate/core/error.h>
+#include <palpate/model/profile_builder.h>
+
 #include "gui/testing/sample_profiles.h"
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_panel.h"
@@ -85,6 +88,101 @@ TEST_F(TimelineFeatureTest, LiveThereAreTheSameCurvesAsOfARecording) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return chart.graph(2)->data()->size() > 0; }, 20'000));
   EXPECT_EQ(chart.curves()[0].name, "16 chosen taxels");
   EXPECT_GT((chart.graph(2)->data()->constEnd() - 1)->value, 10.0) << "a motor is warm";
+}
+
+// Twenty frames, 50 ms apart, of two taxels at 20 and at 3; the first is at 30 in the last ten.
+OpenedRecordingPtr padRecording(const TouchRule& rule) {
+  MatrixLayout matrix = MatrixLayout::full(1, 2, 2.0);
+  matrix.touch = rule;
+  const auto layout = std::make_shared<const SensorLayout>(std::vector{matrix});
+  ProfileBuilder builder(layout);
+  for (int i = 0; i < 20; ++i) {
+    TactileFrame frame(layout);
+    frame.hostUs = 1'000'000 + 50'000 * i;
+    frame.stored() = {i < 10 ? 20.0F : 30.0F, 3.0F};
+    builder.addFrame(frame);
+  }
+  return makeOpenedRecording("pad", builder.finish({}));
+}
+
+TEST_F(TimelineFeatureTest, TheBaselineOfTheSelectionIsSeenAtOnceAndUndone) {
+  const OpenedRecordingPtr pad = padRecording({.isSigned = true, .threshold = 5.0F});
+  windowState_->displayed.show(pad);
+  QAction* action = windowState_->actions.at("baselineOfSelection");
+  windowState_->actionEnabler.refresh();
+  EXPECT_FALSE(action->isEnabled()) << "nothing is selected";
+  EXPECT_FALSE(windowState_->actions.at("takeBaseline")->isEnabled()) << "no hand";
+  windowState_->selection.setSpan(TimeSpan{0.0, 0.45});
+  windowState_->actionEnabler.refresh();
+  ASSERT_TRUE(action->isEnabled());
+  EXPECT_EQ(windowState_->displayed.filteredRecording()->profile.frame(0).values[0], 20.0F);
+  action->trigger();
+  feature_.baselines().wait();
+  ASSERT_EQ(windowState_->events.editor()->events().size(), 1u)
+      << windowState_->messages.flashed().toStdString();
+  EXPECT_EQ(windowState_->events.editor()->events()[0].kind, "new_baseline");
+  EXPECT_TRUE(windowState_->messages.flashed().startsWith(
+      "baseline of 10 frames: 2 readings at rest from 3.0 to 20.0, noise up to 0.0"))
+      << windowState_->messages.flashed().toStdString();
+  windowState_->activeFilters.wait();
+  QCoreApplication::processEvents();
+  const auto seen = [this](std::size_t frame) {
+    return windowState_->displayed.filteredRecording()->profile.frame(frame).values[0];
+  };
+  EXPECT_EQ(seen(0), 0.0F);
+  EXPECT_EQ(seen(15), 10.0F);
+  EXPECT_FALSE(windowState_->activeFilters.applied()) << "that is no filter";
+  windowState_->actions.at("undo")->trigger();
+  windowState_->activeFilters.wait();
+  QCoreApplication::processEvents();
+  EXPECT_EQ(seen(15), 30.0F);
+  windowState_->selection.setSpan(TimeSpan{0.0, 0.95});
+  action->trigger();
+  feature_.baselines().wait();
+  EXPECT_TRUE(windowState_->events.editor()->events().empty()) << "it moved";
+  EXPECT_TRUE(windowState_->messages.flashed().contains("1 reading moved"))
+      << windowState_->messages.flashed().toStdString();
+}
+
+TEST_F(TimelineFeatureTest, OfAHandThatIsTouchedAbove0TheBaselineIsAFilter) {
+  windowState_->displayed.show(padRecording({}));
+  windowState_->selection.setSpan(TimeSpan{0.1, 0.45});
+  windowState_->actions.at("baselineOfSelection")->trigger();
+  windowState_->activeFilters.wait();
+  QCoreApplication::processEvents();
+  EXPECT_EQ(windowState_->activeFilters.text(), "baseline:from=0.1,to=0.45");
+  EXPECT_TRUE(windowState_->activeFilters.on());
+  const Profile& seen = windowState_->displayed.filteredRecording()->profile;
+  EXPECT_EQ(seen.frame(0).values, (std::vector<float>{0.0F, 0.0F}));
+  EXPECT_EQ(seen.frame(15).values, (std::vector<float>{10.0F, 0.0F}));
+  EXPECT_TRUE(windowState_->events.editor()->events().empty());
+}
+
+TEST_F(TimelineFeatureTest, TheBaselineOfAnSdh2IsAFilterThatIsUndone) {
+  connectEmulated();
+  const CaptureSession& session = *windowState_->displayed.source()->session;
+  const auto framesCame = [&] {
+    try {
+      return session.restNow().numFrames > 5;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  ASSERT_TRUE(QTest::qWaitFor(framesCame, 20'000));
+  windowState_->actionEnabler.refresh();
+  ActionRegistry& actions = windowState_->actions;
+  ASSERT_TRUE(actions.at("takeBaseline")->isEnabled());
+  EXPECT_FALSE(actions.at("undoBaseline")->isEnabled());
+  actions.at("takeBaseline")->trigger();
+  const Recipe& recipe = windowState_->activeFilters.recipe();
+  ASSERT_EQ(recipe.steps.size(), 1u) << windowState_->messages.flashed().toStdString();
+  ASSERT_TRUE(recipe.steps[0].rest);
+  EXPECT_EQ(recipe.steps[0].rest->rest.size(), 486u);
+  EXPECT_TRUE(windowState_->activeFilters.applied());
+  EXPECT_EQ(windowState_->activeFilters.text(), "baseline:rest=486 values");
+  ASSERT_TRUE(actions.at("undoBaseline")->isEnabled());
+  actions.at("undoBaseline")->trigger();
+  EXPECT_TRUE(windowState_->activeFilters.recipe().steps.empty());
 }
 
 TEST_F(TimelineFeatureTest, KeysFreezeScrollAndMeasureLive) {

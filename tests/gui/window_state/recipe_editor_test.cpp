@@ -99,5 +99,16 @@ TEST(RecipeEditor, WhatDoesNotExistIsRefusedAndNothingChanges) {
   EXPECT_EQ(changes.size(), 0);
 }
 
+TEST(RecipeEditor, TheSpanOfARestStaysASpan) {
+  RecipeEditor editor;
+  editor.setRecipe(parseRecipe(std::vector<std::string>{"baseline:rest=1/2"}));
+  editor.setOption(0, "from", 3.0);
+  EXPECT_EQ(textOf(editor), "baseline:from=3,to=4") << "it is taken of the recording";
+  editor.setOption(0, "to", 2.0);
+  EXPECT_EQ(textOf(editor), "baseline:from=1,to=2");
+  editor.setOption(0, "to", 0.0);
+  EXPECT_EQ(textOf(editor), "baseline");
+}
+
 }  // namespace
 }  // namespace palpate::gui::recipe_editor_test

@@ -214,10 +214,10 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
         grid.addWidget(range, row, 2);
         if (isFrequency(option)) frequencies_.push_back({option, range, box});
       }
-      show_.push_back([box, automatic, key](const FilterStep& step) {
+      show_.push_back([box, automatic, key, option](const FilterStep& step) {
         const QSignalBlocker blocker(box);
         const double value = step.value(key);
-        box->setEnabled(!std::isnan(value));
+        box->setEnabled(!std::isnan(value) && step.uses(option));
         box->setValue(std::isnan(value) ? box->minimum() : value);
         box->setSpecialValueText(std::isnan(value) ? "automatic" : QString());
         if (automatic == nullptr) return;

@@ -16,7 +16,7 @@ namespace {
 enum FilterListColumn { kName, kCost, kLatency };
 
 QString filterListOptionsOf(const FilterStep& step) {
-  const QString text = QString::fromStdString(filterText(step));
+  const QString text = QString::fromStdString(shownFilterText(step));
   const auto colon = text.indexOf(':');
   return colon < 0 ? QString() : text.mid(colon + 1).replace(',', "  ").replace('=', ' ');
 }
@@ -79,8 +79,11 @@ void FilterList::showRecipe(const Recipe& recipe, bool live) {
     item->setText(kName, text);
     item->setCheckState(kName, step.enabled ? Qt::Checked : Qt::Unchecked);
     item->setToolTip(kName,
-                     leftOut ? "Needs later frames: left out while a hand is live"
-                             : QString::fromStdString(step.kind().purpose));
+                     !leftOut ? QString::fromStdString(step.kind().purpose)
+                     : step.name == "baseline"
+                         ? QString("Takes its rest of a recording: left out while a hand is live; "
+                                   "Baseline (Ctrl+Alt+L) takes it of the last second")
+                         : QString("Needs later frames: left out while a hand is live"));
     const bool faint = leftOut || !step.enabled;
     item->setData(kName,
                   Qt::ForegroundRole,

@@ -135,7 +135,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   menus_.edit->addSeparator();
   QMenu* selected = menus_.edit->addMenu("&Selection");
   selected->addActions({at("selectFrom"), at("selectTo"), at("selectAll"), at("dropSelection")});
-  selected->addActions({at("zoomSelection"), at("crop")});
+  selected->addActions({at("zoomSelection"), at("crop"), at("baselineOfSelection")});
   menus_.edit->addAction(at("nameTaxels"));
 
   QMenu* view = menu("&View");
@@ -204,6 +204,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   chart->addActions({at("freezeLive"), at("liveLanes"), at("liveNewest"), at("liveOldest")});
   chart->addActions({at("liveEarlier"), at("liveLater"), at("cursorBack"), at("cursorForward")});
   hand->addSeparator();
+  hand->addActions(of(ofHand_, {"takeBaseline", "undoBaseline"}));
   hand->addMenu(menus_.scanned);
   ofHand_.append(menus_.scanned->menuAction());
   menus_.scanned->setToolTipsVisible(true);

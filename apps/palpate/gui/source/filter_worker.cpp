@@ -22,13 +22,15 @@ class Nowhere final : public FrameSink {
 
 OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
                                      const Recipe& recipe,
-                                     const Progress& progress) {
+                                     const Progress& progress,
+                                     const std::optional<Baselines>& baselines) {
   // A recipe that needs all frames at once filters in a first pass, before the signals are
   // computed.
-  const Profile profile = filteredProfile(source->profile,
-                                          recipe,
-                                          {settingsTimesUs(source->events.events)},
-                                          partOf(progress, 0.0, 0.5));
+  const Profile profile =
+      filteredProfile(baselines ? source->profile.withBaselines(*baselines) : source->profile,
+                      recipe,
+                      {settingsTimesUs(source->events.events)},
+                      partOf(progress, 0.0, 0.5));
   const OpenedRecordingPtr made =
       makeOpenedRecording(source->path, profile, partOf(progress, 0.5, 1.0));
   auto filtered = std::make_shared<OpenedRecording>(*made);
@@ -47,7 +49,8 @@ FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe) {
   for (const FilterStep& step : recipe.steps)
     figures.latencies.push_back(latencyFrames(step, rateHz));
   Nowhere nowhere;
-  FilterChain chain(recipe, nowhere);
+  FilterChain chain(withRest(recipe, source.profile, {settingsTimesUs(source.events.events)}),
+                    nowhere);
   const std::size_t numFrames = source.profile.numFrames();
   const std::size_t loudest = source.isLong() ? numFrames / 2 : source.table.frameOfLargestSum();
   const std::size_t from = loudest > kMeasuredFrames / 2 ? loudest - kMeasuredFrames / 2 : 0;
@@ -71,7 +74,8 @@ FilterWorker::FilterWorker(QObject* parent)
           [](const FilterQuestion& question, const Progress& progress, const Tell& tell) {
             FilterAnswer answer{
                 .source = question.source,
-                .filtered = filteredRecording(question.source, question.recipe, progress)};
+                .filtered = filteredRecording(
+                    question.source, question.recipe, progress, question.baselines)};
             tell(answer);
             answer.figures = figuresOf(*question.source, question.recipe);
             return answer;

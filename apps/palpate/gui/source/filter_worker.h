@@ -21,12 +21,14 @@ struct FilterFigures {
   std::optional<int> latency;
 };
 
-// Returns the recording with filtered values; time stamps, joint angles, events and the saturated
+// Returns the recording with filtered values, and seen over these baselines where they are given;
+// time stamps, joint angles, events and the saturated
 // frames are those of the source. Throws std::invalid_argument (the recipe names a matrix that the
 // hand doesn't have), Error, Cancelled.
 OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
                                      const Recipe& recipe,
-                                     const Progress& progress = {});
+                                     const Progress& progress = {},
+                                     const std::optional<Baselines>& baselines = {});
 // Measures the costs on up to 200 frames around the frame of largest sum (of a long recording,
 // around the middle frame).
 FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe);
@@ -34,6 +36,7 @@ FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe);
 struct FilterQuestion {
   OpenedRecordingPtr source;
   Recipe recipe;
+  std::optional<Baselines> baselines = {};
 };
 
 struct FilterAnswer {

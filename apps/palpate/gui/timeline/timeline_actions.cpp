@@ -56,6 +56,16 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   cursorForward = book.make("cursorForward", "Hand", "Cursor a frame for&ward");
   cursorBack->setToolTip("Moves the cursor of the live chart that was set last");
   cursorForward->setToolTip("Moves the cursor of the live chart that was set last");
+  takeBaseline =
+      book.make("takeBaseline", "Hand", "Baseline of the last second", {key("Ctrl+Alt+L")});
+  takeBaseline->setToolTip(
+      "Takes the readings of the last second for the readings at rest, with their noise: nothing "
+      "may touch the sensor (Ctrl+Alt+L)");
+  takeBaseline->setIconText("Baseline");
+  undoBaseline = book.make("undoBaseline", "Hand", "The baseline before the last one");
+  baselineOfSelection = book.make("baselineOfSelection", "Edit", "Baseline from the selection");
+  baselineOfSelection->setToolTip(
+      "Takes the selection for the readings at rest of the whole recording, with their noise");
   crop->setIconText("Crop…");
   addLabel->setIconText("Label…");
   zoomSelection->setIconText("Zoom");

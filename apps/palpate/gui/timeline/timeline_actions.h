@@ -54,6 +54,10 @@ struct TimelineActions {
   QAction* later = nullptr;
   QAction* cursorBack = nullptr;
   QAction* cursorForward = nullptr;
+  // The rest of the connected hand, and of the selection of a recording.
+  QAction* takeBaseline = nullptr;
+  QAction* undoBaseline = nullptr;
+  QAction* baselineOfSelection = nullptr;
   QActionGroup* signalsPlotted = nullptr;
 };
 

@@ -100,7 +100,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
                                                 actions.statistics,
                                                 actions.dropSelection},
                                 .ofCursors = {actions.zoomSelection, actions.dropSelection},
-                                .ofLive = {actions.freeze}},
+                                .ofLive = {actions.takeBaseline, actions.freeze}},
                                window);
   signalTree_ = new SignalTree(groups_, windowState.formulas, window);
   signalTree_->setExtras(extras_);
@@ -123,6 +123,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   connectActions();
   connectCurves();
   editing_ = std::make_unique<EventEditing>(windowState, actions_, panel_->rows());
+  baselines_ = std::make_unique<BaselineControls>(windowState, actions_);
   new LabelExchange(windowState, this);
   graspExport_ = new GraspExport(windowState, window, this);
 }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "gui/chart/plotted_curve.h"
+#include "gui/timeline/baseline_controls.h"
 #include "gui/timeline/crop_job.h"
 #include "gui/timeline/event_editing.h"
 #include "gui/timeline/signal_tree.h"
@@ -31,6 +32,7 @@ class TimelineFeature : public Feature {
   ~TimelineFeature() override;
 
   TimelinePanel& panel() noexcept { return *panel_; }
+  BaselineControls& baselines() noexcept { return *baselines_; }
   LiveChart& liveChart() noexcept { return *liveChart_; }
   SignalTree& signalTree() noexcept { return *signalTree_; }
   CropJob& cropJob() noexcept { return *crop_; }
@@ -85,6 +87,7 @@ class TimelineFeature : public Feature {
   // Computes the statistics of a selection.
   BackgroundJob statisticsJob_;
   std::unique_ptr<EventEditing> editing_;
+  std::unique_ptr<BaselineControls> baselines_;
   // The reasons against formulas, by their text, and the recording that they are about.
   mutable std::map<QString, QString> reasons_;
   mutable std::weak_ptr<const OpenedRecording> reasonsFor_;

@@ -40,8 +40,10 @@ ActiveFilters::ActiveFilters(DisplayedSource& displayed,
       messages_(messages),
       settings_(settings) {
   displayed_.filtered = [this](const OpenedRecordingPtr& recording) -> OpenedRecordingPtr {
-    const bool made = on_ && made_ && madeOf_ == recording && madeBy_.sameSteps(recipe());
-    return made && !recipe().empty() ? made_ : nullptr;
+    const auto over = newBaselines(recording);
+    const bool made =
+        made_ && madeOf_ == recording && madeBy_.sameSteps(recipeOn()) && madeOver_ == over;
+    return made && !(recipeOn().empty() && !over) ? made_ : nullptr;
   };
   connect(&displayed_, &DisplayedSource::changed, this, [this] {
     if (made_ && madeOf_ != displayed_.unfilteredRecording()) made_ = madeOf_ = nullptr;
@@ -82,9 +84,14 @@ ActiveFilters::ActiveFilters(DisplayedSource& displayed,
             emit progressed(std::nullopt);
             madeOf_ = source;
             made_ = filtered;
-            madeBy_ = recipe();
-            if (source == displayed_.recorded() && on_) displayed_.setFilteredRecording(filtered);
+            madeBy_ = recipeOn();
+            madeOver_ = over_;
+            if (source == displayed_.recorded()) displayed_.setFilteredRecording(filtered);
           });
+  connect(&events_, &EventController::changed, this, [this] {
+    const OpenedRecordingPtr recording = displayed_.recorded();
+    if (recording && !sourceIsNew_ && newBaselines(recording) != over_) apply();
+  });
   connect(&worker_, &FilterWorker::failed, this, [this](const QString& message) {
     emit failed(message);
     displayed_.setFilteredRecording(displayed_.recorded());
@@ -158,7 +165,7 @@ bool ActiveFilters::applied() const {
 QString ActiveFilters::text() const {
   Recipe seen = recipe();
   std::erase_if(seen.steps, [](const FilterStep& step) { return !step.enabled; });
-  return QString::fromStdString(recipeText(seen));
+  return QString::fromStdString(shownRecipeText(seen));
 }
 
 // Appears in the captions of pictures.
@@ -166,10 +173,15 @@ QString ActiveFilters::caption() const { return applied() ? " · filtered: " + t
 
 // Applies the chain, or no filter when it is off, to the displayed source.
 void ActiveFilters::apply() {
-  const Recipe now = on_ ? recipe() : Recipe{};
+  const Recipe now = recipeOn();
   if (LiveSource* source = live_.source()) {
     try {
       source->filters->setRecipe(now);
+      const std::size_t numPlaces = source->session->device().hand().layout->numCells();
+      for (const FilterStep& step : now.steps)
+        if (step.enabled && step.rest && step.rest->rest.size() != numPlaces)
+          emit failed(
+              "The baseline is of another hand and left out: Baseline (Ctrl+Alt+L) takes it anew");
     } catch (const std::invalid_argument& error) {
       emit failed(error.what());
     }
@@ -178,12 +190,30 @@ void ActiveFilters::apply() {
   emit progressed(std::nullopt);
   const OpenedRecordingPtr recording = displayed_.recorded();
   if (!recording) return;
-  if (now.empty())
+  over_ = newBaselines(recording);
+  if (now.empty() && !over_)
     displayed_.setFilteredRecording(recording);
-  else if (made_ && madeOf_ == recording && madeBy_.sameSteps(now))
+  else if (made_ && madeOf_ == recording && madeBy_.sameSteps(now) && madeOver_ == over_)
     displayed_.setFilteredRecording(made_);
-  else
+  else if (!over_)
     worker_.ask({recording, now});
+  else
+    worker_.ask(
+        {recording, now, baselinesOf(events_.eventsOf(recording), recording->profile.layout())});
+}
+
+std::optional<std::vector<Event>> ActiveFilters::newBaselines(
+    const OpenedRecordingPtr& recording) const {
+  if (!recording->profile.givesReadings()) return std::nullopt;
+  const auto baselines = [](std::vector<Event> events) {
+    std::erase_if(events, [](const Event& event) {
+      return event.kind != kBaselineKind && event.kind != kNewBaselineKind;
+    });
+    return events;
+  };
+  std::vector<Event> now = baselines(events_.eventsOf(recording));
+  if (now == baselines(recording->events.events)) return std::nullopt;
+  return now;
 }
 
 // Takes the last recipe that is stored with the recording, unless it equals the present one.
@@ -199,7 +229,7 @@ void ActiveFilters::takeKeptRecipe() {
   if (!now || now->sameSteps(recipe())) return;
   editor_.setRecipe(*now);
   setOn(true);
-  messages_.flash("filters of the recording: " + QString::fromStdString(recipeText(*now)));
+  messages_.flash("filters of the recording: " + QString::fromStdString(shownRecipeText(*now)));
 }
 
 void ActiveFilters::keepWithRecording() {

@@ -1,11 +1,13 @@
 // Applies the edited chain of filters to the displayed source, a recording or a live hand, and
-// holds the switch that turns it on. The recording on disk doesn't change.
+// holds the switch that turns it on; shows a recording over the baselines of its events as they are
+// edited. The recording on disk doesn't change.
 #pragma once
 
 #include <QObject>
 #include <QSettings>
 #include <QString>
 #include <optional>
+#include <vector>
 
 #include <palpate/filter/recipe.h>
 
@@ -69,6 +71,11 @@ class ActiveFilters : public QObject {
   // What is applied was lent, and not edited since.
   bool isLent() const;
   void apply();
+  // The filters that are on.
+  Recipe recipeOn() const { return on_ ? recipe() : Recipe{}; }
+  // The baselines among the events of the recording, where they are others than it was read with;
+  // nothing: the same.
+  std::optional<std::vector<Event>> newBaselines(const OpenedRecordingPtr& recording) const;
   void takeKeptRecipe();
   void noteInLiveRecording();
 
@@ -90,10 +97,14 @@ class ActiveFilters : public QObject {
   };
   std::optional<Lent> lent_;
   bool sourceIsNew_ = false;
-  // The recording madeOf_ filtered by the recipe madeBy_; null: not made yet.
+  // The recording madeOf_ filtered by the recipe madeBy_ and over the baselines madeOver_; null:
+  // not made yet.
   OpenedRecordingPtr made_;
   OpenedRecordingPtr madeOf_;
   Recipe madeBy_;
+  std::optional<std::vector<Event>> madeOver_;
+  // Over what the displayed recording is to be seen.
+  std::optional<std::vector<Event>> over_;
   // The recording whose stored recipe was taken last.
   OpenedRecordingPtr keptTaken_;
   // The figures of liveRecipe_.

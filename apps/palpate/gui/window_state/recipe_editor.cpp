@@ -22,6 +22,14 @@ void reconcile(FilterStep& step, const std::string& chosen) {
   if (kind.option("window") != nullptr && step.valueOrZero("centred") != 0.0 &&
       step.integer("window") % 2 == 0)
     step.explicitOptions["window"] = step.integer("window") + 1;
+  if (step.name == "baseline" && (chosen == "from" || chosen == "to")) {
+    step.rest.reset();  // it is taken of that span
+    if (step.value("from") >= step.value("to")) {
+      const double to = std::max(chosen == "to" ? step.value("to") : step.value("from") + 1.0, 1.0);
+      step.explicitOptions["to"] = std::min(to, kind.option("to")->maximum);
+      step.explicitOptions["from"] = std::min(step.value("from"), step.value("to") - 1.0);
+    }
+  }
   // The chosen option stays; the other one changes until the step is valid.
   if (step.name == "median3d") {
     const char* other = chosen == "size" ? "window" : "size";

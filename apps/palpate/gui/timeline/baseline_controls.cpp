@@ -1,0 +1,134 @@
+#include "gui/timeline/baseline_controls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <palpate/core/error.h>
+#include <palpate/model/rest_span.h>
+
+#include "gui/window_state/event_marks.h"
+
+namespace palpate::gui {
+
+BaselineControls::BaselineControls(WindowState& windowState, const TimelineActions& actions)
+    : windowState_(windowState) {
+  connect(actions.takeBaseline, &QAction::triggered, this, &BaselineControls::take);
+  connect(actions.undoBaseline, &QAction::triggered, this, &BaselineControls::undo);
+  connect(
+      actions.baselineOfSelection, &QAction::triggered, this, &BaselineControls::takeOfSelection);
+  connect(&reading_, &BackgroundJob::failed, this, [this](const QString& why) {
+    windowState_.messages.flash(why);
+  });
+  ActionEnabler& enabler = windowState_.actionEnabler;
+  enabler.add(
+      {actions.takeBaseline},
+      [this] { return windowState_.displayed.source() != nullptr; },
+      "No connected hand is shown; Edit > Selection has Baseline from the selection");
+  enabler.add({actions.undoBaseline}, [this] { return canUndo(); });
+  enabler.add({actions.baselineOfSelection}, [this] {
+    return windowState_.displayed.hasFrames() && windowState_.selection.span().has_value();
+  });
+}
+
+void BaselineControls::tell(const QString& taken) {
+  windowState_.messages.flash("baseline of " + taken);
+  windowState_.actionEnabler.refresh();
+}
+
+void BaselineControls::take() {
+  LiveSource* source = windowState_.displayed.source();
+  if (source == nullptr) return;
+  CaptureSession& session = *source->session;
+  try {
+    if (session.device().hand().layout->decidesTouch())
+      return tell(QString::fromStdString(session.takeBaseline()));
+    const Rest rest = session.restNow();
+    putFilter({.name = "baseline", .rest = rest.baseline});
+    tell(QString::fromStdString(baselineText(rest.baseline, rest.numFrames)) +
+         "; it is a filter, A switches the filters off");
+  } catch (const std::exception& error) {
+    windowState_.messages.flash(QString::fromUtf8(error.what()));
+  }
+}
+
+bool BaselineControls::canUndo() const {
+  const LiveSource* source = windowState_.displayed.source();
+  if (source == nullptr) return false;
+  RecipeEditor& editor = windowState_.activeFilters.editor();
+  return source->session->canUndoBaseline() ||
+         (!put_.empty() && editor.recipe() == put_ && editor.canUndo());
+}
+
+void BaselineControls::undo() {
+  LiveSource* source = windowState_.displayed.source();
+  if (!canUndo()) return;
+  if (source->session->canUndoBaseline())
+    source->session->undoBaseline();
+  else
+    windowState_.activeFilters.editor().undo();
+  windowState_.messages.flash("the baseline before the last one is back");
+  windowState_.actionEnabler.refresh();
+}
+
+void BaselineControls::putFilter(FilterStep step) {
+  ActiveFilters& filters = windowState_.activeFilters;
+  Recipe recipe = filters.recipe();
+  const auto there = std::find_if(recipe.steps.begin(), recipe.steps.end(), [](const auto& each) {
+    return each.name == "baseline";
+  });
+  if (there == recipe.steps.end()) {
+    recipe.steps.insert(recipe.steps.begin(), step);
+  } else {
+    for (const auto& [key, value] : there->explicitOptions)
+      if (key != "from" && key != "to") step.explicitOptions.emplace(key, value);
+    step.matrices = there->matrices;
+    *there = step;
+  }
+  filters.editor().setRecipe(recipe);
+  put_ = filters.recipe();
+  filters.setOn(true);
+}
+
+void BaselineControls::takeOfSelection() {
+  const OpenedRecordingPtr recording = windowState_.displayed.recorded();
+  const auto span = windowState_.selection.span();
+  if (!recording || !span) return;
+  if (!recording->profile.givesReadings()) {
+    constexpr double kPerS = 1'000.0;
+    FilterStep step{.name = "baseline"};
+    for (const auto& [key, seconds] : {std::pair("from", span->fromS), std::pair("to", span->toS)})
+      if (const double rounded = std::round(std::max(seconds, 0.0) * kPerS) / kPerS;
+          rounded != step.value(key))
+        step.explicitOptions[key] = rounded;
+    try {
+      putFilter(std::move(step));
+    } catch (const std::invalid_argument& error) {  // shorter than a millisecond
+      windowState_.messages.flash(error.what());
+    }
+    return;
+  }
+  const auto rest = std::make_shared<Rest>();
+  reading_.start(
+      {},
+      [rest, profile = recording->profile, span = *span](const Progress&) {
+        *rest = restIn(profile,
+                       std::max(span.fromS, 0.0),
+                       std::min(span.toS, static_cast<double>(profile.durationUs()) / 1e6),
+                       RestOf::kReadings);
+      },
+      [this, rest, recording, span = *span] {
+        if (windowState_.displayed.recorded() != recording) return;
+        const QString text = QString::fromStdString(baselineText(rest->baseline, rest->numFrames));
+        try {
+          Event event =
+              baselineEvent(rest->baseline, timeUsOf(*recording, span.fromS), kNewBaselineKind);
+          event.text += ", " + text.toStdString();
+          windowState_.events.keep(kNewBaselineKind, event, "a baseline");
+          tell(text + "; Ctrl+S saves it, Ctrl+Z undoes it");
+        } catch (const Error& error) {
+          windowState_.messages.flash(QString::fromUtf8(error.what()));
+        }
+      });
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,38 @@
+// Takes the readings at rest: of the last second of the connected hand, or of the selection of a
+// recording. Of a hand that decides touch by its readings they are its baseline, an event; of any
+// other hand they make a filter.
+#pragma once
+
+#include <QObject>
+#include <QString>
+
+#include "gui/source/background_job.h"
+#include "gui/timeline/timeline_actions.h"
+#include "gui/window_state/window_state.h"
+
+namespace palpate::gui {
+
+class BaselineControls : public QObject {
+  Q_OBJECT
+ public:
+  // All arguments must outlive this object.
+  BaselineControls(WindowState& windowState, const TimelineActions& actions);
+  // Waits until a selection has been read; for tests.
+  void wait() { reading_.settle(); }
+
+ private:
+  void take();
+  void undo();
+  bool canUndo() const;
+  void takeOfSelection();
+  void tell(const QString& taken);
+  // Puts the filter in the place of the one that is there, else before all.
+  void putFilter(FilterStep step);
+
+  WindowState& windowState_;
+  // The chain as putFilter() left it.
+  Recipe put_;
+  BackgroundJob reading_{BackgroundJob::Leaving::kAtOnce};
+};
+
+}  // namespace palpate::gui
