@@ -14,7 +14,7 @@ std::string inFrame(std::size_t frame) { return " in frame " + std::to_string(fr
 
 }  // namespace
 
-PadLoad padLoad(const ConstMatrixMap& values, double pitchMm) {
+PadLoad padLoad(const ConstMatrixMap& values, const TaxelPitch& pitchMm) {
   PadLoad load;
   // The common case: most pads are not touched.
   if (!(values.maxCoeff() > 0.0F)) return load;
@@ -33,8 +33,8 @@ PadLoad padLoad(const ConstMatrixMap& values, double pitchMm) {
     y += sum * static_cast<double>(row);
   }
   if (load.sum > 0.0) {
-    load.xMm = x / load.sum * pitchMm;
-    load.yMm = y / load.sum * pitchMm;
+    load.xMm = x / load.sum * pitchMm.x;
+    load.yMm = y / load.sum * pitchMm.y;
   }
   return load;
 }

@@ -193,6 +193,8 @@ void KeyFrame::interpolate() noexcept {
 }
 
 void KeyFrame::computeRotationSensitivity() noexcept {
+  rotationSensitivity_ = -1.0F;
+  if (!layout_.pitchMm.isSquare()) return;
   const int rows = layout_.rows;
   const int columns = layout_.columns;
   float around = 0.0F;
