@@ -185,7 +185,7 @@ double SlipTracker::unseenFraction(const ConstMatrixMap& frame) {
     for (int x = 0; x <= right; ++x) {
       const bool saturated = row[x] >= saturation;
       motion_.saturated += saturated ? 1 : 0;
-      if (row[x] > 0.0F && (saturated || end || x == 0 || x == right)) unseen += row[x];
+      if (isTouched(row[x]) && (saturated || end || x == 0 || x == right)) unseen += row[x];
     }
   }
   return std::min(static_cast<double>(unseen) / motion_.sum, 1.0);

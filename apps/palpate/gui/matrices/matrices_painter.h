@@ -102,7 +102,7 @@ MatricesPictureOptions withUnit(MatricesPictureOptions options, const HandDescri
 // Whether a taxel is drawn: it was active as recorded (`contact`), or the filters leave at least
 // `least` in it, which is leastSeen().
 inline bool isSeen(float contact, float value, float least) noexcept {
-  return contact > 0.0F || value >= least;
+  return isTouched(contact) || value >= least;
 }
 // Half a unit of the last digit that is shown: half a count.
 float leastSeen(const HandDescription& hand);

@@ -155,7 +155,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
       const QRectF square(place.at(x - 0.5, y - 0.5), QSizeF(place.side - 1.0, place.high - 1.0));
       painter.fillRect(square, colors.taxel);
       const double value = scene.values.size() > 0 ? static_cast<double>(scene.values(y, x)) : 0.0;
-      if (!(value > 0.0) || !scene.layout.enabled(y, x)) continue;
+      if (!isTouched(value) || !scene.layout.enabled(y, x)) continue;
       QColor color = QColor::fromRgb(table[static_cast<std::size_t>(
           colorIndex(value, 0.0, std::max(1.0, scene.largestCounts)))]);
       color.setAlphaF(static_cast<float>(kFaintest + (kSlipViewFaint - kFaintest) * value /
