@@ -1,6 +1,7 @@
 // The command `palpate slip FILE...` prints as CSV how contacts move on every matrix, and whether
 // that is slip.
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 
 #include "palpate/batch/batch_task.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
@@ -92,6 +94,10 @@ int slipCommand(const Arguments& words) {
       [&](const std::filesystem::path& file, const Recording& whole, const Progress& progress) {
         const Profile profile = filteredBy(request.filters, whole, file, progress);
         requireThere(file, profile, request);
+        if (!given.quiet() && !profile.layout().hasSquareTaxels())
+          std::fprintf(stderr,
+                       "palpate: %s: no rotation is measured where taxels aren't square\n",
+                       escapedLine(file.string()).c_str());
         if (!headerWritten)
           out.write(std::string(segments ? kSlipSegmentColumns : kSlipColumns) +
                     (recordings.several ? ",file\n" : "\n"));
