@@ -1,6 +1,8 @@
 // Binds palpate.from_arrays(), which makes a profile from NumPy arrays.
+#include <array>
 #include <cmath>
 #include <string>
+#include <variant>
 
 #include <pybind11/stl.h>
 
@@ -57,7 +59,7 @@ struct Taxels {
   std::vector<Values> parts;
 };
 
-Taxels taxelsOf(const py::object& frames, double pitchMm, std::size_t numFrames) {
+Taxels taxelsOf(const py::object& frames, const TaxelPitch& pitchMm, std::size_t numFrames) {
   Taxels taxels;
   if (py::isinstance<py::list>(frames) || py::isinstance<py::tuple>(frames)) {
     std::vector<MatrixLayout> matrices;
@@ -131,14 +133,16 @@ Samples samplesOf(const py::object& times, const py::object& given, const char* 
 
 Profile fromArrays(const py::object& timeMs,
                    const py::object& frames,
-                   double pitchMm,
+                   const std::variant<double, std::array<double, 2>>& pitchMm,
                    const py::object& angles,
                    const py::object& angleTimeMs,
                    const py::object& temperatures,
                    const py::object& temperatureTimeMs,
                    const std::string& serial) {
   const std::vector<std::int64_t> timesUs = timesUsOf(timeMs, "time_ms");
-  const Taxels taxels = taxelsOf(frames, pitchMm, timesUs.size());
+  const auto* both = std::get_if<std::array<double, 2>>(&pitchMm);
+  const TaxelPitch pitch = both ? TaxelPitch((*both)[0], (*both)[1]) : std::get<double>(pitchMm);
+  const Taxels taxels = taxelsOf(frames, pitch, timesUs.size());
   const Samples joints = samplesOf(angleTimeMs, angles, "angles"),
                 warmth = samplesOf(temperatureTimeMs, temperatures, "temperatures");
   const py::gil_scoped_release unlocked;
@@ -232,7 +236,8 @@ void bindArrays(py::module_& module) {
       py::arg("serial") = "",
       "A profile of arrays: time_ms (T,) host times [ms since 1970], ascending, whole; frames (T, "
       "486) of an SDH-2, or a list with an array (T, rows, columns) per matrix of any sensor, "
-      "whose taxels lie pitch_mm apart [mm]; angles (n, axes) [deg] at angle_time_ms (n,); "
+      "whose taxels lie pitch_mm apart [mm] (a number, or one along a row and one along a "
+      "column); angles (n, axes) [deg] at angle_time_ms (n,); "
       "temperatures (k, sensors) [deg C] at temperature_time_ms (k,). Values are copied and must "
       "be finite. ValueError says what doesn't fit.");
 }

@@ -52,7 +52,7 @@ py::list matricesOf(const HandDescription& hand) {
     one["finger"] = hand.matrices[m].finger;
     one["rows"] = matrix.rows;
     one["columns"] = matrix.columns;
-    one["pitch_mm"] = matrix.pitchMm;
+    one["pitch_mm"] = toPython(pitchJson(matrix.pitchMm));
     one["taxels"] = matrix.numTaxels();
     one["full_scale"] = hand.maximumOf(m);
     one["saturation"] = hand.saturationOf(m);
@@ -229,7 +229,8 @@ void bindHands(py::module_& module) {
       .def_property_readonly("matrices",
                              &matricesOf,
                              "Its matrices: list of dicts index, name, finger, rows, columns, "
-                             "pitch_mm, taxels, full_scale, saturation.")
+                             "pitch_mm (a list [x, y] where the two differ), taxels, full_scale, "
+                             "saturation.")
       .def_property_readonly(
           "axes", &axesOf, "Its joints: list of dicts name, unit (deg, mm), minimum, maximum.")
       .def_property_readonly(

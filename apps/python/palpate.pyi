@@ -299,7 +299,7 @@ def from_arrays(
     time_ms: ArrayLike,
     frames: ArrayLike | Sequence[ArrayLike],
     *,
-    pitch_mm: float = 3.4,
+    pitch_mm: float | tuple[float, float] = 3.4,
     angles: ArrayLike | None = None,
     angle_time_ms: ArrayLike | None = None,
     temperatures: ArrayLike | None = None,

@@ -185,7 +185,7 @@ py::list matrices(const Profile& profile) {
     one["name"] = profile.hand().matrixName(m);
     one["rows"] = matrix.rows;
     one["columns"] = matrix.columns;
-    one["pitch_mm"] = matrix.pitchMm;
+    one["pitch_mm"] = toPython(pitchJson(matrix.pitchMm));
     one["taxels"] = matrix.numTaxels();
     one["enabled"] = matrix.numEnabled();
     one["static_mask"] = mask(matrix.staticMask);
@@ -463,9 +463,9 @@ void bindProfile(py::module_& module) {
       .def_property_readonly("matrices",
                              &matrices,
                              "The matrices in wire order: list of dicts index, name, rows, "
-                             "columns, pitch_mm [mm], taxels, enabled (numbers of taxels that "
-                             "exist, that are scanned), static_mask, dynamic_mask (bool (rows, "
-                             "columns)).")
+                             "columns, pitch_mm [mm] (a list [x, y] where the two differ), "
+                             "taxels, enabled (numbers of taxels that exist, that are scanned), "
+                             "static_mask, dynamic_mask (bool (rows, columns)).")
       .def_property_readonly(
           "axes",
           [](const Profile& p) {

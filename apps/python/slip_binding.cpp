@@ -190,7 +190,7 @@ py::dict momentsOf(const Numbers& values) {
   double squares = 0.0;
   const double mean = moments.active > 0 ? moments.sum / moments.active : 0.0;
   for (const float value : matrix.reshaped())
-    if (value > 0.0F)
+    if (isTouched(value))
       squares += (static_cast<double>(value) - mean) * (static_cast<double>(value) - mean);
   py::dict result;
   result["active"] = moments.active;

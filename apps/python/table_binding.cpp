@@ -156,9 +156,11 @@ py::object matrixArray(const py::module_& xarray,
   const auto places = [&](const char* count) {
     py::dict attributes;
     attributes[kUnits] = "mm";
-    return py::make_tuple(std::string(count) == "rows" ? "y" : "x",
-                          numpy.attr("arange")(matrix[count]) * matrix["pitch_mm"],
-                          attributes);
+    const bool alongY = std::string(count) == "rows";
+    py::object pitch = matrix["pitch_mm"];
+    if (py::isinstance<py::list>(pitch)) pitch = py::list(pitch)[alongY ? 1 : 0];
+    return py::make_tuple(
+        alongY ? "y" : "x", numpy.attr("arange")(matrix[count]) * pitch, attributes);
   };
   py::dict coordinates;
   coordinates["time"] = instants(profile.attr("time_us"));

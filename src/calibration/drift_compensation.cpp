@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/model/tactile_frame.h"
+
 namespace palpate {
 
 double DriftCompensation::gainOf(const Surface& driftOfGain,
@@ -11,7 +13,7 @@ double DriftCompensation::gainOf(const Surface& driftOfGain,
                                  double degC) {
   compensating_ = false;
   startUnknown_ = false;
-  const bool loaded = reading > 0.0;
+  const bool loaded = isTouched(reading);
   if (!anyReading_) loadedFromFirstReading_ = loaded;
   anyReading_ = true;
   if (!beganS_ || timeS < *beganS_) {

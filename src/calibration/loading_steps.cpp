@@ -78,7 +78,7 @@ StepSignal stepSignal(const Profile& profile,
     const std::span<const float> values = std::span(frame.values).subspan(first, layout.numCells());
     int saturated = 0, switched = 0, active = 0;
     for (std::size_t place = 0; place < values.size(); ++place) {
-      const bool on = values[place] > 0.0F;
+      const bool on = isTouched(values[place]);
       active += on ? 1 : 0;
       saturated += values[place] >= saturation ? 1 : 0;
       switched += on != wasOn[place] ? 1 : 0;

@@ -138,7 +138,7 @@ PressureMap::Contact PressureMap::contactIn(std::span<const float> values,
   Contact contact;
   if (matrix.enabled.empty()) {
     MatrixValues copy = ConstMatrixMap(values.data(), matrix.rows, matrix.columns);
-    copy = copy.unaryExpr([](float v) { return std::isfinite(v) && v > 0.0F ? v : 0.0F; });
+    copy = copy.unaryExpr([](float v) { return std::isfinite(v) && isTouched(v) ? v : 0.0F; });
     const auto& layout = layout_->matrix(static_cast<std::size_t>(&matrix - matrices_.data()));
     const CharacteristicSignals signals = characteristicSignals(copy, layout);
     return {signals.sum,
@@ -153,7 +153,7 @@ PressureMap::Contact PressureMap::contactIn(std::span<const float> values,
     std::uint64_t bits = 0;
     for (int x = 0; x < matrix.columns; ++x, ++place) {
       const float value = values[place];
-      if (!(value > 0.0F) || !std::isfinite(value)) continue;
+      if (!isTouched(value) || !std::isfinite(value)) continue;
       bits |= std::uint64_t{1} << x;
       sum += value;
       filtered += matrix.weights[place] * value;
@@ -227,7 +227,7 @@ void PressureMap::apply(const TactileFrame& frame,
     result.temperatureKnown = estimate.temperatureKnown;
     const double scale = result.kpa * contact.active / contact.sum;
     for (std::size_t place = 0; place < count; ++place)
-      if (values[place] > 0.0F && std::isfinite(values[place]))
+      if (isTouched(values[place]) && std::isfinite(values[place]))
         out.kpa[matrix.offset + place] =
             static_cast<float>(scale * static_cast<double>(values[place]));
     const double areaMm2 = contact.active * matrix.taxelAreaMm2 * model.areaFraction;

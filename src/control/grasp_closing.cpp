@@ -136,7 +136,7 @@ void GraspStateMachine::onMotionEnd(const std::vector<int>& states, std::int64_t
   // It closed again because something slipped, and touches nothing now.
   const bool lost = isSlipAware() && held_;
   const bool closes = !isJointMotion(report_.request) && report_.request.closeRatio > 0.0;
-  const bool touchesNothing = closes && stream_.alive(monoUs) && peak_.counts <= 0.0F;
+  const bool touchesNothing = closes && stream_.alive(monoUs) && !isTouched(peak_.counts);
   const std::string text = !axes.empty()    ? "finished: held at the joints: " + axes
                            : lost           ? std::string(kNothingHeldText)
                            : touchesNothing ? "finished: at its target, touching nothing"

@@ -104,7 +104,7 @@ const TaxelPeak& GraspStateMachine::loadedTaxel(const GraspRequest& request) con
   if (request.fingerLimitCounts.empty()) return peak_;
   const TaxelPeak* loaded = &peak_;
   for (const TaxelPeak& each : matrixPeaks_)
-    if (each.counts > 0.0F && commonCounts(each, request) > commonCounts(*loaded, request))
+    if (isTouched(each.counts) && commonCounts(each, request) > commonCounts(*loaded, request))
       loaded = &each;
   return *loaded;
 }

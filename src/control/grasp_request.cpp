@@ -324,7 +324,7 @@ Event endEvent(const GraspReport& report) {
               {},
               report.text,
               {}};
-  if (report.outcome == GraspOutcome::kLimitReached || report.peak.counts > 0.0F) {
+  if (report.outcome == GraspOutcome::kLimitReached || isTouched(report.peak.counts)) {
     event.matrix = static_cast<int>(report.peak.matrix);
     json.set("matrix", report.peak.matrix)
         .set("x", report.peak.column)

@@ -231,7 +231,7 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   if (isHolding() && noticed) event.silenceUs = std::max(*noticed, event.silenceUs.value_or(0));
   const bool anotherLayout = updateLayout(frame);
   peak_ = taxelPeaks(frame, matrixPeaks_);
-  if (!active() && peak_.counts <= 0.0F) forgetHeld();
+  if (!active() && !isTouched(peak_.counts)) forgetHeld();
   if (calibration_) newest_ = frame;
   if (anotherLayout && underTactileControl())
     return fault("the layout of the tactile sensor is another one than at the begin", monoUs);

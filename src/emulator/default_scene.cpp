@@ -152,9 +152,10 @@ class DefaultSceneMaker {
   // Radius of the sphere whose contact at the usual depth has a radius of so many pitches, or
   // reaches over half of the matrix.
   double sphereRadiusMm(const MatrixLayout& layout, double pitches) const {
-    const double contactMm =
-        std::min(pitches, std::min(layout.rows, layout.columns) / 2.0) * layout.pitchMm;
-    return std::clamp(contactMm * contactMm / (2.0 * depthMm_), 2.0 * layout.pitchMm, 150.0);
+    const double contactMm = std::min(std::min(pitches, layout.rows / 2.0) * layout.pitchMm.y,
+                                      std::min(pitches, layout.columns / 2.0) * layout.pitchMm.x);
+    const double leastMm = 2.0 * std::max(layout.pitchMm.x, layout.pitchMm.y);
+    return std::clamp(contactMm * contactMm / (2.0 * depthMm_), leastMm, std::max(leastMm, 150.0));
   }
 
   // Fits one sphere to the middles of all moved matrices at a posture; keeps it if it touches them
@@ -171,8 +172,8 @@ class DefaultSceneMaker {
       middles.push_back(middleOf(pose, m));
       const PadMiddle& middle = middles.back();
       const MatrixLayout& layout = hand_.layout->matrix(m);
-      padMm += std::hypot(layout.rows, layout.columns) * layout.pitchMm / 2.0 / count;
-      pitchMm = std::min(pitchMm, layout.pitchMm);
+      padMm += layout.pitchMm.lengthMm(layout.columns, layout.rows) / 2.0 / count;
+      pitchMm = std::min({pitchMm, layout.pitchMm.x, layout.pitchMm.y});
       const Matrix3d across = Matrix3d::Identity() - middle.normal * middle.normal.transpose();
       normal += across;
       right += across * middle.atMm + kTies / count * middle.atMm;
@@ -205,7 +206,7 @@ class DefaultSceneMaker {
         velocity = std::min(velocity, axis.maximumVelocityDegPerS);
     velocity = std::min(velocity, travel / kClosingS);
     for (std::size_t m = 0; m < hand_.layout->numMatrices(); ++m)
-      pitchMm = std::max(pitchMm, hand_.layout->matrix(m).pitchMm);
+      pitchMm = std::max(pitchMm, hand_.layout->matrix(m).pitchMm.y);
     for (double s = 0.0; s + kGraspCycleS <= kSceneS; s += kGraspCycleS) {
       add(s + 1.0, GraspAction{std::nullopt, gripClose_, velocity});
       for (std::size_t object = 0; object < downs_.size(); ++object) {
@@ -227,7 +228,7 @@ class DefaultSceneMaker {
       const double radius = sphereRadiusMm(layout, kPadContactPitches);
       addSphere(middle.atMm + middle.normal * (radius + kClearanceMm), radius);
       const Vector3d press = -middle.normal * (kClearanceMm + depthMm_);
-      const double slideMm = 0.2 * layout.columns * layout.pitchMm;
+      const double slideMm = 0.2 * layout.columns * layout.pitchMm.x;
       const Vector3d slide = middle.right * slideMm;
       // Rolling over a plane with the normal n: angular velocity = n x v / radius.
       const Vector3d roll = middle.normal.cross(-slide) / radius * (180.0 / std::numbers::pi);

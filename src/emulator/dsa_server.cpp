@@ -324,7 +324,7 @@ void DsaServer::describeMatrix(Payload payload) {
   if (index >= hand.layout->numMatrices()) return answerError(kDsaMatrix, kDsaIndexOutOfBounds);
   const MatrixLayout& matrix = hand.layout->matrix(index);
   WireWriter out;
-  out.u16(0).f32(matrix.pitchMm).f32(matrix.pitchMm);
+  out.u16(0).f32(matrix.pitchMm.x).f32(matrix.pitchMm.y);
   out.u16(static_cast<unsigned>(matrix.columns)).u16(static_cast<unsigned>(matrix.rows));
   constexpr unsigned kUniqueId[] = {0x10, 0x22, 0x33, 0x44, 0x55, 0x66};  // any distinct bytes
   for (std::size_t i = 0; i < 6; ++i)

@@ -44,17 +44,17 @@ GeometryDescription planeOf(const HandDescription& hand) {
     const MatrixLayout& matrix = plane.layout.matrix(m);
     double& width = widthsMm[cells[m].first];
     double& height = heightsMm[cells[m].second];
-    width = std::max(width, (matrix.columns + 1) * matrix.pitchMm);
-    height = std::max(height, (matrix.rows + 1) * matrix.pitchMm);
+    width = std::max(width, (matrix.columns + 1) * matrix.pitchMm.x);
+    height = std::max(height, (matrix.rows + 1) * matrix.pitchMm.y);
   }
   const std::map<int, double> lefts = beginnings(widthsMm), tops = beginnings(heightsMm);
   for (std::size_t m = 0; m < hand.matrices.size(); ++m) {
-    const double pitchMm = plane.layout.matrix(m).pitchMm;
+    const TaxelPitch& pitchMm = plane.layout.matrix(m).pitchMm;
     SensorSurface surface;
     // x to the right, y down, z into the body.
     surface.linkFromSurface.linear() = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
     surface.linkFromSurface.translation() = Eigen::Vector3d(
-        lefts.at(cells[m].first) + pitchMm, -tops.at(cells[m].second) - pitchMm, 0.0);
+        lefts.at(cells[m].first) + pitchMm.x, -tops.at(cells[m].second) - pitchMm.y, 0.0);
     plane.surfaces.push_back(surface);
   }
   return plane;

@@ -13,7 +13,7 @@ constexpr double kPadContactReachMm = 8.0;
 constexpr double kFacing = 0.0;  // normals of touching pads point towards each other
 
 double radiusMm(const MatrixLayout& matrix) {
-  return std::hypot(matrix.rows * matrix.pitchMm, matrix.columns * matrix.pitchMm) / 2.0;
+  return std::hypot(matrix.rows * matrix.pitchMm.y, matrix.columns * matrix.pitchMm.x) / 2.0;
 }
 
 bool mayMeet(const GeometryDescription& hand, const HandPose& pose, std::size_t a, std::size_t b) {
@@ -47,7 +47,10 @@ double depthBehindTaxels(const GeometryDescription& hand,
   const Eigen::Vector3d apart = pose.positionsMm()[nearest] - pointMm;
   const double depth = apart.dot(pose.normals()[nearest]);
   const double besideMm = (apart - depth * pose.normals()[nearest]).norm();
-  return depth > 0.0 && depth < kDeepestMm && besideMm <= layout.pitchMm ? depth : 0.0;
+  return depth > 0.0 && depth < kDeepestMm &&
+                 besideMm <= std::max(layout.pitchMm.x, layout.pitchMm.y)
+             ? depth
+             : 0.0;
 }
 
 }  // namespace
@@ -60,12 +63,12 @@ double depthBehindPad(const GeometryDescription& hand,
   const MatrixLayout& layout = hand.layout.matrix(matrix);
   if (!surface.positionsMm.empty()) return depthBehindTaxels(hand, pose, matrix, pointMm);
   const Eigen::Vector3d at = pose.baseFromMatrix(matrix).inverse(Eigen::Isometry) * pointMm;
-  const double column = at.x() / layout.pitchMm;
-  double row = at.y() / layout.pitchMm;
+  const double column = at.x() / layout.pitchMm.x;
+  double row = at.y() / layout.pitchMm.y;
   if (surface.bendRow && row < *surface.bendRow) {
-    const double sine = (*surface.bendRow - row) * layout.pitchMm / surface.radiusMm;
+    const double sine = (*surface.bendRow - row) * layout.pitchMm.y / surface.radiusMm;
     if (sine >= 1.0) return 0.0;
-    row = *surface.bendRow - std::asin(sine) * surface.radiusMm / layout.pitchMm;
+    row = *surface.bendRow - std::asin(sine) * surface.radiusMm / layout.pitchMm.y;
   }
   if (column < -0.5 || column > layout.columns - 0.5 || row < -0.5 || row > layout.rows - 0.5)
     return 0.0;

@@ -194,9 +194,9 @@ struct PhysicalHand::Impl {
                  before.pointMm(m, contact.surfaceXMm, contact.surfaceYMm);
       const Vector3d right = pose.baseFromMatrix(m).linear().col(0);
       const Vector3d down = right.cross(contact.normal);
-      const double pitchMm = geometry.description().layout.matrix(m).pitchMm;
-      now.slipXTaxels += slide.dot(right) / pitchMm;
-      now.slipYTaxels += slide.dot(down) / pitchMm;
+      const TaxelPitch& pitchMm = geometry.description().layout.matrix(m).pitchMm;
+      now.slipXTaxels += slide.dot(right) / pitchMm.x;
+      now.slipYTaxels += slide.dot(down) / pitchMm.y;
       // Rotation from x towards y: about x right cross y down, which points into the sensor.
       now.turnDeg -= motion.angularRadPerS.dot(contact.normal) * dtS * 180.0 / std::numbers::pi;
     }

@@ -80,8 +80,8 @@ void PhysicalObjects::pressPads(const HandPose& pose, std::vector<double>& press
     contact.forceOnPadN -= outwardN;
     contact.centreMm += pose.positionsMm()[place] * forceN;
     contact.normal += outwardN;
-    contact.surfaceXMm += matrix.pitchMm * x * forceN;
-    contact.surfaceYMm += matrix.pitchMm * y * forceN;
+    contact.surfaceXMm += matrix.pitchMm.x * x * forceN;
+    contact.surfaceYMm += matrix.pitchMm.y * y * forceN;
   });
 }
 
@@ -101,7 +101,7 @@ void PhysicalObjects::pressBody(std::size_t index,
     const MatrixLayout& matrix = layout.matrix(m);
     const Vector3d middle = pose.positionMm(m, matrix.rows / 2, matrix.columns / 2);
     const double radius =
-        std::hypot(matrix.rows * matrix.pitchMm, matrix.columns * matrix.pitchMm) / 2.0;
+        std::hypot(matrix.rows * matrix.pitchMm.y, matrix.columns * matrix.pitchMm.x) / 2.0;
     if (body.object.shape.distanceMm(toBody * (middle - body.positionMm)) >
         radius + kPhysicalObjectsReachMm)
       continue;
@@ -132,8 +132,8 @@ void PhysicalObjects::pressBody(std::size_t index,
         contact.forceOnPadN -= onObject;
         contact.centreMm += at * forceN;
         contact.normal += onObject;
-        contact.surfaceXMm += matrix.pitchMm * x * forceN;
-        contact.surfaceYMm += matrix.pitchMm * y * forceN;
+        contact.surfaceXMm += matrix.pitchMm.x * x * forceN;
+        contact.surfaceYMm += matrix.pitchMm.y * y * forceN;
       }
     if (touch.forceN <= 0.0) continue;
     body.grip += touch.forceN;

@@ -169,7 +169,7 @@ Profile synthesize(const SyntheticOptions& options, SyntheticTruth* truth) {
     const TactileFrame frame = generator.frameAt(timeS);
     const std::size_t index = builder.numFrames();
     const bool touches = std::any_of(
-        frame.values.begin(), frame.values.end(), [](float value) { return value > 0.0F; });
+        frame.values.begin(), frame.values.end(), [](float value) { return isTouched(value); });
     if (touches && !touching) grasps.push_back({index, index});
     if (touches) grasps.back().end = index;
     touching = touches;

@@ -63,7 +63,7 @@ class FilterChain::Contact final : public FrameSink {
   void goesIn(TactileFrame& frame) {
     std::vector<bool> active = std::move(spare_);
     active.resize(frame.values.size());
-    for (std::size_t i = 0; i < active.size(); ++i) active[i] = frame.values[i] > 0.0F;
+    for (std::size_t i = 0; i < active.size(); ++i) active[i] = isTouched(frame.values[i]);
     active_.push_back(std::move(active));
     if (frame.filtered.empty()) return;
     frame.values.swap(frame.filtered);

@@ -31,7 +31,7 @@ bool allZero(const float* values, std::size_t count) {
 
 void keepOriginal(const float* original, float* values, const MatrixLayout& layout) {
   const std::size_t count = layout.numCells();
-  for (std::size_t i = 0; i < count; ++i) values[i] = values[i] > 0.0F ? original[i] : 0.0F;
+  for (std::size_t i = 0; i < count; ++i) values[i] = isTouched(values[i]) ? original[i] : 0.0F;
 }
 
 SpatialFilter::SpatialFilter(const FilterStep& step,

@@ -81,7 +81,7 @@ class MinMedian final : public WindowedFilter {
     for (const std::size_t place : places_) {
       if (!masked_)
         values[place] = lowest_[place];
-      else if (!(lowest_[place] > 0.0F))
+      else if (!isTouched(lowest_[place]))
         values[place] = 0.0F;
     }
   }

@@ -85,8 +85,8 @@ MatrixContact contactFrom(const Moments& moments, const HandPose& pose, std::siz
   contact.numActive = moments.count;
   contact.sum = moments.sum;
   contact.areaMm2 = static_cast<double>(moments.count) * area;
-  contact.xMm = x * layout.pitchMm;
-  contact.yMm = y * layout.pitchMm;
+  contact.xMm = x * layout.pitchMm.x;
+  contact.yMm = y * layout.pitchMm.y;
   const Eigen::Isometry3d baseFromSurface = pose.baseFromSurface(matrix, contact.xMm, contact.yMm);
   contact.centroidMm = baseFromSurface.translation();
   const double length = moments.normal.norm();
@@ -94,9 +94,9 @@ MatrixContact contactFrom(const Moments& moments, const HandPose& pose, std::siz
                                                    : Vector3d(baseFromSurface.linear().col(2));
   setAxes(contact,
           baseFromSurface,
-          (moments.xx / moments.sum - x * x) * area,
+          (moments.xx / moments.sum - x * x) * (layout.pitchMm.x * layout.pitchMm.x),
           (moments.xy / moments.sum - x * y) * area,
-          (moments.yy / moments.sum - y * y) * area);
+          (moments.yy / moments.sum - y * y) * (layout.pitchMm.y * layout.pitchMm.y));
   return contact;
 }
 

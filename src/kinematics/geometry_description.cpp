@@ -264,11 +264,11 @@ void GeometryDescription::validate() const {
   }
 }
 
-SurfaceRow surfaceRow(const SensorSurface& surface, double pitchMm, double row) {
-  if (!surface.bendRow || row > *surface.bendRow) return {pitchMm * row, 0.0, 0.0, -1.0};
-  const double angle = (*surface.bendRow - row) * pitchMm / surface.radiusMm;
+SurfaceRow surfaceRow(const SensorSurface& surface, const TaxelPitch& pitchMm, double row) {
+  if (!surface.bendRow || row > *surface.bendRow) return {pitchMm.y * row, 0.0, 0.0, -1.0};
+  const double angle = (*surface.bendRow - row) * pitchMm.y / surface.radiusMm;
   const double sine = std::sin(angle), cosine = std::cos(angle);
-  return {pitchMm * *surface.bendRow - surface.radiusMm * sine,
+  return {pitchMm.y * *surface.bendRow - surface.radiusMm * sine,
           surface.radiusMm * (1.0 - cosine),
           -sine,
           -cosine};

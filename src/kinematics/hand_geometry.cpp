@@ -126,7 +126,7 @@ void HandGeometry::placeTaxels(std::size_t matrix,
   }
   const Pad& pad = pads_[matrix];
   const Vector3d across = rotation * surface.linkFromSurface.linear().col(0);
-  const double pitchMm = description_.layout.matrix(matrix).pitchMm;
+  const double pitchMm = description_.layout.matrix(matrix).pitchMm.x;
   for (std::size_t y = 0; y < pad.rowsMm.size(); ++y) {
     const Vector3d normal = rotation * pad.rowNormals[y];
     const Vector3d middle = baseFromLink * pad.rowsMm[y];

@@ -30,7 +30,7 @@ LinkPoint pointBetweenTaxels(const SensorSurface& surface,
   const auto cell = [](double at, int count) {
     return std::clamp(static_cast<int>(std::floor(at)), 0, std::max(count - 2, 0));
   };
-  const double column = xMm / layout.pitchMm, row = yMm / layout.pitchMm;
+  const double column = xMm / layout.pitchMm.x, row = yMm / layout.pitchMm.y;
   const int x0 = cell(column, layout.columns), y0 = cell(row, layout.rows);
   const int x1 = std::min(x0 + 1, layout.columns - 1), y1 = std::min(y0 + 1, layout.rows - 1);
   const double u = column - x0, v = row - y0;
@@ -61,7 +61,10 @@ LinkPoint pointBetweenTaxels(const SensorSurface& surface,
 }
 
 // `row` of a surface that is flat or bent.
-LinkPoint pointInRow(const SensorSurface& surface, double pitchMm, double xMm, double row) {
+LinkPoint pointInRow(const SensorSurface& surface,
+                     const TaxelPitch& pitchMm,
+                     double xMm,
+                     double row) {
   const SurfaceRow at = surfaceRow(surface, pitchMm, row);
   const Isometry3d& frame = surface.linkFromSurface;
   const Vector3d normal = frame.linear() * Vector3d(0.0, at.normalY, at.normalZ);
@@ -78,7 +81,7 @@ LinkPoint surfacePoint(const GeometryDescription& hand,
   const SensorSurface& surface = hand.surfaces[matrix];
   const MatrixLayout& layout = hand.layout.matrix(matrix);
   if (!surface.positionsMm.empty()) return pointBetweenTaxels(surface, layout, xMm, yMm);
-  return pointInRow(surface, layout.pitchMm, xMm, yMm / layout.pitchMm);
+  return pointInRow(surface, layout.pitchMm, xMm, yMm / layout.pitchMm.y);
 }
 
 }  // namespace
@@ -146,8 +149,8 @@ Isometry3d HandPose::baseFromMatrix(std::size_t matrix) const {
   const MatrixLayout& layout = description_->layout.matrix(matrix);
   const LinkPoint middle = surfacePoint(*description_,
                                         matrix,
-                                        layout.pitchMm * (layout.columns - 1) / 2.0,
-                                        layout.pitchMm * (layout.rows - 1) / 2.0);
+                                        layout.pitchMm.x * (layout.columns - 1) / 2.0,
+                                        layout.pitchMm.y * (layout.rows - 1) / 2.0);
   Isometry3d frame = Isometry3d::Identity();
   frame.linear().col(0) = middle.right;
   frame.linear().col(1) = middle.down;
@@ -161,7 +164,7 @@ Vector3d HandPose::cornerMm(std::size_t matrix, int y, int x) const {
   if (y < 0 || y > of.rows || x < 0 || x > of.columns)
     throw std::out_of_range("matrix " + std::to_string(matrix) + " has no corner (" +
                             std::to_string(x) + ", " + std::to_string(y) + ")");
-  return pointMm(matrix, (x - 0.5) * of.pitchMm, (y - 0.5) * of.pitchMm);
+  return pointMm(matrix, (x - 0.5) * of.pitchMm.x, (y - 0.5) * of.pitchMm.y);
 }
 
 void HandPose::cornersMm(std::size_t matrix, std::vector<Vector3d>& out) const {
@@ -174,8 +177,8 @@ void HandPose::cornersMm(std::size_t matrix, std::vector<Vector3d>& out) const {
       for (int x = 0; x <= of.columns; ++x) out.push_back(cornerMm(matrix, y, x));
       continue;
     }
-    const LinkPoint first = pointInRow(surface, of.pitchMm, -0.5 * of.pitchMm, y - 0.5);
-    const Vector3d start = link * first.atMm, step = link.linear() * (first.right * of.pitchMm);
+    const LinkPoint first = pointInRow(surface, of.pitchMm, -0.5 * of.pitchMm.x, y - 0.5);
+    const Vector3d start = link * first.atMm, step = link.linear() * (first.right * of.pitchMm.x);
     for (int x = 0; x <= of.columns; ++x) out.push_back(start + step * x);
   }
 }

@@ -67,11 +67,18 @@ Mask maskOf(const JsonField& field, int rows, int columns) {
   return mask;
 }
 
+// One number, or [along a row, along a column].
+TaxelPitch pitchOf(const JsonField& field) {
+  constexpr double kLeastMm = 0.01, kMostMm = 1000.0;
+  if (!field.json().isArray()) return field.number(kLeastMm, kMostMm);
+  const std::vector<double> both = field.numbers(2, kLeastMm, kMostMm);
+  return {both[0], both[1]};
+}
+
 MatrixLayout layoutOf(const JsonField& field) {
   const auto rows = static_cast<int>(field.required("rows").integer(1, kMostSide));
   const auto columns = static_cast<int>(field.required("columns").integer(1, kMostSide));
-  MatrixLayout layout =
-      MatrixLayout::full(rows, columns, field.required("pitch_mm").number(0.01, 1000.0));
+  MatrixLayout layout = MatrixLayout::full(rows, columns, pitchOf(field.required("pitch_mm")));
   if (field.has("mask")) layout.staticMask = maskOf(field.at("mask"), layout.rows, layout.columns);
   return layout;
 }

@@ -1,18 +1,38 @@
 #include "palpate/model/matrix_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
 
 namespace palpate {
 namespace {
 constexpr int kMaxSide = 256;
 }
 
-MatrixLayout MatrixLayout::full(int rows, int columns, double pitchMm) {
+double TaxelPitch::lengthMm(double dx, double dy) const noexcept {
+  return isSquare() ? std::hypot(dx, dy) * x : std::hypot(dx * x, dy * y);
+}
+
+Json pitchJson(const TaxelPitch& pitch) {
+  if (pitch.isSquare()) return pitch.x;
+  const std::array<double, 2> both{pitch.x, pitch.y};
+  return Json::array(both);
+}
+
+std::string pitchText(const TaxelPitch& pitch, int digits) {
+  const auto text = [digits](double mm) {
+    return digits < 0 ? numberText(mm) : fixedText(mm, digits);
+  };
+  return text(pitch.x) + (pitch.isSquare() ? "" : " x " + text(pitch.y)) + " mm";
+}
+
+MatrixLayout MatrixLayout::full(int rows, int columns, const TaxelPitch& pitchMm) {
   MatrixLayout layout{rows, columns, pitchMm, {}, {}, {}, {}};
   if (rows >= 1 && rows <= kMaxSide && columns >= 1 && columns <= kMaxSide) {
     layout.staticMask.assign(layout.numCells(), 1);
@@ -54,9 +74,10 @@ void MatrixLayout::validate() const {
   };
   side("rows", rows);
   side("columns", columns);
-  if (!std::isfinite(pitchMm) || pitchMm <= 0.0 || pitchMm > 1000.0)
-    throw std::invalid_argument("MatrixLayout: pitchMm must be above 0 and at most 1000 mm, is " +
-                                std::to_string(pitchMm));
+  for (const double mm : {pitchMm.x, pitchMm.y})
+    if (!std::isfinite(mm) || mm <= 0.0 || mm > 1000.0)
+      throw std::invalid_argument("MatrixLayout: pitchMm must be above 0 and at most 1000 mm, is " +
+                                  std::to_string(mm));
   if (staticMask.size() != numCells() || dynamicMask.size() != numCells())
     throw std::invalid_argument("MatrixLayout: a mask has not rows * columns places");
   if (touch.components != 1 && touch.components != 3)
@@ -77,6 +98,12 @@ SensorLayout::SensorLayout(std::vector<MatrixLayout> matrices) : matrices_(std::
     numReadings_ += matrix.numReadings();
     decidesTouch_ = decidesTouch_ || matrix.touch.decides();
   }
+}
+
+bool SensorLayout::hasSquareTaxels() const noexcept {
+  return std::all_of(matrices_.begin(), matrices_.end(), [](const MatrixLayout& matrix) {
+    return matrix.pitchMm.isSquare();
+  });
 }
 
 std::size_t SensorLayout::numTaxels() const noexcept {

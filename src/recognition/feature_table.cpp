@@ -158,7 +158,7 @@ std::string sensorText(const SensorLayout& layout) {
   std::string text;
   for (const MatrixLayout& matrix : layout.matrices())
     text += (text.empty() ? "" : ", ") + std::to_string(matrix.columns) + "x" +
-            std::to_string(matrix.rows) + " " + fixedText(matrix.pitchMm, 2) + " mm";
+            std::to_string(matrix.rows) + " " + pitchText(matrix.pitchMm, 2);
   return text;
 }
 

@@ -49,7 +49,7 @@ bool GraspCollector::contactIn(const TactileFrame& frame) const {
                             ? static_cast<std::size_t>(std::max(0, hand_.matrices[m].finger))
                             : m;
     if (fingers[finger % kMostFingers]) continue;
-    if ((frame.matrix(m).array() > 0.0F).any()) fingers.set(finger % kMostFingers);
+    if (areTouched(frame.matrix(m).array()).any()) fingers.set(finger % kMostFingers);
   }
   return fingers.count() >= options_.minFingers;
 }

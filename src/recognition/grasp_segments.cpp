@@ -67,7 +67,7 @@ MatrixContact contactOf(const ConstMatrixMap& values) {
   MatrixContact contact;
   const float* const end = values.data() + values.size();
   for (const float* value = values.data(); value != end; ++value) {
-    if (!(*value > 0.0F)) continue;
+    if (!isTouched(*value)) continue;
     contact.active = true;
     contact.sum += static_cast<double>(*value);
     contact.maximum = std::max(contact.maximum, static_cast<double>(*value));

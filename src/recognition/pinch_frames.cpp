@@ -14,16 +14,16 @@ std::string inFrame(std::size_t frame) { return " in frame " + std::to_string(fr
 
 }  // namespace
 
-PadLoad padLoad(const ConstMatrixMap& values, double pitchMm) {
+PadLoad padLoad(const ConstMatrixMap& values, const TaxelPitch& pitchMm) {
   PadLoad load;
   // The common case: most pads are not touched.
-  if (!(values.maxCoeff() > 0.0F)) return load;
+  if (!isTouched(values.maxCoeff())) return load;
   double x = 0.0, y = 0.0;
   const float* value = values.data();
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
     double sum = 0.0;
     for (Eigen::Index column = 0; column < values.cols(); ++column, ++value) {
-      if (!(*value > 0.0F)) continue;
+      if (!isTouched(*value)) continue;
       const auto counts = static_cast<double>(*value);
       sum += counts;
       x += counts * static_cast<double>(column);
@@ -33,8 +33,8 @@ PadLoad padLoad(const ConstMatrixMap& values, double pitchMm) {
     y += sum * static_cast<double>(row);
   }
   if (load.sum > 0.0) {
-    load.xMm = x / load.sum * pitchMm;
-    load.yMm = y / load.sum * pitchMm;
+    load.xMm = x / load.sum * pitchMm.x;
+    load.yMm = y / load.sum * pitchMm.y;
   }
   return load;
 }
@@ -93,8 +93,8 @@ std::optional<GraspSegment> longestTouch(const Profile& profile,
   for (std::size_t i = grasp.begin; i <= grasp.end; ++i) {
     profile.readFrame(i, frame);
     const TactileFrame& values = frame;
-    const bool both = (values.matrix(pads[0]).array() > 0.0F).any() &&
-                      (values.matrix(pads[1]).array() > 0.0F).any();
+    const bool both = areTouched(values.matrix(pads[0]).array()).any() &&
+                      areTouched(values.matrix(pads[1]).array()).any();
     run = both ? run + 1 : 0;
     if (run > longest) {
       longest = run;

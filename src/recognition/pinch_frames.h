@@ -48,7 +48,7 @@ std::optional<GraspSegment> longestTouch(const Profile& profile,
                                          const std::array<std::size_t, 2>& pads);
 
 // Load of one matrix of a frame.
-PadLoad padLoad(const ConstMatrixMap& values, double pitchMm);
+PadLoad padLoad(const ConstMatrixMap& values, const TaxelPitch& pitchMm);
 
 constexpr std::size_t kMinPinchFrames = 21;
 

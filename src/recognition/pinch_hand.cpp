@@ -15,7 +15,8 @@ bool sameSensor(const SensorLayout& a, const SensorLayout& b) {
   if (a.numMatrices() != b.numMatrices()) return false;
   for (std::size_t m = 0; m < a.numMatrices(); ++m)
     if (a.matrix(m).rows != b.matrix(m).rows || a.matrix(m).columns != b.matrix(m).columns ||
-        std::abs(a.matrix(m).pitchMm - b.matrix(m).pitchMm) > 1e-3)
+        std::abs(a.matrix(m).pitchMm.x - b.matrix(m).pitchMm.x) > 1e-3 ||
+        std::abs(a.matrix(m).pitchMm.y - b.matrix(m).pitchMm.y) > 1e-3)
       return false;
   return true;
 }

@@ -168,10 +168,11 @@ PlateauFeatures featuresOfPads(const Profile& profile,
         Eigen::VectorXd::LinSpaced(mean.cols(), 0.0, static_cast<double>(mean.cols()) - 1.0);
     const Eigen::VectorXd rows =
         Eigen::VectorXd::LinSpaced(mean.rows(), 0.0, static_cast<double>(mean.rows()) - 1.0);
-    const double pitchMm = profile.layout().matrix(pad).pitchMm;
+    const TaxelPitch& pitchMm = profile.layout().matrix(pad).pitchMm;
     atPlateauMm[i] =
-        Eigen::Vector2d(mean.colwise().sum().dot(columns), mean.rowwise().sum().dot(rows)) /
-        mean.sum() * pitchMm;
+        (Eigen::Vector2d(mean.colwise().sum().dot(columns), mean.rowwise().sum().dot(rows)) /
+         mean.sum())
+            .cwiseProduct(Eigen::Vector2d(pitchMm.x, pitchMm.y));
     const PadLoad& load = frames.loads[start][pad];
     atStartMm[i] = {load.xMm, load.yMm};
   }

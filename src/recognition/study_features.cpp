@@ -89,14 +89,14 @@ double distanceAt(const PinchFrames& frames,
 double standardDeviation(const Eigen::MatrixXd& picture) {
   double sum = 0.0, count = 0.0, squares = 0.0;
   for (const double value : picture.reshaped()) {
-    if (!(value > 0.0)) continue;
+    if (!isTouched(value)) continue;
     sum += value;
     count += 1.0;
   }
   if (count == 0.0) return 0.0;
   const double mean = sum / count;
   for (const double value : picture.reshaped())
-    if (value > 0.0) squares += (value - mean) * (value - mean);
+    if (isTouched(value)) squares += (value - mean) * (value - mean);
   return std::sqrt(squares / count);
 }
 

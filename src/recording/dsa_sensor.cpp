@@ -110,15 +110,12 @@ void DsaSensor::endMatrix() {
   matrices_.push_back(std::move(layout));
 }
 
-double DsaSensor::pitchMm(const OpenMatrix& matrix) {
-  if (matrix.pitchX && matrix.pitchY && *matrix.pitchX != *matrix.pitchY)
-    warnings_.push_back(here() + ": texel_height " + numberText(*matrix.pitchY) +
-                        " mm differs from texel_width " + numberText(*matrix.pitchX) +
-                        " mm, which is used for both");
+TaxelPitch DsaSensor::pitchMm(const OpenMatrix& matrix) {
+  if (matrix.pitchX && matrix.pitchY) return {*matrix.pitchX, *matrix.pitchY};
   if (matrix.pitchX) return *matrix.pitchX;
   if (matrix.pitchY) return *matrix.pitchY;
-  const double assumed = defaultHand().layout->matrix(0).pitchMm;
-  warnings_.push_back(here() + ": no texel_width, " + numberText(assumed) + " mm assumed");
+  const TaxelPitch& assumed = defaultHand().layout->matrix(0).pitchMm;
+  warnings_.push_back(here() + ": no texel_width, " + pitchText(assumed) + " assumed");
   return assumed;
 }
 

@@ -57,7 +57,7 @@ class DsaSensor {
     std::optional<std::string> dynamicMask;
     std::string uniqueId;
   };
-  double pitchMm(const OpenMatrix& matrix);
+  TaxelPitch pitchMm(const OpenMatrix& matrix);
   Mask mask(const std::optional<std::string>& text, const char* name, std::size_t places);
   std::string here() const { return "matrix " + std::to_string(matrices_.size()); }
 

@@ -8,6 +8,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/tactile_frame.h"
 
 namespace palpate {
 namespace {
@@ -146,7 +147,7 @@ void appendFrameText(std::span<const float> values,
       ++zeros;
       continue;
     }
-    if (!(values[i] > 0.0F) || !std::isfinite(values[i]))
+    if (!isTouched(values[i]) || !std::isfinite(values[i]))
       throw std::invalid_argument("appendFrameText: value " + std::to_string(i) + " is " +
                                   numberText(values[i]));
     endRun();

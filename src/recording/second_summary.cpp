@@ -29,7 +29,7 @@ void SecondSummarizer::add(const TactileFrame& frame) {
     int active = 0;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       const double value = static_cast<double>(values.data()[i]);
-      if (!(value > 0.0)) continue;
+      if (!isTouched(value)) continue;
       const bool first = row.activeMax == 0 && active == 0;
       row.minimum = first ? value : std::min(row.minimum, value);
       row.maximum = std::max(row.maximum, value);

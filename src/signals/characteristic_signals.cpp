@@ -30,7 +30,7 @@ struct ActiveTaxels {
     for (Eigen::Index y = 0; y < values.rows(); ++y) {
       for (Eigen::Index x = 0; x < values.cols(); ++x) {
         const double value = static_cast<double>(values(y, x));
-        if (!(value > 0.0)) continue;
+        if (!isTouched(value)) continue;
         minimum = count == 0 ? value : std::min(minimum, value);
         maximum = std::max(maximum, value);
         sum += value;
@@ -95,7 +95,8 @@ SignalTaxels taxelsOf(const TactileFrame& frame, std::size_t matrix) {
   if (frame.filtered.empty()) return taxelsOf(values, values, layout);
   const ConstMatrixMap all = frame.allValues(matrix);
   const float held = kHeldPart * all.maxCoeff();
-  const MatrixValues averaged = (values.array() > 0.0F || all.array() > held).select(all, 0.0F);
+  const MatrixValues averaged =
+      (areTouched(values.array()) || all.array() > held).select(all, 0.0F);
   return taxelsOf(values, averaged, layout);
 }
 

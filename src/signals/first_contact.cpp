@@ -48,7 +48,7 @@ int numActive(const TactileFrame& frame) {
     const ConstMatrixMap values = frame.matrix(m);
     for (int y = 0; y < layout.rows; ++y)
       for (int x = 0; x < layout.columns; ++x)
-        if (values(y, x) > 0.0F && layout.enabled(y, x)) ++active;
+        if (isTouched(values(y, x)) && layout.enabled(y, x)) ++active;
   }
   return active;
 }

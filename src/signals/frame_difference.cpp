@@ -122,7 +122,7 @@ std::vector<DifferenceStatistics> FrameComparison::statistics(const TactileFrame
         const auto place = static_cast<std::size_t>(y * matrix.columns + x);
         const auto inA = static_cast<double>(a.values[a_->offset(m) + place]);
         const auto inB = static_cast<double>(b.values[b_->offset(m) + place]);
-        if (inA > 0.0 || inB > 0.0) sums.add(m, y, x, inA - inB);
+        if (isTouched(inA) || isTouched(inB)) sums.add(m, y, x, inA - inB);
       }
     rows.push_back(sums.finished());
     rows.back().matrix = m;

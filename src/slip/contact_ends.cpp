@@ -26,7 +26,7 @@ double loadAtTwoSides(const MatrixLayout& layout, const ConstMatrixMap& frame) {
   for (int y = 0; y < layout.rows; ++y)
     for (int x = 0; x < layout.columns; ++x) {
       const float value = frame(y, x);
-      if (!(value > 0.0F) || isMissing(y, x)) continue;
+      if (!isTouched(value) || isMissing(y, x)) continue;
       largest = std::max(largest, value);
       if (isMissing(y, x - 1)) sides[0] = std::max(sides[0], value);
       if (isMissing(y, x + 1)) sides[1] = std::max(sides[1], value);
@@ -42,7 +42,7 @@ bool isStrongContact(const ConstMatrixMap& frame, double noiseCounts) noexcept {
   const float* end = frame.data() + frame.size();
   float least = 0.0F;
   for (const float* value = frame.data(); value != end; ++value)
-    if (*value > 0.0F) least = least == 0.0F ? *value : std::min(least, *value);
+    if (isTouched(*value)) least = least == 0.0F ? *value : std::min(least, *value);
   const float strong =
       kAboveSilence * std::max(least, kAboveNoise * static_cast<float>(noiseCounts));
   return least > 0.0F && std::count_if(frame.data(), end, [&](float value) {

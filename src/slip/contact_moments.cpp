@@ -31,7 +31,7 @@ ContactMoments contactMoments(const ConstMatrixMap& matrix) noexcept {
     double alongX = 0.0;
     int active = 0;
     for (Eigen::Index x = 0; x < columns; ++x) {
-      const bool isActive = values[x] > 0.0F;
+      const bool isActive = isTouched(values[x]);
       const double value = isActive ? static_cast<double>(values[x]) : 0.0;
       active += isActive ? 1 : 0;
       sum += value;

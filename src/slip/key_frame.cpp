@@ -79,7 +79,7 @@ void smoothMatrix(const MatrixLayout& layout,
   if (blurTaxels <= 0.0) {
     for (int y = 0, i = 0; y < rows; ++y)
       for (int x = 0; x < columns; ++x, ++i)
-        out[i] = layout.enabled(y, x) && in[i] > 0.0F ? in[i] : 0.0F;
+        out[i] = layout.enabled(y, x) && isTouched(in[i]) ? in[i] : 0.0F;
     return;
   }
   const auto side = static_cast<float>(std::exp(-0.5 / (blurTaxels * blurTaxels)));
@@ -94,7 +94,7 @@ void smoothMatrix(const MatrixLayout& layout,
           if (!layout.enabled(y + dy, x + dx)) continue;
           const float weight = (dx == 0 ? 1.0F : side) * (dy == 0 ? 1.0F : side);
           const float value = in[i + dy * columns + dx];
-          sum += value > 0.0F ? weight * value : 0.0F;
+          sum += isTouched(value) ? weight * value : 0.0F;
           weights += weight;
         }
       out[i] = sum / weights;
@@ -129,7 +129,7 @@ bool KeyFrame::set(const ConstMatrixMap& frame) {
   sum_ = moments.sum;
   least_ = 0.0F;
   for (Eigen::Index i = 0; i < frame.size(); ++i)
-    if (frame.data()[i] > 0.0F && (least_ == 0.0F || frame.data()[i] < least_))
+    if (isTouched(frame.data()[i]) && (least_ == 0.0F || frame.data()[i] < least_))
       least_ = frame.data()[i];
   smoothMatrix(layout_, options_.blurTaxels, frame.data(), smoothed_.data());
   active_ = moments.active;
@@ -148,7 +148,7 @@ void KeyFrame::fill() {
     for (int x = 0; x < columns; ++x, ++i) {
       const auto place = static_cast<std::size_t>(i);
       filled_[place] = smoothed_[place];
-      if (enabled_[place] != 0 && smoothed_[place] > 0.0F) continue;
+      if (enabled_[place] != 0 && isTouched(smoothed_[place])) continue;
       float sum = 0.0F;
       int neighbors = 0;
       int near = 0;
@@ -159,7 +159,7 @@ void KeyFrame::fill() {
           const int weight = nx == x || ny == y ? 2 : 1;
           sum += static_cast<float>(weight) * smoothed_[other];
           neighbors += weight;
-          near += smoothed_[other] > 0.0F ? 1 : 0;
+          near += isTouched(smoothed_[other]) ? 1 : 0;
         }
       float& unknown =
           unknown_[static_cast<std::size_t>((y + kKeyFrameAround) * stride_ + x + kKeyFrameAround)];
@@ -193,6 +193,8 @@ void KeyFrame::interpolate() noexcept {
 }
 
 void KeyFrame::computeRotationSensitivity() noexcept {
+  rotationSensitivity_ = -1.0F;
+  if (!layout_.pitchMm.isSquare()) return;
   const int rows = layout_.rows;
   const int columns = layout_.columns;
   float around = 0.0F;

@@ -86,14 +86,14 @@ void MostProbableSurface::beginInformation(const ConstMatrixMap& frame,
   const auto isActiveAround = [&](int y, int x, int reach) {
     for (int ny = std::max(y - reach, 0); ny <= std::min(y + reach, layout.rows - 1); ++ny)
       for (int nx = std::max(x - reach, 0); nx <= std::min(x + reach, layout.columns - 1); ++nx)
-        if (frame(ny, nx) > 0.0F) return true;
+        if (isTouched(frame(ny, nx))) return true;
     return false;
   };
   for (int y = 0; y < layout.rows; ++y)
     for (int x = 0; x < layout.columns; ++x) {
       const int taxel = y * layout.columns + x;
       if (key_.enabled()[taxel] == 0 || !isActiveAround(y, x, 2)) continue;
-      const float variance = frame(y, x) > 0.0F        ? noise2
+      const float variance = isTouched(frame(y, x))    ? noise2
                              : isActiveAround(y, x, 1) ? nearSilence
                                                        : farSilence;
       information_.add(grid_.coefficients(),

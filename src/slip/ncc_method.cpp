@@ -53,7 +53,7 @@ class NccMethod final : public TranslationMethod {
                             bool stepPossible) override {
     TranslationReading reading;
     for (Eigen::Index i = 0; i < frame.size(); ++i)
-      now_[static_cast<std::size_t>(i)] = frame.data()[i] > 0.0F ? frame.data()[i] : 0.0F;
+      now_[static_cast<std::size_t>(i)] = isTouched(frame.data()[i]) ? frame.data()[i] : 0.0F;
     reading.residual = 1.0;
     if (measurable && stepPossible && hasLast_) {
       if (const auto shift = shiftOf(last_, moments.x - lastX_, moments.y - lastY_)) {

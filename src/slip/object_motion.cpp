@@ -18,17 +18,17 @@ constexpr double kLeastSingular = 1e-3;
 
 SlipArrow slipArrow(const HandPose& pose,
                     std::size_t matrix,
-                    double pitchMm,
+                    const TaxelPitch& pitchMm,
                     double x,
                     double y,
                     double dx,
                     double dy,
                     std::optional<double> turnDeg,
                     double weight) {
-  if (!std::isfinite(dx) || !std::isfinite(dy) || !(pitchMm > 0.0) || !(weight > 0.0) ||
-      !std::isfinite(weight) || (turnDeg && !std::isfinite(*turnDeg)))
+  if (!std::isfinite(dx) || !std::isfinite(dy) || !(pitchMm.x > 0.0) || !(pitchMm.y > 0.0) ||
+      !(weight > 0.0) || !std::isfinite(weight) || (turnDeg && !std::isfinite(*turnDeg)))
     throw std::invalid_argument("slipArrow: motion, pitch or weight is no such number");
-  const Eigen::Isometry3d surface = pose.baseFromSurface(matrix, x * pitchMm, y * pitchMm);
+  const Eigen::Isometry3d surface = pose.baseFromSurface(matrix, x * pitchMm.x, y * pitchMm.y);
   SlipArrow arrow;
   arrow.matrix = matrix;
   arrow.originMm = surface.translation();
@@ -36,7 +36,10 @@ SlipArrow slipArrow(const HandPose& pose,
   // The Y axis of the surface points to the fingertip, while rows rise towards the palm.
   arrow.alongY = -surface.linear().col(1);
   arrow.normal = surface.linear().col(2);
-  arrow.vectorMm = pitchMm * (dx * arrow.alongX + dy * arrow.alongY);
+  arrow.vectorMm =
+      pitchMm.isSquare()
+          ? Eigen::Vector3d(pitchMm.x * (dx * arrow.alongX + dy * arrow.alongY))
+          : Eigen::Vector3d(pitchMm.x * dx * arrow.alongX + pitchMm.y * dy * arrow.alongY);
   if (turnDeg) arrow.turnRad = -*turnDeg * kObjectMotionRadians;
   arrow.weight = weight;
   return arrow;

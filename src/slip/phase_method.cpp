@@ -130,7 +130,7 @@ class PhaseMethod final : public TranslationMethod {
       bool any = false;
       for (int x = 0; x < columns_; ++x) {
         const float value = frame.data()[y * columns_ + x];
-        if (!(value > 0.0F)) continue;
+        if (!isTouched(value)) continue;
         any = true;
         power += static_cast<double>(value) * static_cast<double>(value);
         const float* waveReal = forwardX_.real.data() + x * halfX_;

@@ -67,7 +67,7 @@ inline Window windowOf(const float* values, int rows, int columns, float& least)
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
       const float value = values[y * columns + x];
-      if (!(value > 0.0F)) continue;
+      if (!isTouched(value)) continue;
       least = least == 0.0F ? value : std::min(least, value);
       window = {std::min(window.top, y), y, std::min(window.left, x), std::max(window.right, x)};
     }
@@ -117,7 +117,7 @@ NormalEquations accumulateNormalEquations(const Surface& surface,
       const float model = at.gain * sample.value;
       pass.inside += std::max(sample.value, 0.0F);
       float measured = frame.values[place];
-      if (!(measured > 0.0F)) {
+      if (!isTouched(measured)) {
         // The model agrees with a reading below the threshold.
         if (model <= contact.silent) continue;
         measured = contact.silent;

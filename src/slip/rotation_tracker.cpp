@@ -50,7 +50,7 @@ bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments
       double first = 0.0;
       for (Eigen::Index i = 0; i <= (alongX ? right : bottom); ++i) {
         const float value = alongX ? frame(line, i) : frame(i, line);
-        if (!(value > 0.0F)) continue;
+        if (!isTouched(value)) continue;
         load += static_cast<double>(value);
         first += static_cast<double>(value) * static_cast<double>(i);
       }

@@ -31,7 +31,7 @@ float minActiveTaxels(const ConstMatrixMap& frame) {
   float least = 0.0F;
   for (Eigen::Index i = 0; i < frame.size(); ++i) {
     const float value = frame.data()[i];
-    if (value > 0.0F && (least == 0.0F || value < least)) least = value;
+    if (isTouched(value) && (least == 0.0F || value < least)) least = value;
   }
   return least;
 }
@@ -54,7 +54,7 @@ int activeInEither(const KeyFrame& key, const ConstMatrixMap& frame) {
   const std::vector<float>& values = key.smoothed();
   int active = 0;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (values[i] > 0.0F || frame.data()[i] > 0.0F) ++active;
+    if (isTouched(values[i]) || isTouched(frame.data()[i])) ++active;
   return active;
 }
 
@@ -94,14 +94,14 @@ LoadFieldResult fitLoadField(const KeyFrame& key,
         float measured = frame.data()[i];
         // Below the threshold in both frames: the value that the key is filled with carries no
         // information.
-        if (!(measured > 0.0F) && !(then[i] > 0.0F)) continue;
+        if (!isTouched(measured) && !isTouched(then[i])) continue;
         if (masked && !layout.enabled(y, x)) continue;
         const KeyFrame::Sample sample = key.at(static_cast<float>(x), static_cast<float>(y));
         const Eigen::Vector3f slope(sample.value,
                                     sample.value * (static_cast<float>(x) - cx),
                                     sample.value * (static_cast<float>(y) - cy));
         const float model = std::max(0.0F, slope.dot(field));
-        if (!(measured > 0.0F)) {
+        if (!isTouched(measured)) {
           if (model <= silent) continue;
           measured = silent;
         } else if (measured >= saturated && model >= measured) {

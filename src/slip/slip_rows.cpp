@@ -135,7 +135,7 @@ std::unique_ptr<ResultTable> slipTable(const Profile& profile,
         "slip_segments", segmentColumns(), std::move(found));
   }
   using Row = MatrixRow<SlipDetection>;
-  return std::make_unique<RowTable<Row>>(
+  auto table = std::make_unique<RowTable<Row>>(
       "slip",
       matrixRowColumns(slipColumns()),
       [run = std::make_shared<SlipRun>(profile, options.pass),
@@ -150,6 +150,9 @@ std::unique_ptr<ResultTable> slipTable(const Profile& profile,
             rows.push_back({run->frame(), run->timeUs(), m, detections[m]});
         return true;
       });
+  if (!profile.layout().hasSquareTaxels())
+    table->note("no rotation is measured where taxels aren't square");
+  return table;
 }
 
 void setSlipMethod(SlipRowsOptions& table, std::string_view name) {

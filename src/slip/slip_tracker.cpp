@@ -35,6 +35,18 @@ std::unique_ptr<TranslationMethod> makeMethod(const MatrixLayout& layout,
   throw std::invalid_argument("SlipTracker: method is " + std::string(nameOf(options.method)));
 }
 
+// The moments with the distance of columns as unit of both directions, so that angles are true.
+ContactMoments inColumns(const ContactMoments& moments, const TaxelPitch& pitch) {
+  if (pitch.isSquare()) return moments;
+  const double ratio = pitch.y / pitch.x;
+  ContactMoments scaled = moments;
+  scaled.y *= ratio;
+  scaled.mu11 *= ratio;
+  scaled.mu02 *= ratio * ratio;
+  scaled.mu03 *= ratio * ratio * ratio;
+  return scaled;
+}
+
 }  // namespace
 
 void SlipTrackerOptions::validate() const {
@@ -140,8 +152,10 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
   const double unseen = unseenFraction(frame);
   if (measurable)
     motion_.confidence = reading.confidence * (reading.isCentroid ? 1.0 - unseen : 1.0);
-  motion_.rotation = rotation_.update(
-      moments, outline_.describe(frame).roundness, axisIsDetermined(frame, moments));
+  const TaxelPitch& pitch = layout_.pitchMm;
+  motion_.rotation = rotation_.update(inColumns(moments, pitch),
+                                      outline_.describe(frame).roundness,
+                                      pitch.isSquare() && axisIsDetermined(frame, moments));
   if (reading.turns) {
     motion_.rotation.reliable = true;
     motion_.rotation.valid = reading.angleValid;
@@ -171,7 +185,7 @@ double SlipTracker::unseenFraction(const ConstMatrixMap& frame) {
     for (int x = 0; x <= right; ++x) {
       const bool saturated = row[x] >= saturation;
       motion_.saturated += saturated ? 1 : 0;
-      if (row[x] > 0.0F && (saturated || end || x == 0 || x == right)) unseen += row[x];
+      if (isTouched(row[x]) && (saturated || end || x == 0 || x == right)) unseen += row[x];
     }
   }
   return std::min(static_cast<double>(unseen) / motion_.sum, 1.0);

@@ -59,7 +59,7 @@ const SlipEvidence& SlipWindows::add(const ConstMatrixMap& frame,
   afterGap_ = gaps_.afterGap(timeUs);
   for (std::size_t i = 0; i < current_.size(); ++i) {
     const float value = frame.data()[i];
-    current_[i] = std::isfinite(value) && value > 0.0F ? value : 0.0F;
+    current_[i] = std::isfinite(value) && isTouched(value) ? value : 0.0F;
   }
   moments_ = contactMoments(this->frame());
   const std::size_t ageBefore = evidence_.contactAge;

@@ -61,7 +61,7 @@ void SurfaceGrid::begin(const KeyFrame& key,
       if (isOutside) {
         value = std::clamp(value, 0.0F, largest);
         variances_[place] +=
-            filled[nearY * columns + nearX] > 0.0F ? beyond.outside : beyond.silence;
+            isTouched(filled[nearY * columns + nearX]) ? beyond.outside : beyond.silence;
       }
       coefficients_[place] = value;
     }

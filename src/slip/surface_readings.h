@@ -133,7 +133,7 @@ void forEachReading(const SurfaceGrid& grid,
       reading.model = gain * (values * reading.weightsX).sum();
       reading.variance = squareOf(gain) * (unsure * reading.weightsX * reading.weightsX).sum();
       reading.measured = frame.data()[taxel];
-      if (!(reading.measured > 0.0F)) {
+      if (!isTouched(reading.measured)) {
         if (reading.model <= least) continue;
         reading.measured = least;
       } else if (reading.measured >= saturated && reading.model >= reading.measured) {

@@ -60,8 +60,8 @@ void textbook4x4(benchmark::State& state) {
       for (int y = 0; y < layout.rows; ++y)
         for (int x = 0; x < layout.columns; ++x) {
           Eigen::Matrix4d cell = Eigen::Matrix4d::Identity();
-          cell(0, 3) = layout.pitchMm * x;
-          cell(1, 3) = layout.pitchMm * y;
+          cell(0, 3) = layout.pitchMm.x * x;
+          cell(1, 3) = layout.pitchMm.y * y;
           const Eigen::Matrix4d all = chain * surface.linkFromSurface.matrix() * cell;
           positions[place++] = all.topRightCorner<3, 1>();
         }

@@ -11,6 +11,7 @@
 #include "palpate/device/sdh2.h"
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/model/hand_description.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/recording.h"
 
 #include "kinematics/golden_table.h"
@@ -21,6 +22,31 @@ namespace palpate::contact_geometry_test {
 namespace {
 
 using Eigen::Vector3d;
+
+// Loads of 1 on taxel (row 0, column 1) and 3 on (2, 3): the centroid is at column 2.5 and row 1.5,
+// the variances are 0.75 taxels^2 in both directions, fully correlated.
+TEST(ContactGeometry, TaxelsThatArentSquareByHand) {
+  const HandDescription hand = parseHand(
+      R"({"format": "palpate-hand", "version": 1, "name": "pad", "full_scale": 10, "matrices":
+          [{"name": "a", "rows": 3, "columns": 4, "pitch_mm": [5.28, 10.28], "surface":
+            {"origin_mm": [1, 2, 3], "x_axis": [1, 0, 0], "y_axis": [0, 1, 0]}}]})",
+      "",
+      "hand.json");
+  const HandGeometry geometry(describeGeometry(hand));
+  const HandPose pose = geometry.pose({});
+  EXPECT_TRUE(pose.positionMm(0, 2, 3).isApprox(Vector3d(16.84, 22.56, 3.0)));
+  EXPECT_TRUE(pose.cornerMm(0, 3, 4).isApprox(Vector3d(19.48, 27.7, 3.0)));
+  TactileFrame frame(hand.layout);
+  frame.matrix(0)(0, 1) = 1.0F;
+  frame.matrix(0)(2, 3) = 3.0F;
+  const MatrixContact contact = contactOf(frame, pose).matrices[0];
+  EXPECT_DOUBLE_EQ(contact.xMm, 13.2);
+  EXPECT_DOUBLE_EQ(contact.yMm, 15.42);
+  EXPECT_TRUE(contact.centroidMm.isApprox(Vector3d(14.2, 17.42, 3.0)));
+  EXPECT_DOUBLE_EQ(contact.areaMm2, 2.0 * 5.28 * 10.28);
+  EXPECT_NEAR(contact.majorSdMm, std::sqrt(0.75) * std::hypot(5.28, 10.28), 1e-9);
+  EXPECT_NEAR(contact.minorSdMm, 0.0, 1e-6);
+}
 
 // All rows of the golden file: one frame of every shared grasp. Its joint angles have five
 // decimals, which the recording has too.

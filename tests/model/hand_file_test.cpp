@@ -56,6 +56,19 @@ TEST(HandFile, ReadsAPad) {
   EXPECT_TRUE(hand.file->surfaces.empty());
 }
 
+TEST(HandFile, APitchIsOneNumberOrTwo) {
+  const auto with = [](const std::string& pitch) {
+    return R"({"format": "palpate-hand", "version": 1, "name": "pad", "full_scale": 1000,
+               "matrices": [{"name": "a", "rows": 2, "columns": 3, "pitch_mm": )" +
+           pitch + "}]}";
+  };
+  EXPECT_EQ(parseHand(with("[5.28, 10.28]"), "", "hand.json").layout->matrix(0).pitchMm,
+            TaxelPitch(5.28, 10.28));
+  for (const char* wrong :
+       {"[5.28]", "[1, 2, 3]", "[5.28, 0]", "[-1, 5]", "[5, 1001]", "[5, \"a\"]", "\"5\"", "0"})
+    EXPECT_NE(faultOf(with(wrong)).find("pitch_mm"), std::string::npos) << wrong;
+}
+
 TEST(HandFile, AMatrixMayHaveItsOwnFullScaleAndSaturation) {
   const auto own = [](const std::string& matrix) {
     return parsed(R"(, "saturation": 900)", matrix);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
 
 #include "testing/testing.h"
 
@@ -35,6 +36,32 @@ TEST(MatrixLayout, RefusesNonsense) {
   MatrixLayout layout = MatrixLayout::full(3, 3, 1.0);
   layout.dynamicMask.pop_back();
   EXPECT_THROW(layout.validate(), std::invalid_argument);
+}
+
+TEST(TaxelPitch, IsOneNumberOrTwo) {
+  const TaxelPitch square = 3.4, novel(5.28, 10.28);
+  EXPECT_TRUE(square.isSquare());
+  EXPECT_FALSE(novel.isSquare());
+  EXPECT_DOUBLE_EQ(novel.areaMm2(), 54.2784);
+  EXPECT_DOUBLE_EQ(square.lengthMm(3.0, -4.0), 17.0);
+  EXPECT_DOUBLE_EQ(TaxelPitch(2.0, 6.0).lengthMm(1.5, 2.0 / 3.0), 5.0);
+  EXPECT_EQ(pitchJson(square).text(-1), "3.4");
+  EXPECT_EQ(pitchJson(novel).text(-1), "[5.28,10.28]");
+  EXPECT_EQ(pitchText(square), "3.4 mm");
+  EXPECT_EQ(pitchText(novel), "5.28 x 10.28 mm");
+  EXPECT_EQ(pitchText(novel, 1), "5.3 x 10.3 mm");
+}
+
+TEST(TaxelPitch, BelongsToTheLayout) {
+  const MatrixLayout matrix = MatrixLayout::full(2, 3, {5.28, 10.28});
+  EXPECT_DOUBLE_EQ(matrix.taxelAreaMm2(), 54.2784);
+  EXPECT_FALSE(matrix == MatrixLayout::full(2, 3, 5.28));
+  EXPECT_FALSE(SensorLayout({MatrixLayout::full(2, 3, 5.28), matrix}).hasSquareTaxels());
+  EXPECT_TRUE(SensorLayout({MatrixLayout::full(2, 3, 5.28)}).hasSquareTaxels());
+  for (const double wrong : {0.0, -1.0, 1001.0, std::nan("")}) {
+    EXPECT_THROW(MatrixLayout::full(2, 3, {5.28, wrong}), std::invalid_argument) << wrong;
+    EXPECT_THROW(MatrixLayout::full(2, 3, {wrong, 5.28}), std::invalid_argument) << wrong;
+  }
 }
 
 TEST(SensorLayout, PutsMatricesOneAfterTheOther) {

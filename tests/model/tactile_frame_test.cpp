@@ -55,6 +55,18 @@ TEST(TaxelPeak, OfEqualsIsTheFirstInWireOrder) {
   EXPECT_EQ(taxelPeak(frame).row, 13);
 }
 
+TEST(IsTouched, AboveZero) {
+  static_assert(isTouched(1e-30F) && isTouched(1.0) && !isTouched(-1.0));
+  for (const float value : {0.0F, -0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
+    EXPECT_FALSE(isTouched(value)) << value;
+    EXPECT_FALSE(isTouched(static_cast<double>(value))) << value;
+  }
+  MatrixValues values(2, 2);
+  values << 0.0F, 1.0F, -1.0F, 2.0F;
+  EXPECT_EQ(areTouched(values.array()).count(), 2);
+  EXPECT_TRUE(areTouched(values.array())(0, 1));
+}
+
 TEST(TaxelPeak, OfAnUntouchedSensorIsZero) {
   EXPECT_EQ(taxelPeak(TactileFrame(sdh2().layout)).counts, 0.0F);
 }

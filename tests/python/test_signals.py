@@ -178,3 +178,13 @@ def test_derived_curves_are_those_of_numpy():
     for wrong in ("m0_sum +", "m7_sum", "angle0"):
         with pytest.raises(ValueError, match="formula"):
             palpate.derive(profile, wrong)
+
+
+def test_a_pitch_is_one_number_or_two():
+    frames = [np.ones((1, 2, 3))]
+    (matrix,) = palpate.from_arrays([T], frames, pitch_mm=(5.28, 10.28)).matrices
+    assert matrix["pitch_mm"] == [5.28, 10.28]
+    (matrix,) = palpate.from_arrays([T], frames, pitch_mm=2).matrices
+    assert matrix["pitch_mm"] == 2.0
+    with pytest.raises(ValueError):
+        palpate.from_arrays([T], frames, pitch_mm=(5.28, 0.0))

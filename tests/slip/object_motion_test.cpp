@@ -98,7 +98,7 @@ TEST(ObjectMotion, ContradictionsRemainAsResidual) {
 TEST(SlipArrow, LiesOnTheSurface) {
   const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose({0, -30, 30, -20, 25, -30, 30});
-  const double pitch = sdh2().layout->matrix(1).pitchMm;
+  const double pitch = sdh2().layout->matrix(1).pitchMm.x;
   for (std::size_t matrix = 0; matrix < 6; ++matrix) {
     const SlipArrow right = slipArrow(pose, matrix, pitch, 2.0, 9.0, 1.0, 0.0);
     const SlipArrow down = slipArrow(pose, matrix, pitch, 2.0, 9.0, 0.0, 1.0);
@@ -109,7 +109,11 @@ TEST(SlipArrow, LiesOnTheSurface) {
     EXPECT_NEAR(right.normal.dot(pose.normal(matrix, 9, 2)), 1.0, 1e-6);
   }
   EXPECT_THROW(slipArrow(pose, 0, pitch, 0, 0, std::nan(""), 0), std::invalid_argument);
+  const SlipArrow both = slipArrow(pose, 0, {5.28, 10.28}, 0.0, 0.0, 2.0, -1.0);
+  EXPECT_NEAR(both.vectorMm.dot(both.alongX), 10.56, 1e-9);
+  EXPECT_NEAR(both.vectorMm.dot(both.alongY), -10.28, 1e-9);
   EXPECT_THROW(slipArrow(pose, 0, 0.0, 0, 0, 1, 0), std::invalid_argument);
+  EXPECT_THROW(slipArrow(pose, 0, {1.0, 0.0}, 0, 0, 1, 0), std::invalid_argument);
 }
 
 TEST(SlipArrows, TakeWhatIsValid) {

@@ -25,6 +25,22 @@ SlipTracker trackerOf(SlipMethod method,
   return SlipTracker(layout, options);
 }
 
+// An oblique bar over taxels that are twice as high as wide: its axis lies at atan(2) instead of
+// 45 deg, and no method measures a rotation.
+TEST(SlipTracker, NoRotationOfTaxelsThatArentSquare) {
+  for (const SlipMethod method : methods()) {
+    SlipTracker tracker = trackerOf(method, MatrixLayout::full(14, 6, {2.0, 4.0}));
+    MatrixValues bar = MatrixValues::Zero(14, 6);
+    for (int i = 1; i < 5; ++i) bar(i + 3, i) = 500.0F;
+    SlipMotion motion;
+    for (int i = 0; i < 3; ++i) motion = tracker.update(ConstMatrixMap(bar.data(), 14, 6));
+    EXPECT_NEAR(motion.rotation.axis.orientationDeg, 63.4349488, 1e-6);
+    EXPECT_FALSE(motion.rotation.reliable);
+    EXPECT_FALSE(motion.rotation.valid);
+    EXPECT_FALSE(motion.rotation.refValid);
+  }
+}
+
 // Largest error of a method over a path of about one taxel, and in a step [taxels]; the
 // correlations are biased.
 double allowance(SlipMethod method) {

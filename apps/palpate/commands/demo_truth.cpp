@@ -127,20 +127,22 @@ DemoFinding compareSlip(const SlipSeries& series,
     else if (!seen)
       seen = &slip;
   }
-  const double pitchMm = layout.matrix(matrix).pitchMm;
+  const MatrixTruth &from = first->matrices[matrix], &to = std::prev(end)->matrices[matrix];
+  const double movedMm = layout.matrix(matrix).pitchMm.lengthMm(to.slipXTaxels - from.slipXTaxels,
+                                                                to.slipYTaxels - from.slipYTaxels);
   DemoFinding found;
   found.json
       .set("truth",
            Json::object()
                .set("matrix", matrix)
                .set("moved_taxels", moved)
-               .set("moved_mm", moved * pitchMm)
+               .set("moved_mm", movedMm)
                .set("began_ms", beganUs / kUsPerMs)
                .set("ended_ms", endedUs / kUsPerMs))
       .set("seen", seen != nullptr)
       .set("false_alarms_before", early);
-  found.text = "a pen was pulled " + fixedText(moved, 1) + " taxels (" +
-               fixedText(moved * pitchMm, 1) + " mm) through the fingers";
+  found.text = "a pen was pulled " + fixedText(moved, 1) + " taxels (" + fixedText(movedMm, 1) +
+               " mm) through the fingers";
   if (seen) {
     const auto behind = std::find_if(
         first, truth.end(), [&](const auto& frame) { return frame.hostUs > seen->beginUs; });

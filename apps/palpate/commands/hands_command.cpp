@@ -62,7 +62,7 @@ Json handJson(const ListedHand& listed) {
                       return Json::object()
                           .set("rows", matrix.rows)
                           .set("columns", matrix.columns)
-                          .set("pitch_mm", matrix.pitchMm)
+                          .set("pitch_mm", pitchJson(matrix.pitchMm))
                           .set("taxels", matrix.numTaxels());
                     }))
       .set("axes", hand.axes.size())

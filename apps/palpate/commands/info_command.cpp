@@ -116,7 +116,7 @@ Json matricesJson(const SensorLayout& layout) {
                       .set("index", m)
                       .set("rows", matrix.rows)
                       .set("columns", matrix.columns)
-                      .set("pitch_mm", matrix.pitchMm)
+                      .set("pitch_mm", pitchJson(matrix.pitchMm))
                       .set("taxels", matrix.numTaxels())
                       .set("enabled", matrix.numEnabled()));
   }
@@ -235,7 +235,7 @@ std::string matricesText(const Profile& profile) {
     const MatrixLayout& matrix = layout.matrix(m);
     std::string line = std::to_string(matrix.rows) + " x " + std::to_string(matrix.columns) +
                        " places, " + counted(matrix.numTaxels(), "taxel") + " of " +
-                       numberText(matrix.pitchMm) + " mm";
+                       pitchText(matrix.pitchMm);
     if (matrix.numEnabled() != matrix.numTaxels())
       line += ", " + std::to_string(matrix.numEnabled()) + " enabled";
     text += row("  " + std::to_string(m), profile.hand().matrixName(m) + ": " + line);

@@ -73,8 +73,8 @@ int kinematicsCommand(const Arguments& words) {
       throw UsageError("--point takes mm on the sensor surface, at most " +
                        numberText(kFarthestMm) + " from its first taxel");
     const auto matrix = static_cast<std::size_t>(point[0]);
-    const double pitchMm = layout.matrix(matrix).pitchMm;
-    const double x = point[1] / pitchMm, y = point[2] / pitchMm;
+    const TaxelPitch& pitchMm = layout.matrix(matrix).pitchMm;
+    const double x = point[1] / pitchMm.x, y = point[2] / pitchMm.y;
     // Whether the taxel at that point exists.
     const bool exists = layout.matrix(matrix).exists(static_cast<int>(std::floor(y + 0.5)),
                                                      static_cast<int>(std::floor(x + 0.5)));

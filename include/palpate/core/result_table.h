@@ -51,12 +51,14 @@ class ResultTable {
   // computing it throws: FileError, Cancelled.
   virtual bool next(std::vector<Cell>& cells) = 0;
   // Behind the last row: what its reader should know, and what the rows lack, a line each.
-  virtual std::vector<std::string> notes() const { return {}; }
+  virtual std::vector<std::string> notes() const { return notes_; }
   virtual std::vector<std::string> problems() const { return {}; }
+  void note(std::string line) { notes_.push_back(std::move(line)); }
 
  private:
   std::string name_;
   std::vector<ResultColumn> columns_;
+  std::vector<std::string> notes_;
 };
 
 // A column, and how its cell is made of what a row is about.

@@ -62,10 +62,10 @@ struct LinkPlace {
 
 // The surface of one matrix. Its frame has its origin at the centre of taxel (0, 0), x along rising
 // columns, y along rising rows, and z into the body, so that -z is the outward normal. Column x,
-// row y are at (pitch x, pitch y, 0), and, from row `bendRow` on towards row 0, on a cylinder that
-// continues this plane:
-//   a = (bendRow - y) pitch / radius,
-//   (pitch x, pitch bendRow - radius sin a, radius (1 - cos a)).
+// row y are at (pitch.x x, pitch.y y, 0), and, from row `bendRow` on towards row 0, on a cylinder
+// that continues this plane:
+//   a = (bendRow - y) pitch.y / radius,
+//   (pitch.x x, pitch.y bendRow - radius sin a, radius (1 - cos a)).
 struct SensorSurface {
   LinkPlace place;
   Eigen::Isometry3d linkFromSurface = Eigen::Isometry3d::Identity();
@@ -121,7 +121,7 @@ struct SurfaceRow {
   double normalY = 0.0, normalZ = -1.0;
 };
 // Returns the surface at any row, also between taxels and beyond the edge.
-SurfaceRow surfaceRow(const SensorSurface& surface, double pitchMm, double row);
+SurfaceRow surfaceRow(const SensorSurface& surface, const TaxelPitch& pitchMm, double row);
 
 // The two radii of bent surfaces in a hand's description.
 enum class BendRadius {

@@ -11,7 +11,7 @@ namespace palpate {
 
 // Whether a taxel is active (touched): TactileFrame::values.
 inline bool isActive(const TactileFrame& frame, std::size_t place) {
-  return frame.values[place] > 0.0F;
+  return isTouched(frame.values[place]);
 }
 // Whether `values` holds what is in allValues(), also where that is below 0. Elsewhere, in a
 // filtered frame, it is +0. Files store it, so that `values` comes back.

@@ -18,6 +18,27 @@
 
 namespace palpate {
 
+class Json;
+
+// Distance between the centres of neighbouring taxels [mm]: along a row (x) and along a column (y).
+struct TaxelPitch {
+  double x = 0.0;
+  double y = 0.0;
+
+  constexpr TaxelPitch() = default;
+  constexpr TaxelPitch(double both) : x(both), y(both) {}
+  constexpr TaxelPitch(double alongRow, double alongColumn) : x(alongRow), y(alongColumn) {}
+  constexpr bool isSquare() const noexcept { return x == y; }
+  constexpr double areaMm2() const noexcept { return x * y; }
+  // How far a motion in taxels is [mm].
+  double lengthMm(double dx, double dy) const noexcept;
+  constexpr bool operator==(const TaxelPitch&) const = default;
+};
+// As `hand.json` has it: one number, or [x, y] where the two differ.
+Json pitchJson(const TaxelPitch& pitch);
+// "3.4 mm", or "5.28 x 10.28 mm" (x, y); with a fixed number of digits if `digits` isn't below 0.
+std::string pitchText(const TaxelPitch& pitch, int digits = -1);
+
 // One flag per place, row by row: 1 = on, 0 = off.
 using Mask = std::vector<std::uint8_t>;
 
@@ -40,8 +61,7 @@ struct TouchRule {
 struct MatrixLayout {
   int rows = 0;     // y, 1..256
   int columns = 0;  // x, 1..256
-  // Distance between neighbouring taxels [mm], along rows and columns.
-  double pitchMm = 0.0;
+  TaxelPitch pitchMm;
   Mask staticMask;   // size rows*columns: 1 where the sensor has a taxel
   Mask dynamicMask;  // size rows*columns: 1 where the taxel is scanned
   // The unique id that is burnt into the sensor, as the controller reports it, in capital
@@ -50,7 +70,7 @@ struct MatrixLayout {
   TouchRule touch = {};
 
   // Returns a matrix without masked places. Throws as validate() does.
-  static MatrixLayout full(int rows, int columns, double pitchMm);
+  static MatrixLayout full(int rows, int columns, const TaxelPitch& pitchMm);
 
   // Number of all places: rows * columns.
   std::size_t numCells() const noexcept;
@@ -66,7 +86,7 @@ struct MatrixLayout {
   bool exists(int y, int x) const noexcept;
   // Returns whether the taxel exists and is on in the dynamic mask.
   bool enabled(int y, int x) const noexcept;
-  double taxelAreaMm2() const noexcept { return pitchMm * pitchMm; }
+  double taxelAreaMm2() const noexcept { return pitchMm.areaMm2(); }
   // Throws std::invalid_argument that names the field that is out of range.
   void validate() const;
   // Compares where taxels are and which are scanned, but not the unique id: two sensors of the same
@@ -92,6 +112,8 @@ class SensorLayout {
   std::size_t numCells() const noexcept { return numPlaces_; }
   // Number of readings of all matrices; those of one taxel stand together.
   std::size_t numReadings() const noexcept { return numReadings_; }
+  // Whether the pitch of every matrix is one number.
+  bool hasSquareTaxels() const noexcept;
   // Whether one of the matrices has a rule that decides (TouchRule::decides).
   bool decidesTouch() const noexcept { return decidesTouch_; }
   // Number of taxels of all matrices that exist (SDH-2: 456).

@@ -22,6 +22,15 @@ using MatrixValues = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 using MatrixMap = Eigen::Map<MatrixValues>;
 using ConstMatrixMap = Eigen::Map<const MatrixValues>;
 
+// Whether a taxel with this value is touched (active): what all code asks. Not a number: it isn't.
+constexpr bool isTouched(float value) noexcept { return value > 0.0F; }
+constexpr bool isTouched(double value) noexcept { return value > 0.0; }
+// The same of each value of an Eigen array.
+template <typename Derived>
+auto areTouched(const Eigen::ArrayBase<Derived>& values) {
+  return values.derived() > 0.0F;
+}
+
 // The values of all taxels at one instant, with the time stamps of host and controller.
 struct TactileFrame {
   std::shared_ptr<const SensorLayout> layout;

@@ -23,9 +23,9 @@
 
 namespace palpate {
 
-// The newest version of the layout that is read. Only recordings with further series are written
-// in it; those with filtered frames have version 2, for `mN_kept`, and all others version 1, so
-// that earlier programs read them.
+// The newest version of the layout that is read. Only recordings with further series, or with
+// taxels that aren't square (`pitch_y_mm`), are written in it; those with filtered frames have
+// version 2, for `mN_kept`, and all others version 1, so that earlier programs read them.
 constexpr int kHdf5LayoutVersion = 3;
 
 // The first bytes of what writeHdf5() writes, and of HDF5 files without a user block.

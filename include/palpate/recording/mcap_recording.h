@@ -21,9 +21,9 @@
 
 namespace palpate {
 
-// The newest version of the topics that is read. Only recordings with further series are written in
-// it; those with filtered frames, which have `kept`, have version 2, and all others version 1, so
-// that earlier programs read them.
+// The newest version of the topics that is read. Only recordings with further series, or with
+// taxels that aren't square (`pitch_y_mm`), are written in it; those with filtered frames, which
+// have `kept`, have version 2, and all others version 1, so that earlier programs read them.
 constexpr int kMcapLayoutVersion = 3;
 
 // How the chunks of a file are compressed.

@@ -70,6 +70,7 @@ class KeyFrame {
   // Sensitivity to rotation: the fraction of the squared gradient that points around the centroid
   // instead of towards it, over the taxels with known neighbours. 0: a round contact, whose angle
   // cannot be estimated; at most 0.5 for a contact without structure.
+  // -1: taxels that aren't square, in whose coordinates a turned contact is distorted.
   float rotationSensitivity() const noexcept { return rotationSensitivity_; }
   const MatrixLayout& layout() const noexcept { return layout_; }
   const KeyFrameOptions& options() const noexcept { return options_; }

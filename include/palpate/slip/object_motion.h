@@ -2,10 +2,10 @@
 // vectors in space. The 3D view of the window shows it.
 //
 // A contact at r_i (base frame) on a surface with the tangents X_i (rising column) and Y_i (rising
-// row) slips by s_i taxels: the point of the object at the contact moves by pitch (X_i s_x + Y_i
-// s_y) along the surface. Motion across the surface cannot be measured. With v_i = t + w x (r_i -
-// c):
-//   X_i . (t + w x (r_i - c)) = pitch s_x,    Y_i . (..) = pitch s_y,
+// row) slips by s_i taxels: the point of the object at the contact moves by pitch.x s_x X_i +
+// pitch.y s_y Y_i along the surface. Motion across the surface cannot be measured. With v_i = t + w
+// x (r_i - c):
+//   X_i . (t + w x (r_i - c)) = pitch.x s_x,    Y_i . (..) = pitch.y s_y,
 //   w . N_i = turn_i where a rotation is known
 // These equations are solved for t and w. Singular values below 1e-3 of the largest are dropped, so
 // that undetermined components are 0. Two contacts leave the rotation about the line between them
@@ -48,7 +48,7 @@ struct SlipArrow {
 // std::out_of_range (matrix), std::invalid_argument (a value that is not finite, weight, pitch).
 SlipArrow slipArrow(const HandPose& pose,
                     std::size_t matrix,
-                    double pitchMm,
+                    const TaxelPitch& pitchMm,
                     double x,
                     double y,
                     double dx,

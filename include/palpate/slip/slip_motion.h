@@ -6,7 +6,8 @@
 namespace palpate {
 
 // Lengths are in taxels (x right, y down; the pitch is 3.4 mm for the SDH-2), angles from x towards
-// y [deg].
+// y [deg]. Where taxels aren't square, no rotation is measured (it is not valid), and the lengths
+// of the principal axis are in distances of columns.
 struct SlipMotion {
   // Number of active taxels (value > 0).
   int active = 0;

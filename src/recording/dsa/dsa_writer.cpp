@@ -109,12 +109,11 @@ std::string dsaRefusal(const HandDescription& hand) {
 
 void addMatrix(std::string& out, const MatrixLayout& matrix, std::size_t index, Centre centre) {
   constexpr std::string_view kIndent = "      ";
-  const std::string pitch = numberText(matrix.pitchMm);
   out += "    <matrix index=\"" + std::to_string(index) + "\" name=\"\">\n";
   addLine(out, kIndent, "cells_x", std::to_string(matrix.columns));
   addLine(out, kIndent, "cells_y", std::to_string(matrix.rows));
-  addLine(out, kIndent, "texel_width", pitch);
-  addLine(out, kIndent, "texel_height", pitch);
+  addLine(out, kIndent, "texel_width", numberText(matrix.pitchMm.x));
+  addLine(out, kIndent, "texel_height", numberText(matrix.pitchMm.y));
   addLine(out, kIndent, "matrix_center_x", std::to_string(centre.x));
   addLine(out, kIndent, "matrix_center_y", std::to_string(centre.y));
   addLine(out, kIndent, "matrix_center_z", "0");

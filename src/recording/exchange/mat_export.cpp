@@ -50,8 +50,8 @@ class MatExport {
       fields.emplace_back(name + "_static_mask", maskOf(matrix, matrix.staticMask));
       fields.emplace_back(name + "_dynamic_mask", maskOf(matrix, matrix.dynamicMask));
       fields.emplace_back(name + "_name", MatValue::text(profile_.hand().matrixName(m)));
-      fields.emplace_back(name + "_y", positions(matrix.rows, matrix.pitchMm));
-      fields.emplace_back(name + "_x", positions(matrix.columns, matrix.pitchMm));
+      fields.emplace_back(name + "_y", positions(matrix.rows, matrix.pitchMm.y));
+      fields.emplace_back(name + "_x", positions(matrix.columns, matrix.pitchMm.x));
     }
     fields.emplace_back("units", MatValue::text(profile_.hand().unit));
     fields.emplace_back("time_us", stampsOf(profile_.numFrames(), [this](std::size_t i) {

@@ -333,7 +333,8 @@ void writeText(ZipWriter& zip, const std::string& name, const std::string& ascii
 
 std::string metaText(const Profile& profile, std::span<const Event> events) {
   Json pitches = Json::array();
-  for (const MatrixLayout& matrix : profile.layout().matrices()) pitches.push(matrix.pitchMm);
+  for (const MatrixLayout& matrix : profile.layout().matrices())
+    pitches.push(pitchJson(matrix.pitchMm));
   Json meta = Json::object();
   meta.set("format", "palpate npz 1")
       .set("hand", profile.hand().name)

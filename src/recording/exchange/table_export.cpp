@@ -109,7 +109,7 @@ std::vector<fs::path> writeCsv(const Profile& profile,
       const auto values = frame.matrix(m);
       for (Eigen::Index y = 0; y < values.rows(); ++y) {
         for (Eigen::Index x = 0; x < values.cols(); ++x) {
-          if (!(values(y, x) > 0.0F)) continue;
+          if (!isTouched(values(y, x))) continue;
           appendInteger(text, static_cast<std::int64_t>(i));
           appendInteger(text, floorMs(frame.hostUs));
           appendInteger(text, static_cast<std::int64_t>(m));

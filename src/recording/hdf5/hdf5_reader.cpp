@@ -508,7 +508,7 @@ class Hdf5Storage final : public ProfileStorage {
       matrix.columns = static_cast<int>(shape[2]);
       const auto pitch = file_->numberAttribute(name, "pitch_mm");
       if (!pitch) array.fail("has no attribute pitch_mm");
-      matrix.pitchMm = *pitch;
+      matrix.pitchMm = {*pitch, file_->numberAttribute(name, "pitch_y_mm").value_or(*pitch)};
       matrix.uniqueId = file_->textAttribute(name, "unique_id", 64).value_or("");
       matrix.staticMask = readMask(name + "_static_mask", {shape[1], shape[2]});
       matrix.dynamicMask = readMask(name + "_dynamic_mask", {shape[1], shape[2]});

@@ -255,15 +255,16 @@ class Hdf5Writer {
     attribute(root, "hand", from.hand.empty() ? profile_.hand().name : from.hand);
   }
 
-  // Earlier programs would read the values below 0 of filtered frames as 0, and leave out series
-  // without a word.
+  // Earlier programs would read the values below 0 of filtered frames as 0, leave out series
+  // without a word, and take taxels for squares.
   void writeVersion() {
     const auto lock = hdf5Lock();
     attribute(out_.file(),
               "format_version",
-              profile_.series().size() > kHandSeries ? kHdf5LayoutVersion
-              : anyFiltered_                         ? hdf5_layout::kFilteredLayoutVersion
-                                                     : hdf5_layout::kUnfilteredLayoutVersion);
+              profile_.series().size() > kHandSeries || !profile_.layout().hasSquareTaxels()
+                  ? kHdf5LayoutVersion
+              : anyFiltered_ ? hdf5_layout::kFilteredLayoutVersion
+                             : hdf5_layout::kUnfilteredLayoutVersion);
   }
 
   void writeMeta() {
@@ -416,11 +417,12 @@ class Hdf5Writer {
     attribute(id, "units", hand.unit);
     attribute(id, "axes", std::string("time, row (0 is the fingertip), column"));
     attribute(id, "name", hand.matrixName(m));
-    attribute(id, "pitch_mm", layout.pitchMm);
+    attribute(id, "pitch_mm", layout.pitchMm.x);
+    if (!layout.pitchMm.isSquare()) attribute(id, "pitch_y_mm", layout.pitchMm.y);
     attribute(id, "unique_id", layout.uniqueId);
     attachScale(id, frames.times->id.get(), 0);
-    attachPositions(array, path + "_y", "y", layout.rows, layout.pitchMm, 1);
-    attachPositions(array, path + "_x", "x", layout.columns, layout.pitchMm, 2);
+    attachPositions(array, path + "_y", "y", layout.rows, layout.pitchMm.y, 1);
+    attachPositions(array, path + "_x", "x", layout.columns, layout.pitchMm.x, 2);
     const Hdf5Id staticMask =
         smallArray(path + "_static_mask", u8(), {rows, columns}, layout.staticMask.data());
     const Hdf5Id dynamicMask =

@@ -354,6 +354,11 @@ class McapOwnFile {
     const auto pitch = parseDouble(text("pitch_mm"));
     if (!pitch) fail("pitch_mm");
     matrix.pitchMm = *pitch;
+    if (const std::string along = text("pitch_y_mm"); !along.empty()) {
+      const auto pitchY = parseDouble(along);
+      if (!pitchY) fail("pitch_y_mm");
+      matrix.pitchMm.y = *pitchY;
+    }
     matrix.uniqueId = mcapRestoredText(text("unique_id"));
     const auto mask = [&](const char* key) {
       const std::string digits = text(key);

@@ -79,7 +79,8 @@ McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
                           {"hand", provenance.hand.empty() ? hand.name : provenance.hand}});
   about_["matrices"] = std::to_string(hand.layout->numMatrices());
   if (counts) about_["value_type"] = *counts ? "counts" : "float";
-  requireVersion(mcap_format::kUnfilteredLayoutVersion);
+  requireVersion(hand.layout->hasSquareTaxels() ? mcap_format::kUnfilteredLayoutVersion
+                                                : kMcapLayoutVersion);
 
   RecordingMeta said = writtenMeta({}, hand, meta);
   const std::string json = said["hand_json"];
@@ -98,18 +99,19 @@ McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
   const std::uint16_t imageSchema = schemaOf(ros ? mcapImageSchema() : mcapRawImageSchema());
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m) {
     const MatrixLayout& layout = hand.layout->matrix(m);
-    imageChannels_.push_back(
-        file_.addChannel(imageSchema,
-                         mcap_format::imageTopic(m),
-                         ros ? "cdr" : "protobuf",
-                         withQos({{"name", mcapShownText(hand.matrixName(m))},
-                                  {"unit", mcapShownText(hand.unit)},
-                                  {"rows", std::to_string(layout.rows)},
-                                  {"columns", std::to_string(layout.columns)},
-                                  {"pitch_mm", numberText(layout.pitchMm)},
-                                  {"unique_id", mcapSafeText(layout.uniqueId)},
-                                  {"static_mask", mcapMaskText(layout.staticMask)},
-                                  {"dynamic_mask", mcapMaskText(layout.dynamicMask)}})));
+    McapTexts about = {{"name", mcapShownText(hand.matrixName(m))},
+                       {"unit", mcapShownText(hand.unit)},
+                       {"rows", std::to_string(layout.rows)},
+                       {"columns", std::to_string(layout.columns)},
+                       {"pitch_mm", numberText(layout.pitchMm.x)},
+                       {"unique_id", mcapSafeText(layout.uniqueId)},
+                       {"static_mask", mcapMaskText(layout.staticMask)},
+                       {"dynamic_mask", mcapMaskText(layout.dynamicMask)}};
+    if (!layout.pitchMm.isSquare()) about["pitch_y_mm"] = numberText(layout.pitchMm.y);
+    imageChannels_.push_back(file_.addChannel(imageSchema,
+                                              mcap_format::imageTopic(m),
+                                              ros ? "cdr" : "protobuf",
+                                              withQos(std::move(about))));
     frameIds_.push_back("m" + std::to_string(m));
   }
   events_ = file_.addChannel(schemaOf(mcapEventSchema()), mcap_format::kEvents, "cdr", withQos({}));

@@ -43,6 +43,11 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kTables{{
     {"counter",
      "CREATE TABLE counter(name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID"},
 }};
+// In files whose taxels lie farther apart along one side; `pitch_mm` is then the one along a row.
+constexpr const char* kMatrixTableOfTwoPitches =
+    "CREATE TABLE matrix(idx INTEGER PRIMARY KEY, rows INTEGER NOT NULL, columns INTEGER NOT NULL,"
+    " pitch_mm REAL NOT NULL, static_mask TEXT NOT NULL, dynamic_mask TEXT NOT NULL,"
+    " uid TEXT NOT NULL, crc32 INTEGER NOT NULL, pitch_y_mm REAL NOT NULL)";
 // Made when a recording is finished; may be missing.
 constexpr const char* kOverviewTable =
     "CREATE TABLE overview(id INTEGER PRIMARY KEY, n INTEGER NOT NULL, crc32 INTEGER NOT NULL,"
@@ -84,8 +89,11 @@ std::uint32_t overviewCrc(std::int64_t id, std::int64_t n, std::span<const std::
 
 }  // namespace
 
-void createTables(SqliteDatabase& database) {
-  for (const auto& [name, sql] : kTables) database.execute(sql);
+void createTables(SqliteDatabase& database, const SensorLayout& layout) {
+  for (const auto& [name, sql] : kTables)
+    database.execute(std::string_view(name) == "matrix" && !layout.hasSquareTaxels()
+                         ? kMatrixTableOfTwoPitches
+                         : sql);
 }
 
 void createBlockIndex(SqliteDatabase& database) {
@@ -114,7 +122,9 @@ void checkTables(SqliteDatabase& database) {
       if (!isTable || normalized(rows.text(3)) != normalized(sql))
         throw FormatError(database.path(), "its table '" + name + "' is not as the format has it");
     } else if (known != kTables.end()) {
-      if (!isTable || normalized(rows.text(3)) != normalized(known->second))
+      const std::string has = normalized(rows.text(3));
+      const bool twoPitches = name == "matrix" && has == normalized(kMatrixTableOfTwoPitches);
+      if (!isTable || (has != normalized(known->second) && !twoPitches))
         throw FormatError(database.path(),
                           "its table '" + shortened(name) + "' is not as the format has it");
       ++found;
@@ -138,15 +148,16 @@ std::string maskText(const Mask& mask) {
 }
 
 std::uint32_t matrixCrc(int index, const MatrixLayout& matrix, std::string_view uid) {
-  return RowCrc()
-      .integer(index)
+  RowCrc crc;
+  crc.integer(index)
       .integer(matrix.rows)
       .integer(matrix.columns)
-      .real(matrix.pitchMm)
+      .real(matrix.pitchMm.x)
       .text(maskText(matrix.staticMask))
       .text(maskText(matrix.dynamicMask))
-      .text(uid)
-      .value();
+      .text(uid);
+  if (!matrix.pitchMm.isSquare()) crc.real(matrix.pitchMm.y);
+  return crc.value();
 }
 
 std::uint32_t secondCrc(const SecondSummary& row) {
@@ -177,7 +188,9 @@ void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view
 }
 
 void insertMatrices(SqliteDatabase& database, const SensorLayout& layout) {
-  SqliteStatement insert = database.prepare("INSERT INTO matrix VALUES(?, ?, ?, ?, ?, ?, ?, ?)");
+  const bool square = layout.hasSquareTaxels();
+  SqliteStatement insert = database.prepare("INSERT INTO matrix VALUES(?, ?, ?, ?, ?, ?, ?, ?" +
+                                            std::string(square ? ")" : ", ?)"));
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
     const std::string staticMask = maskText(matrix.staticMask);
@@ -185,21 +198,26 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout) {
     insert.bind(1, static_cast<std::int64_t>(m))
         .bind(2, static_cast<std::int64_t>(matrix.rows))
         .bind(3, static_cast<std::int64_t>(matrix.columns))
-        .bind(4, matrix.pitchMm)
+        .bind(4, matrix.pitchMm.x)
         .bind(5, std::string_view(staticMask))
         .bind(6, std::string_view(dynamicMask))
         .bind(7, std::string_view(matrix.uniqueId))
-        .bind(8, static_cast<std::int64_t>(matrixCrc(static_cast<int>(m), matrix, matrix.uniqueId)))
-        .run();
+        .bind(8,
+              static_cast<std::int64_t>(matrixCrc(static_cast<int>(m), matrix, matrix.uniqueId)));
+    if (!square) insert.bind(9, matrix.pitchMm.y);
+    insert.run();
   }
 }
 
 SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta) {
   const std::filesystem::path& path = database.path();
   std::vector<MatrixLayout> matrices;
+  const bool twoPitches = database.integerOf(
+                              "SELECT count(*) FROM pragma_table_info('matrix')"
+                              " WHERE name = 'pitch_y_mm'") != 0;
   SqliteStatement rows = database.prepare(
-      "SELECT idx, rows, columns, pitch_mm, static_mask, dynamic_mask, uid, crc32 FROM matrix"
-      " ORDER BY idx");
+      "SELECT idx, rows, columns, pitch_mm, static_mask, dynamic_mask, uid, crc32, " +
+      std::string(twoPitches ? "pitch_y_mm" : "pitch_mm") + " FROM matrix ORDER BY idx");
   std::size_t places = 0;
   while (rows.next()) {
     MatrixLayout matrix;
@@ -207,7 +225,7 @@ SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta) {
       throw FormatError(path, "has more than " + std::to_string(kMaxMatrices) + " matrices");
     matrix.rows = static_cast<int>(std::clamp<std::int64_t>(rows.integer(1), 0, 1'000'000));
     matrix.columns = static_cast<int>(std::clamp<std::int64_t>(rows.integer(2), 0, 1'000'000));
-    matrix.pitchMm = rows.real(3);
+    matrix.pitchMm = {rows.real(3), rows.real(8)};
     places += matrix.numCells();
     if (places > kMaxPlaces)
       throw FormatError(

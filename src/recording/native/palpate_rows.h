@@ -25,7 +25,7 @@ namespace palpate {
 void checkTables(SqliteDatabase& database);
 
 // Makes the empty tables of a recording.
-void createTables(SqliteDatabase& database);
+void createTables(SqliteDatabase& database, const SensorLayout& layout);
 // Make the index over the blocks and the table for charts, when a recording is finished. Older
 // ones, which an attempt that failed has left, are dropped.
 void createBlockIndex(SqliteDatabase& database);

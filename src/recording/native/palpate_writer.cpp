@@ -88,6 +88,11 @@ void setNumCommits(std::string& database, std::uint32_t number) {
       database.at(at + i) = static_cast<char>(number >> (24 - 8 * i) & 0xFF);
 }
 
+// Whether earlier programs couldn't read the layout, or would read it wrongly.
+bool needsNewVersion(const SensorLayout& layout) {
+  return layout.decidesTouch() || !layout.hasSquareTaxels();
+}
+
 // The recording without a sample: made in memory, so that the file appears whole or not at all, at
 // whatever moment the process is killed.
 PublishedFile publishEmpty(const fs::path& path,
@@ -97,9 +102,9 @@ PublishedFile publishEmpty(const fs::path& path,
   database.execute(
       "PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE; PRAGMA application_id=" +
       std::to_string(kPalpateApplicationId) + "; PRAGMA user_version=" +
-      std::to_string(layout.decidesTouch() ? kPalpateVersionWithSeries : kPalpateVersion) + ";");
+      std::to_string(needsNewVersion(layout) ? kPalpateVersionWithSeries : kPalpateVersion) + ";");
   database.execute("BEGIN IMMEDIATE");
-  createTables(database);
+  createTables(database, layout);
   insertMeta(database, "format", "palpate");
   for (const auto& [key, value] : meta)
     if (key != kTouchRulesKey) insertMeta(database, key, value);
@@ -388,7 +393,7 @@ struct PalpateWriter::Impl {
     const bool inUs = std::any_of(pending.blocks.begin(),
                                   pending.blocks.end(),
                                   [](const Block& block) { return hasDeviceUs(block.coding); });
-    if (series.size() > kHandSeries || layout->decidesTouch()) return kPalpateVersionWithSeries;
+    if (series.size() > kHandSeries || needsNewVersion(*layout)) return kPalpateVersionWithSeries;
     return inUs ? kPalpateVersionWithDeviceUs : kPalpateVersion;
   }
   void commit() {

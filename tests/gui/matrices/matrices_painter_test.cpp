@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
 
 #include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
@@ -83,6 +84,21 @@ TEST(MatricesGeometry, LiesLikeTheFingers) {
     EXPECT_DOUBLE_EQ(g.taxelSide(2 * finger), g.taxelSide(1));
   }
   EXPECT_GT(g.colorBarRect().left(), g.matrixRect(5).right());
+}
+
+TEST(MatricesGeometry, TaxelsHaveTheShapeOfTheirPitch) {
+  const HandDescription hand = parseHand(
+      R"({"format": "palpate-hand", "version": 1, "name": "pad", "full_scale": 10, "matrices":
+          [{"name": "a", "rows": 3, "columns": 4, "pitch_mm": [5, 10]}]})",
+      "",
+      "hand.json");
+  const MatricesGeometry g = geometry(options(), hand);
+  const QRectF taxel = g.taxelRect(0, 2, 1);
+  EXPECT_DOUBLE_EQ(taxel.height(), 2.0 * taxel.width());
+  EXPECT_EQ(g.taxelSize(0), taxel.size());
+  EXPECT_EQ(g.taxelSide(0), taxel.width());
+  EXPECT_DOUBLE_EQ(g.matrixRect(0).height() / g.matrixRect(0).width(), 1.5);
+  EXPECT_EQ(g.placeAt(taxel.center()), (TaxelPlace{0, 2, 1}));
 }
 
 TEST(MatricesGeometry, FitsIntoEverySizeWithWholePixels) {

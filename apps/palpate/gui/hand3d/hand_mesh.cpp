@@ -173,7 +173,7 @@ SurfaceLine lineOfTaxels(const HandPose& pose,
   SurfaceLine line;
   for (auto row = rows.rbegin(); row != rows.rend(); ++row)
     if (!row->isEmpty()) line.pointsMm.emplace_back(row->center().x(), row->min().y() - kUnderMm);
-  const double besideMm = layout.pitchMm / 2.0 + kBesideMm;
+  const double besideMm = std::max(layout.pitchMm.x, layout.pitchMm.y) / 2.0 + kBesideMm;
   line.zMinMm = box.min().z() - besideMm;
   line.zMaxMm = box.max().z() + besideMm;
   line.heightMm = box.max().y();
@@ -188,12 +188,12 @@ SurfaceLine lineOf(const HandPose& pose,
   if (!hand.surfaces[matrix].positionsMm.empty()) return lineOfTaxels(pose, matrix, bodyFromBase);
   const MatrixLayout& layout = hand.layout.matrix(matrix);
   SurfaceLine line;
-  const double middleMm = layout.pitchMm * (layout.columns - 1) / 2.0;
-  const double halfWidthMm = layout.pitchMm * layout.columns / 2.0 + kBesideMm;
+  const double middleMm = layout.pitchMm.x * (layout.columns - 1) / 2.0;
+  const double halfWidthMm = layout.pitchMm.x * layout.columns / 2.0 + kBesideMm;
   line.heightMm = (bodyFromBase * pose.baseFromMatrix(matrix)).translation().y();
   double zMm = 0.0;
   for (double row = layout.rows - 0.2; row >= -0.5; row -= 0.5) {
-    const Vector3d at = bodyFromBase * pose.pointMm(matrix, middleMm, row * layout.pitchMm);
+    const Vector3d at = bodyFromBase * pose.pointMm(matrix, middleMm, row * layout.pitchMm.y);
     line.pointsMm.emplace_back(at.x(), at.y() - kUnderMm);
     zMm = at.z();
   }
@@ -218,7 +218,8 @@ HandBody slabUnderTaxels(const HandPose& pose, std::size_t matrix) {
                matrix,
                bodyFrame.inverse(Eigen::Isometry),
                [&](int, const Vector3d& at, const Vector3d&) { box.extend(at); });
-  const double besideMm = pose.description().layout.matrix(matrix).pitchMm / 2.0 + kBesideMm;
+  const TaxelPitch& pitchMm = pose.description().layout.matrix(matrix).pitchMm;
+  const double besideMm = std::max(pitchMm.x, pitchMm.y) / 2.0 + kBesideMm;
   const double topMm = box.min().y() - kUnderMm;
   const double leftMm = box.min().x() - besideMm, rightMm = box.max().x() + besideMm;
   appendExtrusion(

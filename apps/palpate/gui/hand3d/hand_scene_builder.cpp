@@ -633,7 +633,7 @@ void HandSceneBuilder::addNormals(HandScene& scene, const HandLook& look) const 
         const std::size_t place =
             layout.offset(m) + static_cast<std::size_t>(y * matrix.columns + x);
         const TaxelPatch& patch = places[place];
-        const bool active = handState_.frame && handState_.frame->values[place] > 0.0F;
+        const bool active = handState_.frame && isTouched(handState_.frame->values[place]);
         scene.lines.push_back({patch.centreMm,
                                patch.centreMm + patch.normal * kNormalMm,
                                1.0F,

@@ -48,11 +48,11 @@ void patchesLaidFlat(const HandDescription& hand, TaxelPatches& out) {
   float pitch = 0.0F;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
-    pitch = std::max(pitch, static_cast<float>(matrix.pitchMm));
+    pitch = std::max(pitch, static_cast<float>(std::max(matrix.pitchMm.x, matrix.pitchMm.y)));
     float& width = widths[hand.matrices[m].pictureColumn];
     float& height = heights[hand.matrices[m].pictureRow];
-    width = std::max(width, static_cast<float>(matrix.columns * matrix.pitchMm));
-    height = std::max(height, static_cast<float>(matrix.rows * matrix.pitchMm));
+    width = std::max(width, static_cast<float>(matrix.columns * matrix.pitchMm.x));
+    height = std::max(height, static_cast<float>(matrix.rows * matrix.pitchMm.y));
   }
   const auto before = [&](const std::map<int, float>& sizes, int index) {
     float sum = 0.0F;
@@ -67,14 +67,15 @@ void patchesLaidFlat(const HandDescription& hand, TaxelPatches& out) {
   std::size_t place = 0;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
-    const auto side = static_cast<float>(matrix.pitchMm);
+    const auto wide = static_cast<float>(matrix.pitchMm.x);
+    const auto high = static_cast<float>(matrix.pitchMm.y);
     const float left = before(widths, hand.matrices[m].pictureColumn) - wholeX / 2.0F;
     const float top = wholeY / 2.0F - before(heights, hand.matrices[m].pictureRow);
     eachPlace(matrix, [&](int y, int x) {
       TaxelPatch& patch = out[place++];
       const Eigen::Vector3f corner(
-          left + side * static_cast<float>(x), top - side * static_cast<float>(y), 0.0F);
-      const Eigen::Vector3f right(side, 0.0F, 0.0F), down(0.0F, -side, 0.0F);
+          left + wide * static_cast<float>(x), top - high * static_cast<float>(y), 0.0F);
+      const Eigen::Vector3f right(wide, 0.0F, 0.0F), down(0.0F, -high, 0.0F);
       patch.cornersMm = {corner, corner + down, corner + down + right, corner + right};
       patch.centreMm = corner + 0.5F * (right + down);
       patch.normal = Eigen::Vector3f::UnitZ();

@@ -38,7 +38,7 @@ Blend blendAt(const ConstMatrixMap& values,
       const auto value = static_cast<double>(values(row, column));
       weights += weight;
       sum += weight * value;
-      if ((value > 0.0 && value >= least) || isSigned) active += weight;
+      if ((isTouched(value) && value >= least) || isSigned) active += weight;
     }
   }
   if (weights <= 0.0) return {};
@@ -54,7 +54,7 @@ QImage smoothHeatImage(const ConstMatrixMap& values,
   QImage image(layout.columns * scale, layout.rows * scale, QImage::Format_ARGB32);
   image.fill(Qt::transparent);
   const bool isSigned = options.difference != nullptr;
-  if (isSigned ? values.isZero(0.0F) : !(values.maxCoeff() > 0.0F)) return image;
+  if (isSigned ? values.isZero(0.0F) : !isTouched(values.maxCoeff())) return image;
   const ColorTable& colors = isSigned ? *options.difference : colorTable(options.map);
   for (int py = 0; py < image.height(); ++py) {
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(py));
@@ -87,7 +87,7 @@ QImage plainHeatImage(const ConstMatrixMap& values,
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
     for (int x = 0; x < layout.columns; ++x) {
       const auto value = static_cast<double>(values(y, x));
-      if ((isSigned ? value == 0.0 : !(value > 0.0 && value >= options.least)) ||
+      if ((isSigned ? value == 0.0 : !(isTouched(value) && value >= options.least)) ||
           !layout.enabled(y, x))
         continue;
       line[x] =

@@ -35,8 +35,8 @@ Grid gridOf(const HandDescription& hand) {
     const auto row = static_cast<std::size_t>(hand.matrices[m].pictureRow);
     if (grid.columnMm.size() <= column) grid.columnMm.resize(column + 1, 0.0);
     if (grid.rowMm.size() <= row) grid.rowMm.resize(row + 1, 0.0);
-    const double widthMm = layout.columns * layout.pitchMm;
-    const double heightMm = layout.rows * layout.pitchMm;
+    const double widthMm = layout.columns * layout.pitchMm.x;
+    const double heightMm = layout.rows * layout.pitchMm.y;
     grid.columnMm[column] = std::max(grid.columnMm[column], widthMm);
     grid.rowMm[row] = std::max(grid.rowMm[row], heightMm);
   }
@@ -92,8 +92,9 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
   const double freeHeight = inside.height() - rows * nameHeight - (rows - 1) * rowGap;
   double pxPerMm = std::min(freeWidth / matricesGeometrySum(grid.columnMm),
                             freeHeight / matricesGeometrySum(grid.rowMm));
-  // The pitch of the first matrix gets whole pixels; all pitches of an SDH-2 are equal.
-  const double pitchMm = hand.layout->matrix(0).pitchMm;
+  // The smaller pitch of the first matrix gets whole pixels; all pitches of an SDH-2 are equal.
+  const TaxelPitch& first = hand.layout->matrix(0).pitchMm;
+  const double pitchMm = std::min(first.x, first.y);
   double side = std::clamp(pxPerMm * pitchMm, 1e-3, kMatricesGeometryLargestTaxel);
   if (side >= 3.0) side = snapped(side, options.pixelRatio);
   pxPerMm = side / pitchMm;
@@ -118,15 +119,17 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
     for (std::size_t c = 0; c < column; ++c) x += grid.columnMm[c] * pxPerMm + gap;
     double y = top;
     for (std::size_t r = 0; r < row; ++r) y += nameHeight + grid.rowMm[r] * pxPerMm + rowGap;
-    const double itsSide = layout.pitchMm * pxPerMm;
-    x += (grid.columnMm[column] * pxPerMm - layout.columns * itsSide) / 2;
+    const QSizeF taxel(layout.pitchMm.x * pxPerMm, layout.pitchMm.y * pxPerMm);
+    x += (grid.columnMm[column] * pxPerMm - layout.columns * taxel.width()) / 2;
     x = snapped(x, options.pixelRatio);
     y = snapped(y + nameHeight, options.pixelRatio);
-    sides_.push_back(itsSide);
-    matrices_.emplace_back(x, y, layout.columns * itsSide, layout.rows * itsSide);
+    sizes_.push_back(taxel);
+    matrices_.emplace_back(x, y, layout.columns * taxel.width(), layout.rows * taxel.height());
     const double nameWidth = grid.columnMm[column] * pxPerMm + gap - 4.0;
-    names_.emplace_back(
-        x + layout.columns * itsSide / 2 - nameWidth / 2, y - nameHeight, nameWidth, nameHeight);
+    names_.emplace_back(x + layout.columns * taxel.width() / 2 - nameWidth / 2,
+                        y - nameHeight,
+                        nameWidth,
+                        nameHeight);
   }
   const double barTop = top + nameHeight;
   colorBar_ = QRectF(snapped(left + width + kBarGap, options.pixelRatio),
@@ -136,8 +139,11 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
 }
 
 QRectF MatricesGeometry::taxelRect(std::size_t matrix, int y, int x) const {
-  const double side = sides_.at(matrix);
-  return {matrices_[matrix].left() + x * side, matrices_[matrix].top() + y * side, side, side};
+  const QSizeF& taxel = sizes_.at(matrix);
+  return {matrices_[matrix].left() + x * taxel.width(),
+          matrices_[matrix].top() + y * taxel.height(),
+          taxel.width(),
+          taxel.height()};
 }
 
 std::optional<TaxelPlace> MatricesGeometry::placeAt(const QPointF& point) const {
@@ -148,8 +154,8 @@ std::optional<TaxelPlace> MatricesGeometry::placeAt(const QPointF& point) const 
         point.y() >= rect.bottom())
       continue;
     return TaxelPlace{m,
-                      static_cast<int>((point.y() - rect.top()) / sides_[m]),
-                      static_cast<int>((point.x() - rect.left()) / sides_[m])};
+                      static_cast<int>((point.y() - rect.top()) / sizes_[m].height()),
+                      static_cast<int>((point.x() - rect.left()) / sizes_[m].width())};
   }
   return std::nullopt;
 }

@@ -65,7 +65,11 @@ class MatricesGeometry {
                    const MatricesPictureOptions& options);
 
   std::size_t numMatrices() const noexcept { return matrices_.size(); }
-  double taxelSide(std::size_t matrix) const { return sides_.at(matrix); }  // [px]
+  QSizeF taxelSize(std::size_t matrix) const { return sizes_.at(matrix); }  // [px]
+  // The shorter side of a taxel [px].
+  double taxelSide(std::size_t matrix) const {
+    return std::min(sizes_.at(matrix).width(), sizes_.at(matrix).height());
+  }
   QRectF matrixRect(std::size_t matrix) const { return matrices_.at(matrix); }
   QRectF nameRect(std::size_t matrix) const { return names_.at(matrix); }
   QRectF taxelRect(std::size_t matrix, int y, int x) const;
@@ -81,7 +85,7 @@ class MatricesGeometry {
   QRectF colorBar_;
   std::vector<QRectF> matrices_;
   std::vector<QRectF> names_;
-  std::vector<double> sides_;
+  std::vector<QSizeF> sizes_;
 };
 
 // The value range of a frame according to `options`.
@@ -98,7 +102,7 @@ MatricesPictureOptions withUnit(MatricesPictureOptions options, const HandDescri
 // Whether a taxel is drawn: it was active as recorded (`contact`), or the filters leave at least
 // `least` in it, which is leastSeen().
 inline bool isSeen(float contact, float value, float least) noexcept {
-  return contact > 0.0F || value >= least;
+  return isTouched(contact) || value >= least;
 }
 // Half a unit of the last digit that is shown: half a count.
 float leastSeen(const HandDescription& hand);

@@ -278,13 +278,13 @@ void MatricesView::mouseMoveEvent(QMouseEvent* event) {
   if (pressed_ && (event->buttons() & Qt::LeftButton)) {
     // A drag stays in its matrix, wherever the mouse pointer is.
     const QRectF matrix = geometry_.matrixRect(pressed_->matrix);
-    const double side = geometry_.taxelSide(pressed_->matrix);
+    const QSizeF taxel = geometry_.taxelSize(pressed_->matrix);
     const QPointF inside(std::clamp(event->position().x(), matrix.left(), matrix.right() - 1),
                          std::clamp(event->position().y(), matrix.top(), matrix.bottom() - 1));
     choose(*pressed_,
            {pressed_->matrix,
-            static_cast<int>((inside.y() - matrix.top()) / side),
-            static_cast<int>((inside.x() - matrix.left()) / side)});
+            static_cast<int>((inside.y() - matrix.top()) / taxel.height()),
+            static_cast<int>((inside.x() - matrix.left()) / taxel.width())});
   }
   if (place && !hand_->layout->matrix(place->matrix).exists(place->y, place->x)) place.reset();
   setHover(place);

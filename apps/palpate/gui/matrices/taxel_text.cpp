@@ -38,7 +38,7 @@ QString taxelText(const HandDescription& hand,
   if (!layout.enabled(y, x)) return where + "masked: not scanned";
   if (!frame) return where + "no frame yet";
   const float value = frame->allValues(m)(y, x);
-  if (!(value > 0.0F)) return where + "0 " + unitOf(hand) + ", at rest";
+  if (!isTouched(value)) return where + "0 " + unitOf(hand) + ", at rest";
   const QString number =
       value == std::round(value)
           ? QString::number(std::lround(value))

@@ -58,8 +58,9 @@ SlipSeries seriesOf(const Profile& profile, SlipSeriesOptions options, const Pro
   return slipSeries(profile, options, progress);
 }
 
-QString millimetres(double taxels, double pitchMm) {
-  return figure(taxels, 3) + " taxels, " + figure(taxels * pitchMm, 2) + " mm";
+QString millimetres(float dx, float dy, const TaxelPitch& pitchMm) {
+  const auto x = static_cast<double>(dx), y = static_cast<double>(dy);
+  return figure(std::hypot(x, y), 3) + " taxels, " + figure(pitchMm.lengthMm(x, y), 2) + " mm";
 }
 
 }  // namespace
@@ -272,7 +273,7 @@ void SlipPanel::showRows() {
   for (std::size_t m = 0; m < hand()->layout->numMatrices(); ++m) {
     const SlipSample* sample = sampleNow(m);
     const IndicatorLook indicator = indicatorOf(sample);
-    const double pitchMm = hand()->layout->matrix(m).pitchMm;
+    const TaxelPitch& pitchMm = hand()->layout->matrix(m).pitchMm;
     const QString name = list_->width() < textScale() * kShortNames
                              ? QString::fromStdString(hand()->matrices.at(m).shortName)
                              : nameOfMatrix(m);
@@ -289,12 +290,12 @@ void SlipPanel::showRows() {
     const SlipSeriesOptions& limits = found()->options;
     add(sample && sample->valid,
         figure(step, 2),
-        millimetres(step, pitchMm),
+        sample ? millimetres(sample->dx, sample->dy, pitchMm) : QString(),
         step > limits.stepTaxels);
     const double whole = sample ? sample->shiftTaxels() : 0.0;
     add(sample && sample->refValid,
         figure(whole, 2),
-        millimetres(whole, pitchMm),
+        sample ? millimetres(sample->refDx, sample->refDy, pitchMm) : QString(),
         whole > limits.referenceTaxels);
     const double turned = sample ? static_cast<double>(sample->refRotationDeg) : 0.0;
     add(sample && sample->refRotationValid,
@@ -341,6 +342,8 @@ void SlipPanel::showNotes(const SlipSample* sample) {
     facts.append("eccentricity " + figure(static_cast<double>(sample->eccentricity), 2));
     facts.append("roundness " + figure(static_cast<double>(sample->roundness), 2));
     text += "\n" + facts.join(" · ");
+    if (!hand()->layout->matrix(chosen_).pitchMm.isSquare())
+      text += "\nTaxels that aren't square: no rotation is measured.";
     if (!sample->refValid && !found()->options.referenceFrame)
       text += "\nNo reference yet: it is taken when the contact is at rest.";
     if (!live() && found()->options.reference != controls_->options().reference)

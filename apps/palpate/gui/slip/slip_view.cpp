@@ -83,10 +83,10 @@ int footLines(const QRectF& area) { return area.height() < kLow ? kFootLines / 2
 
 struct SlipView::Place {
   QRectF matrix;
-  double side = 1.0;  // [px] of a taxel
-  QPointF at(double x, double y) const {
-    return matrix.topLeft() + QPointF((x + 0.5) * side, (y + 0.5) * side);
-  }
+  double side = 1.0;  // [px] of a taxel, along a row
+  double high = 1.0;  // along a column
+  QPointF at(double x, double y) const { return matrix.topLeft() + way(x + 0.5, y + 0.5); }
+  QPointF way(double dx, double dy) const { return {dx * side, dy * high}; }
 };
 
 SlipView::SlipView(QWidget* parent) : QWidget(parent) {
@@ -116,11 +116,13 @@ SlipView::Place SlipView::placeIn(const QRectF& area) const {
       area.adjusted(kSlipViewMargin, line + 10.0, -kSlipViewMargin, -footLines(area) * line - 12.0);
   const MatrixLayout& layout = scene_->layout;
   Place place;
-  place.side =
-      std::floor(std::clamp(std::min(room.width() / layout.columns, room.height() / layout.rows),
-                            2.0,
-                            kSlipViewLargestTaxel));
-  const QSizeF size(layout.columns * place.side, layout.rows * place.side);
+  const double aspect = layout.pitchMm.y / layout.pitchMm.x;
+  place.side = std::floor(
+      std::clamp(std::min(room.width() / layout.columns, room.height() / (layout.rows * aspect)),
+                 2.0,
+                 kSlipViewLargestTaxel));
+  place.high = place.side * aspect;
+  const QSizeF size(layout.columns * place.side, layout.rows * place.high);
   place.matrix =
       QRectF(QPointF(std::floor(room.center().x() - 0.5 * size.width()),
                      std::floor(room.top() + std::max(0.0, 0.5 * (room.height() - size.height())))),
@@ -150,10 +152,10 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
   for (int y = 0; y < scene.layout.rows; ++y)
     for (int x = 0; x < scene.layout.columns; ++x) {
       if (!scene.layout.exists(y, x)) continue;
-      const QRectF square(place.at(x - 0.5, y - 0.5), QSizeF(place.side - 1.0, place.side - 1.0));
+      const QRectF square(place.at(x - 0.5, y - 0.5), QSizeF(place.side - 1.0, place.high - 1.0));
       painter.fillRect(square, colors.taxel);
       const double value = scene.values.size() > 0 ? static_cast<double>(scene.values(y, x)) : 0.0;
-      if (!(value > 0.0) || !scene.layout.enabled(y, x)) continue;
+      if (!isTouched(value) || !scene.layout.enabled(y, x)) continue;
       QColor color = QColor::fromRgb(table[static_cast<std::size_t>(
           colorIndex(value, 0.0, std::max(1.0, scene.largestCounts)))]);
       color.setAlphaF(static_cast<float>(kFaintest + (kSlipViewFaint - kFaintest) * value /
@@ -211,7 +213,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
     const QPointF from = place.at(scene.path.front().x(), scene.path.front().y());
     painter.setPen(QPen(colors.muted, 1.0, Qt::DashLine));
     painter.drawEllipse(
-        from, scene.referenceTaxels * place.side, scene.referenceTaxels * place.side);
+        from, scene.referenceTaxels * place.side, scene.referenceTaxels * place.high);
     QPainterPath way(from);
     for (const QPointF& point : scene.path) way.lineTo(place.at(point.x(), point.y()));
     strokeTwice(painter, way, colors.accent, 1.8, rim);
@@ -225,13 +227,13 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
   // The motion of the last frame, enlarged, with its threshold.
   const QColor indicator = colorOf(indicatorOf(&sample), theme);
   painter.setPen(QPen(indicator, 1.0, Qt::DotLine));
-  const double ring = scene.stepTaxels * kEnlarged * place.side;
-  painter.drawEllipse(centre, ring, ring);
+  const double ring = scene.stepTaxels * kEnlarged;
+  painter.drawEllipse(centre, ring * place.side, ring * place.high);
   if (sample.valid)
     paintArrow(painter,
                centre,
-               centre + QPointF(static_cast<double>(sample.dx), static_cast<double>(sample.dy)) *
-                            kEnlarged * place.side,
+               centre + place.way(static_cast<double>(sample.dx), static_cast<double>(sample.dy)) *
+                            kEnlarged,
                indicator,
                rim);
   const auto pair = [](bool known, float x, float y) {
