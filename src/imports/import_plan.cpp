@@ -150,7 +150,9 @@ std::vector<std::string> numberingDoubts(const Planning& p) {
     while (group.elements[0].indices[position] == group.elements[1].indices[position]) ++position;
     std::set<std::int64_t> numbers;
     for (const TableElement& each : group.elements) numbers.insert(each.indices[position]);
-    if (numbers.size() != group.elements.size() || arePlacesOfTaxels(numbers, p.layout)) continue;
+    if (numbers.size() != group.elements.size() || arePlacesOfTaxels(numbers, p.layout) ||
+        arePlacesOfTaxels(numbers, *p.hand.layout))
+      continue;
     std::string missing;
     std::size_t count = 0;
     for (std::int64_t last = *numbers.begin(); const std::int64_t number : numbers) {
@@ -276,6 +278,8 @@ ImportPlan planTaxelList(TableSource& source,
                          const TableOptions& options) {
   if (!mapping.matrices.empty() || mapping.time.rateHz || !mapping.time.column.empty())
     throw FormatError(source.path(), sentenceOf(reason::kTaxelList, {}));
+  if (hand.layout->numReadings() != hand.layout->numCells())
+    throw FormatError(source.path(), sentenceOf(reason::kTaxelListOfComponents, {}));
   ImportPlan plan;
   plan.isTaxelList = true;
   PlannedSeries frames;
@@ -334,10 +338,6 @@ ImportPlan planImport(TableSource& source,
                       const TableOptions& options,
                       std::span<const SeriesFile> files,
                       std::uint64_t mostRows) {
-  if (hand.layout->numReadings() != hand.layout->numCells())
-    throw Error(source.path().string() +
-                ": tables of three components per taxel can't be imported; stream them "
-                "('palpate record --stream')");
   try {
     ImportPlan plan = isTaxelList(source.columns())
                           ? planTaxelList(source, hand, mapping, options)
