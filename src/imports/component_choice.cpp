@@ -90,8 +90,8 @@ std::optional<Components> ofArray(const Planning& p, std::size_t c) {
   made.z = groupColumns(p.columns, {c}).front();
   const std::vector<TableElement> all = std::exchange(made.z.elements, {});
   const std::size_t numIndices = all.front().indices.size();
-  const auto axis = static_cast<std::ptrdiff_t>(
-      numIndices - (isTakenLast ? 1 : column.shape.size()));
+  const auto axis =
+      static_cast<std::ptrdiff_t>(numIndices - (isTakenLast ? 1 : column.shape.size()));
   for (TableElement element : all) {
     const auto k = static_cast<std::size_t>(element.indices.at(static_cast<std::size_t>(axis)));
     element.indices.erase(element.indices.begin() + axis);

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "imports/column_choice.h"
 #include "palpate/imports/import_mapping.h"
+
+#include "imports/column_choice.h"
 
 namespace palpate {
 

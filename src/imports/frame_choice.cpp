@@ -152,8 +152,8 @@ PlannedSeries mappedFrames(Planning& p) {
       p.refuse(reason::kOtherNumbers,
                {wanted.columns,
                 counted(chosen.elements.size(), "number"),
-                wanted.matrix ? matrixShape(p.hand.layout->matrix(*wanted.matrix)) +
-                                    " of matrix " + std::to_string(*wanted.matrix)
+                wanted.matrix ? matrixShape(p.hand.layout->matrix(*wanted.matrix)) + " of matrix " +
+                                    std::to_string(*wanted.matrix)
                               : shapeText(*p.hand.layout)});
     takeTaxels(p, series, what, chosen.elements, *places, wanted.values);
     for (std::size_t m = 0; m < layout.numMatrices(); ++m)
@@ -179,7 +179,8 @@ bool takeWhole(Planning& p, PlannedSeries& series, const Groups& groups, bool is
   for (const ColumnGroup& group : groups) {
     if (!readGroup(p, group, std::nullopt, isOpposite)) continue;
     if (whole)
-      p.refuse(reason::kBothFit, {firstName(p, *whole), firstName(p, group), "the taxels"});
+      p.refuse(reason::kBothFit,
+               {firstName(p, *whole), firstName(p, group), "the taxels" + componentsAdvice(p)});
     whole = &group;
   }
   if (whole) takeGroup(p, series, allName(p), *whole, std::nullopt, isOpposite);

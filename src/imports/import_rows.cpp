@@ -36,6 +36,7 @@ ImportRows::ImportRows(const HandDescription& hand,
   report_.doubts = plan.doubts;
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m) {
     const TouchRule& rule = hand.layout->matrix(m).touch;
+    report_.outside.isSigned = report_.outside.isSigned || rule.isSigned;
     for (const std::uint8_t isTaxel : hand.layout->matrix(m).staticMask) {
       const auto components = static_cast<std::size_t>(rule.components);
       maximum_.insert(maximum_.end(), components, isTaxel != 0 ? hand.maximumOf(m) : -1.0F);
@@ -101,6 +102,10 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
     noteRows(source, true);
     if (timeReader_) frameShiftUs_ = timeReader_->shiftUs();
   }
+  if (report_.outside.below > 0 && !report_.outside.isSigned)
+    report_.notes.push_back(
+        "values below 0: where readings have a sign, the matrix in hand.json needs \"signed\": "
+        "true");
   finishSeries();
   noteOthers();
   countFirstGap();
@@ -341,8 +346,8 @@ float ImportRows::taxelValue(const TableSource& source,
         components == 1 ? "" : std::string(", ") + "xyz"[within % components];
     outside.first = source.rowWord() + (" " + std::to_string(row.line)) + ", " +
                     hand_.matrixName(m) + ", row " + std::to_string(cell / width) + ", column " +
-                    std::to_string(cell % width) + component + ": " + numberText(value) + ", not in " +
-                    numberText(minimum_[place]) + ".." + numberText(maximum_[place]);
+                    std::to_string(cell % width) + component + ": " + numberText(value) +
+                    ", not in " + numberText(minimum_[place]) + ".." + numberText(maximum_[place]);
   }
   return std::isnan(value) ? 0.0F : taken;
 }
