@@ -258,12 +258,13 @@ ImportPlan planTable(TableSource& source,
 }
 
 constexpr std::string_view kTaxelListColumns[] = {
-    "frame", "time_ms", "matrix", "y", "x", "value", "time_us"};
+    "frame", "time_ms", "matrix", "y", "x", "value", "time_us", "dx", "dy", "dz"};
+constexpr std::size_t kOldTaxelList = 6;  // without time_us
+constexpr std::size_t kTaxelList = 7;     // without readings
 
-// Older lists have no time_us.
 bool isTaxelList(const std::vector<TableColumn>& columns) {
-  constexpr std::size_t kAll = std::size(kTaxelListColumns);
-  return (columns.size() == kAll || columns.size() == kAll - 1) &&
+  return (columns.size() == kOldTaxelList || columns.size() == kTaxelList ||
+          columns.size() == std::size(kTaxelListColumns)) &&
          std::equal(
              columns.begin(),
              columns.end(),
@@ -284,9 +285,11 @@ ImportPlan planTaxelList(TableSource& source,
   plan.isTaxelList = true;
   PlannedSeries frames;
   frames.file = source.path();
-  frames.columns = {0, 2, 3, 4, 5};
+  const std::size_t numColumns = source.columns().size();
+  // dz has the sign.
+  frames.columns = {0, 2, 3, 4, numColumns > kTaxelList ? numColumns - 1 : 5};
   frames.values.resize(frames.columns.size());
-  const bool hasUs = source.columns().size() == std::size(kTaxelListColumns);
+  const bool hasUs = numColumns >= kTaxelList;
   frames.time = hasUs ? 6 : 1;
   frames.timeUnit = hasUs ? TimeUnit::kMicroseconds : TimeUnit::kMilliseconds;
   plan.timeDescription = hasUs ? "time_us [us, by the file]" : "time_ms [ms, by the file]";
