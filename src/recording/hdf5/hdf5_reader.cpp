@@ -669,8 +669,8 @@ Recording readHdf5(const fs::path& path) {
       recordedProfile(path, std::move(info), std::move(hand), storage, storage->further());
   Damage damage;
   if (profile.givesReadings())
-    profile = profile.withBaselines(
-        baselinesOf(storage->events(), profile.layout(), &damage.events));
+    profile =
+        profile.withBaselines(baselinesOf(storage->events(), profile.layout(), &damage.events));
   return {.profile = std::move(profile),
           .events = storage->events(),
           .meta = std::move(meta),

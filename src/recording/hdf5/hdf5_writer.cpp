@@ -378,8 +378,8 @@ class Hdf5Writer {
     ChunkedArray* deviceTimes = nullptr;  // made with the first frame that has one
     ChunkedArray* isFiltered = nullptr;   // of a recording of floats
     std::vector<ChunkedArray*> matrices;
-    std::vector<ChunkedArray*> active;  // of a recording of floats
-    std::vector<ChunkedArray*> kept;    // of a recording of floats
+    std::vector<ChunkedArray*> active;    // of a recording of floats
+    std::vector<ChunkedArray*> kept;      // of a recording of floats
     std::vector<ChunkedArray*> readings;  // of a recording with readings
     std::size_t perChunk = 1;
   };
