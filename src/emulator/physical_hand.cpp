@@ -206,12 +206,12 @@ struct PhysicalHand::Impl {
       const auto along = [&](const Vector3d& of) {
         return Eigen::Vector2d(of.dot(right), of.dot(down));
       };
-      const auto limited = [](const Eigen::Vector2d& of, double most) {
+      const auto atMost = [](const Eigen::Vector2d& of, double most) {
         return Eigen::Vector2d(of * std::min(1.0, most / std::max(of.norm(), 1e-12)));
       };
-      stretchMm[m] = limited(stretchMm[m] + along(slide), kStretchMm);
+      stretchMm[m] = atMost(stretchMm[m] + along(slide), kStretchMm);
       const double friction = objects.friction(*contact.object);
-      const Eigen::Vector2d shear = limited(
+      const Eigen::Vector2d shear = atMost(
           stretchMm[m] * (friction / kStretchMm) + along(objects.heldShare(*contact.object)),
           friction);
       now.shearXN = shear.x() * contact.forceN;

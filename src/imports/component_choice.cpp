@@ -53,7 +53,7 @@ struct Components {
 };
 
 // Columns by the letters of their names.
-std::vector<Components> lettered(const Planning& p, const std::vector<std::size_t>& columns) {
+std::vector<Components> letteredComponents(const Planning& p, const std::vector<std::size_t>& columns) {
   std::array<std::map<std::string, std::size_t>, kComponents> byStem;
   std::map<std::size_t, std::string> stems;
   for (const std::size_t c : columns) {
@@ -145,7 +145,7 @@ std::optional<ComponentTaxels> taxelsByComponent(Planning& p,
                                                  const std::string& what) {
   if (p.mapping.components != ComponentOrder::kFound || !haveAllThree(*p.hand.layout))
     return std::nullopt;
-  std::vector<Components> all = lettered(p, columns);
+  std::vector<Components> all = letteredComponents(p, columns);
   for (const std::size_t c : columns)
     if (auto array = ofArray(p, c)) all.push_back(std::move(*array));
   // The taxels of one component have the layout of the hand.

@@ -119,7 +119,7 @@ void noteInterleaved(Planning& p, const std::string& what) {
     p.note(reason::kInterleaved, {what});
 }
 
-std::vector<std::size_t> columnsOf(const std::vector<TableElement>& elements) {
+std::vector<std::size_t> usedColumnsOf(const std::vector<TableElement>& elements) {
   std::vector<std::size_t> columns;
   for (const TableElement& each : elements)
     if (columns.empty() || columns.back() != each.column) columns.push_back(each.column);
@@ -139,7 +139,7 @@ PlannedSeries mappedFrames(Planning& p) {
     if (!chosen.letters.empty() && hasComponents(p))
       p.refuse(reason::kPatternComponents, {wanted.columns});
     std::optional<Places> places;
-    if (auto taxels = taxelsByComponent(p, columnsOf(chosen.elements), wanted.matrix, what)) {
+    if (auto taxels = taxelsByComponent(p, usedColumnsOf(chosen.elements), wanted.matrix, what)) {
       chosen.elements = std::move(taxels->elements);
       places = std::move(taxels->places);
     } else {

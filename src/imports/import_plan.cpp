@@ -259,11 +259,11 @@ ImportPlan planTable(TableSource& source,
 
 constexpr std::string_view kTaxelListColumns[] = {
     "frame", "time_ms", "matrix", "y", "x", "value", "time_us", "dx", "dy", "dz"};
-constexpr std::size_t kOldTaxelList = 6;  // without time_us
-constexpr std::size_t kTaxelList = 7;     // without readings
+constexpr std::size_t kOldListColumns = 6;  // without time_us
+constexpr std::size_t kListColumns = 7;     // without readings
 
 bool isTaxelList(const std::vector<TableColumn>& columns) {
-  return (columns.size() == kOldTaxelList || columns.size() == kTaxelList ||
+  return (columns.size() == kOldListColumns || columns.size() == kListColumns ||
           columns.size() == std::size(kTaxelListColumns)) &&
          std::equal(
              columns.begin(),
@@ -287,9 +287,9 @@ ImportPlan planTaxelList(TableSource& source,
   frames.file = source.path();
   const std::size_t numColumns = source.columns().size();
   // dz has the sign.
-  frames.columns = {0, 2, 3, 4, numColumns > kTaxelList ? numColumns - 1 : 5};
+  frames.columns = {0, 2, 3, 4, numColumns > kListColumns ? numColumns - 1 : 5};
   frames.values.resize(frames.columns.size());
-  const bool hasUs = numColumns >= kTaxelList;
+  const bool hasUs = numColumns >= kListColumns;
   frames.time = hasUs ? 6 : 1;
   frames.timeUnit = hasUs ? TimeUnit::kMicroseconds : TimeUnit::kMilliseconds;
   plan.timeDescription = hasUs ? "time_us [us, by the file]" : "time_ms [ms, by the file]";

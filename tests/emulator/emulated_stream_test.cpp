@@ -65,7 +65,8 @@ HandDescription skinHand() {
       R"({"format": "palpate-hand", "version": 1, "name": "skin", "full_scale": 1000,
           "components": 3, "signed": true, "touch_threshold": 20,
           "matrices": [{"name": "left", "rows": 4, "columns": 3, "pitch_mm": 4.0},
-                       {"name": "right", "rows": 2, "columns": 2, "pitch_mm": 4.0}]})",
+                       {"name": "right", "rows": 2, "columns": 2, "pitch_mm": 4.0,
+                        "picture": {"column": 1, "row": 0}}]})",
       "",
       "hand.json");
 }
