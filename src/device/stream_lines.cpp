@@ -470,6 +470,9 @@ std::string StreamLineParser::countFault(const Head& head, std::size_t count) co
   if (head.kind == StreamItemKind::kFrame && !head.name.empty() && matrices.size() > 1 &&
       std::ranges::any_of(matrices, [&](const auto& m) { return m.numReadings() == count; }))
     why += "; a line per matrix begins with the name of its matrix, as the hand has it";
+  if (head.kind == StreamItemKind::kFrame && count % 3 == 0 && shape_.fits(head.kind, count / 3) &&
+      shape_.numPlaces() == shape_.layout().numCells())
+    why += "; with three numbers per taxel, the matrices in hand.json need \"components\": 3";
   return why;
 }
 

@@ -211,9 +211,9 @@ struct PhysicalHand::Impl {
       };
       stretchMm[m] = atMost(stretchMm[m] + along(slide), kStretchMm);
       const double friction = objects.friction(*contact.object);
-      const Eigen::Vector2d shear = atMost(
-          stretchMm[m] * (friction / kStretchMm) + along(objects.heldShare(*contact.object)),
-          friction);
+      const Eigen::Vector2d shear =
+          atMost(stretchMm[m] * (friction / kStretchMm) + along(objects.heldShare(*contact.object)),
+                 friction);
       now.shearXN = shear.x() * contact.forceN;
       now.shearYN = shear.y() * contact.forceN;
     }

@@ -53,7 +53,8 @@ struct Components {
 };
 
 // Columns by the letters of their names.
-std::vector<Components> letteredComponents(const Planning& p, const std::vector<std::size_t>& columns) {
+std::vector<Components> letteredComponents(const Planning& p,
+                                           const std::vector<std::size_t>& columns) {
   std::array<std::map<std::string, std::size_t>, kComponents> byStem;
   std::map<std::size_t, std::string> stems;
   for (const std::size_t c : columns) {

@@ -314,6 +314,8 @@ TEST(StreamLines, ThreeComponentsStandInThePlaceOfEachValue) {
     std::vector<MatrixLayout> matrices = hand.layout->matrices();
     for (MatrixLayout& matrix : matrices) matrix.touch = {.components = 3, .isSigned = true};
     hand.layout = std::make_shared<const SensorLayout>(std::move(matrices));
+    hand.matrices.front().name = "left";
+    hand.matrices.back().name = hand.matrices.size() > 1 ? "right" : "left";
     return hand;
   };
   const std::vector<double> expected{1, -2, 3, 4, 5, -6};
@@ -323,14 +325,16 @@ TEST(StreamLines, ThreeComponentsStandInThePlaceOfEachValue) {
       {"{\"tactile_matrix\":[{\"matrix_id\":0,\"cells_x\":1,\"cells_y\":2,"
        "\"tactile_array\":[1,-2,3,4,5,-6]}]}\n",
        skin({{2, 1}})},
-      {"\n1,-2,3\n4,5,-6\n", skin({{2, 1}})},
-      {"pad_0,1,-2,3\npad_1,4,5,-6\n", skin({{1, 1}, {1, 1}})}};
+      {"1,-2,3\n4,5,-6\n", skin({{2, 1}})},
+      {"left:1,-2,3\nright:4,5,-6\n", skin({{1, 1}, {1, 1}})}};
   for (const auto& [text, hand] : forms) {
     const Reading reading = readText(text, hand);
     ASSERT_EQ(reading.items.size(), 1u) << text << reading.fault;
     EXPECT_EQ(reading.items[0].numbers, expected) << text;
   }
-  // Two of three are refused with what is expected.
+  // Three for a hand with one, and two of three, are refused with what is expected.
+  EXPECT_NE(readText("1,2,3,4,5,6\n", padHand({{1, 2}})).fault.find("\"components\": 3"),
+            std::string::npos);
   EXPECT_NE(readText("1,2,3,4\n", skin({{1, 2}})).fault.find("4 numbers instead of 6"),
             std::string::npos);
   EXPECT_NE(readText("{\"tactile_matrix\":[{\"matrix_id\":0,\"cells_x\":1,\"cells_y\":1,"
