@@ -12,7 +12,14 @@ namespace palpate {
 namespace {
 
 bool isCountOf(const MatrixLayout& matrix, std::size_t count) {
-  return count > 0 && (count == matrix.numCells() || count == matrix.numTaxels());
+  return count > 0 &&
+         (count == matrix.numReadings() ||
+          count == matrix.numTaxels() * static_cast<std::size_t>(matrix.touch.components));
+}
+
+// Numbers of a line that is a row of the matrix.
+std::size_t rowNumbers(const MatrixLayout& matrix) {
+  return matrix.numReadings() / static_cast<std::size_t>(matrix.rows);
 }
 
 }  // namespace
@@ -38,11 +45,12 @@ bool StreamLineParser::takePad(const Head& head, std::size_t count, const Sink& 
   if (!firstPad_) firstPad_ = options_.startsInside ? 0 : *index;
   if (withTime && !readTime(options_.time, count, *index == *firstPad_, item)) return true;
   if (!continuesPads(*index, head, item)) return true;
-  const std::size_t at = layout.offset(*index);
+  const std::size_t at = layout.readingOffset(*index);
+  const auto components = static_cast<std::size_t>(matrix.touch.components);
   std::size_t next = withTime ? 1 : 0;
-  for (std::size_t i = 0; i < matrix.numCells(); ++i)
+  for (std::size_t i = 0; i < matrix.numReadings(); ++i)
     partValues_[at + (listOrder_.empty() ? i : listOrder_[i])] =
-        given == matrix.numCells() || matrix.staticMask[i] != 0
+        given == matrix.numReadings() || matrix.staticMask[i / components] != 0
             ? static_cast<float>(numbers_[next++])
             : 0.0F;
   partSeen_[*index] = true;
@@ -86,7 +94,7 @@ bool StreamLineParser::mayBeRows() const noexcept {
 bool StreamLineParser::isRow(const Head& head, std::size_t count) const noexcept {
   return mayBeRows() && head.name.empty() && !shape_.fits(head.kind, count) &&
          !hasTime(false, count > 0 && shape_.fits(head.kind, count - 1)) &&
-         count == static_cast<std::size_t>(shape_.layout().matrix(0).columns);
+         count == rowNumbers(shape_.layout().matrix(0));
 }
 
 // Takes a word without numbers: one stands between frames of rows, any other one is refused. Before
@@ -133,7 +141,7 @@ bool StreamLineParser::takeRow(const Head& head, std::size_t count, const Sink& 
     refuseHeldWord();
     if (!hasRows_ || !head.name.empty() || shape_.fits(head.kind, count)) return false;
     refuse(counted(count, "number") + " instead of " +
-           std::to_string(shape_.layout().matrix(0).columns) + " in row " +
+           std::to_string(rowNumbers(shape_.layout().matrix(0))) + " in row " +
            std::to_string(numRows_ + 1));
     skipRow();
     return true;
@@ -148,7 +156,7 @@ bool StreamLineParser::takeRow(const Head& head, std::size_t count, const Sink& 
 void StreamLineParser::addRow(const Sink& sink) {
   const MatrixLayout& matrix = shape_.layout().matrix(0);
   const auto rows = static_cast<std::size_t>(matrix.rows);
-  const auto columns = static_cast<std::size_t>(matrix.columns);
+  const std::size_t columns = rowNumbers(matrix);
   if (!rowsBegin_) {
     // The sender was running already: its first frame is not used, and the next one is known by
     // what stands before it.

@@ -72,8 +72,8 @@ std::optional<std::int64_t> jsonTimeUs(double us) {
   return std::llround(us);
 }
 
-// Reads the matrices of a schunk_sdh/TactileSensor into `values`, one per place, and notes them in
-// `seen`.
+// Reads the matrices of a schunk_sdh/TactileSensor into `values`, one per reading, and notes them
+// in `seen`.
 void readTactileMatrices(const Json& matrices,
                          const SensorLayout& layout,
                          std::vector<bool>& seen,
@@ -94,13 +94,14 @@ void readTactileMatrices(const Json& matrices,
     const std::int64_t rows = matrix.at("cells_y").asInteger();
     const std::int64_t columns = matrix.at("cells_x").asInteger();
     const Json array = matrix.at("tactile_array");
-    if (rows != known.rows || columns != known.columns || array.size() != known.numCells())
+    if (rows != known.rows || columns != known.columns || array.size() != known.numReadings())
       throw Error("matrix " + std::to_string(id) + " has " + std::to_string(rows) + " x " +
                   std::to_string(columns) + " places and " + counted(array.size(), "value") +
                   " instead of " + std::to_string(known.rows) + " x " +
-                  std::to_string(known.columns));
-    for (std::size_t k = 0; k < known.numCells(); ++k)
-      values[layout.offset(index) + k] = static_cast<float>(array.at(k).asDouble());
+                  std::to_string(known.columns) +
+                  (known.touch.components == 1 ? "" : " with three values each"));
+    for (std::size_t k = 0; k < known.numReadings(); ++k)
+      values[layout.readingOffset(index) + k] = static_cast<float>(array.at(k).asDouble());
   }
 }
 
@@ -467,8 +468,11 @@ std::string StreamLineParser::countFault(const Head& head, std::size_t count) co
     return why + "; if the values have decimal commas, send decimal points";
   const auto& matrices = shape_.layout().matrices();
   if (head.kind == StreamItemKind::kFrame && !head.name.empty() && matrices.size() > 1 &&
-      std::ranges::any_of(matrices, [&](const auto& m) { return m.numCells() == count; }))
+      std::ranges::any_of(matrices, [&](const auto& m) { return m.numReadings() == count; }))
     why += "; a line per matrix begins with the name of its matrix, as the hand has it";
+  if (head.kind == StreamItemKind::kFrame && count % 3 == 0 && shape_.fits(head.kind, count / 3) &&
+      shape_.numPlaces() == shape_.layout().numCells())
+    why += "; with three numbers per taxel, the matrices in hand.json need \"components\": 3";
   return why;
 }
 
@@ -504,9 +508,7 @@ std::optional<StreamItem> StreamLineParser::readJsonFrame(const Json& object) {
   if (!continues) dropPart();
   std::vector<bool> seen = continues ? partSeen_ : std::vector<bool>(layout.numMatrices());
   std::vector<float>& values = isWhole ? values_ : partValues_;
-  if (layout.numReadings() != layout.numCells())
-    throw Error("TactileSensor messages have one value per taxel, not three");
-  values.resize(layout.numCells());
+  values.resize(layout.numReadings());
   readTactileMatrices(matrices, layout, seen, values);
   if (!isWhole) {
     if (!sequence)

@@ -52,6 +52,13 @@ std::string mismatchOf(const Json& matrices, const SensorLayout& layout) {
     if (rows != matrix.rows || columns != matrix.columns)
       return "matrix " + std::to_string(m) + " of the sender has " + sizeText(rows, columns) +
              " places, that of the chosen hand " + sizeText(matrix.rows, matrix.columns);
+    const std::int64_t components = matrices.at(m).contains("components")
+                                        ? matrices.at(m).at("components").asInteger()
+                                        : matrix.touch.components;
+    if (components != matrix.touch.components)
+      return "matrix " + std::to_string(m) + " of the sender has " + std::to_string(components) +
+             " components per taxel, that of the chosen hand " +
+             std::to_string(matrix.touch.components);
   }
   return {};
 }

@@ -104,9 +104,7 @@ class EmulatedStream::Loop {
         encoder_(model_->hand(), options_.format),
         byteFaults_(options_.faults, options_.seed),
         wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-        values_(model_->hand().layout->numCells()) {
-    if (model_->hand().layout->numReadings() != values_.size())
-      throw std::invalid_argument("a hand with three components per taxel can't be emulated");
+        values_(model_->hand().layout->numReadings()) {
     if (options_.faults.bootS) outages_.push_back({{0.0, *options_.faults.bootS}, false});
     for (const Outage& stall : options_.faults.stalls) outages_.push_back({stall, false});
     for (const Outage& unplug : options_.faults.unplugs) outages_.push_back({unplug, true});

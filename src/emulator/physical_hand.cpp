@@ -1,6 +1,7 @@
 #include "palpate/emulator/physical_hand.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -29,6 +30,7 @@ constexpr double kMovingDegC = 14.0;   // final rise at full speed
 constexpr double kHoldingDegC = 10.0;  // final rise at full torque
 constexpr double kPoweredDegC = 2.0;
 constexpr double kBoardSlowness = 2.0;
+constexpr double kStretchMm = 0.3;  // of the rubber, until an object slides over it
 
 // Assumed rises above the ambient temperature at rest [deg C]: of motors, which differ, and of
 // electronics.
@@ -94,6 +96,7 @@ struct PhysicalHand::Impl {
         motorNmm(motorsOf(given)),
         riseDegC(risesAtRest(hand)),
         truth(hand.layout->numMatrices()),
+        stretchMm(truth.size(), Eigen::Vector2d::Zero()),
         torqueNmm(hand.axes.size()) {
     if (!(options.rubberNPerMm3 > 0.0)) throw std::invalid_argument("PhysicalHandOptions: rubber");
     if (!(options.stepS > 0.0 && options.stepS <= 0.01))
@@ -177,6 +180,7 @@ struct PhysicalHand::Impl {
       MatrixTruth& now = truth[m];
       if (contact.forceN < kContactN) {
         now = MatrixTruth{};
+        stretchMm[m].setZero();
         continue;
       }
       if (!now.contact) now = MatrixTruth{};
@@ -199,6 +203,19 @@ struct PhysicalHand::Impl {
       now.slipYTaxels += slide.dot(down) / pitchMm.y;
       // Rotation from x towards y: about x right cross y down, which points into the sensor.
       now.turnDeg -= motion.angularRadPerS.dot(contact.normal) * dtS * 180.0 / std::numbers::pi;
+      const auto along = [&](const Vector3d& of) {
+        return Eigen::Vector2d(of.dot(right), of.dot(down));
+      };
+      const auto atMost = [](const Eigen::Vector2d& of, double most) {
+        return Eigen::Vector2d(of * std::min(1.0, most / std::max(of.norm(), 1e-12)));
+      };
+      stretchMm[m] = atMost(stretchMm[m] + along(slide), kStretchMm);
+      const double friction = objects.friction(*contact.object);
+      const Eigen::Vector2d shear =
+          atMost(stretchMm[m] * (friction / kStretchMm) + along(objects.heldShare(*contact.object)),
+                 friction);
+      now.shearXN = shear.x() * contact.forceN;
+      now.shearYN = shear.y() * contact.forceN;
     }
   }
 
@@ -318,6 +335,7 @@ struct PhysicalHand::Impl {
   HandPose pose, before;
   std::vector<double> pressure;  // per place [kPa]
   std::vector<MatrixTruth> truth, scanned;
+  std::vector<Eigen::Vector2d> stretchMm;  // of the rubber of each matrix, along its surface
   std::vector<double> torqueNmm;
   std::vector<double> degC;
   double ambientDegC = kAmbientDegC;
@@ -360,9 +378,16 @@ void PhysicalHand::scan(std::span<std::uint16_t> counts) {
 }
 
 void PhysicalHand::measure(std::span<float> values) {
-  impl_->sensor.measure(impl_->matrixDegC(), impl_->handDegC(), values);
+  std::vector<std::array<double, 2>> shear;
+  for (const MatrixTruth& matrix : impl_->truth)
+    shear.push_back(matrix.contact
+                        ? std::array{matrix.shearXN / matrix.forceN, matrix.shearYN / matrix.forceN}
+                        : std::array{0.0, 0.0});
+  impl_->sensor.measure(impl_->matrixDegC(), impl_->handDegC(), values, shear);
   impl_->scanned = impl_->truth;
 }
+
+Baseline PhysicalHand::baseline() const { return impl_->sensor.baseline(impl_->matrixDegC()); }
 
 std::string_view PhysicalHand::ownMotion() const { return impl_->ownMotion(); }
 std::vector<double> PhysicalHand::temperatures() { return impl_->degC; }

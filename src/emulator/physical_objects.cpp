@@ -149,6 +149,10 @@ void PhysicalObjects::pressBody(std::size_t index,
   }
 }
 
+Vector3d PhysicalObjects::pullN(const Body& body) {
+  return body.loadN - Vector3d::UnitZ() * (body.object.massKg * kGravity);
+}
+
 double PhysicalObjects::frictionLimitN(const Body& body, const Vector3d& direction) {
   double sum = 0.0;
   for (const Touch& touch : body.touches)
@@ -181,6 +185,12 @@ double PhysicalObjects::frictionLimitNmm(const Body& body, const Vector3d& axis)
   return body.object.friction * sum;
 }
 
+Vector3d PhysicalObjects::heldShare(std::size_t object) const {
+  const Body& body = bodies_.at(object);
+  if (!body.held || body.grip < kTouchN) return Vector3d::Zero();
+  return pullN(body) / body.grip;
+}
+
 void PhysicalObjects::advance(double dtS) {
   for (Body& body : bodies_) advanceBody(body, dtS);
 }
@@ -192,7 +202,7 @@ void PhysicalObjects::advanceBody(Body& body, double dtS) {
     body.loadNmm += (body.wantedNmm - body.loadNmm) * share;
     body.loadLeftS -= dtS;
   }
-  const Vector3d pull = body.loadN - Vector3d::UnitZ() * (body.object.massKg * kGravity);
+  const Vector3d pull = pullN(body);
   body.untouchedS = body.grip < kTouchN ? body.untouchedS + dtS : 0.0;
   if (body.untouchedS > kPutDownS) body.held = false;
   if (body.grip >= kTouchN && frictionLimitN(body, pull.normalized()) >= pull.norm())

@@ -57,6 +57,9 @@ class PhysicalObjects {
   const Eigen::Vector3d& positionMm(std::size_t object) const {
     return bodies_.at(object).positionMm;
   }
+  double friction(std::size_t object) const { return bodies_.at(object).object.friction; }
+  // Weight and load of an object that friction holds, per newton of its normal forces.
+  Eigen::Vector3d heldShare(std::size_t object) const;
   std::size_t size() const noexcept { return bodies_.size(); }
   // The objects in their present poses.
   std::vector<SceneObject> present() const;
@@ -95,6 +98,8 @@ class PhysicalObjects {
   void pressPads(const HandPose& pose, std::vector<double>& pressureKpa);
   void pressBody(std::size_t index, const HandPose& pose, std::vector<double>& pressureKpa);
   static void advanceBody(Body& body, double dtS);
+  // Its load and weight.
+  static Eigen::Vector3d pullN(const Body& body);
   // The part of a force [N] that exceeds the friction; zero where friction holds.
   static Eigen::Vector3d netForceN(const Body& body, const Eigen::Vector3d& forceN);
   // Largest force in a direction [N], and largest torque about an axis [N mm], that friction holds

@@ -13,9 +13,11 @@ constexpr double kLargestWireCounts = 65'535.0;  // of 16 bits
 constexpr double kStreamSteps = 4096.0;          // of a converter of 12 bits
 // Multiple of the RMSE above the noise line that an unloaded matrix does not reach.
 constexpr double kNoiseMultiple = 3.0;
-constexpr double kRestKpa = 1e-6;     // below this pressure the rubber is at rest
-constexpr double kNoiseReach = 8.0;   // larger noise is not generated [standard deviations]
-constexpr double kHeavyReach = 45.0;  // heavyTailed(kNoiseReach)
+constexpr double kRestKpa = 1e-6;        // below this pressure the rubber is at rest
+constexpr double kNoiseReach = 8.0;      // larger noise is not generated [standard deviations]
+constexpr double kHeavyReach = 45.0;     // heavyTailed(kNoiseReach)
+constexpr double kMostRestShare = 0.02;  // offsets of readings at rest, of full scale
+constexpr std::uint64_t kRestSeed = 0x7265737473;  // so that the noise is independent of them
 
 // A random value of unit variance with the heavy tails of the noise of ordinary taxels: of their
 // readings (sd 0.9) 1.8 % are 3 counts or more from the mean, 0.5 % 4 or more; for a normal
@@ -61,6 +63,13 @@ SensorModel::SensorModel(const HandDescription& hand,
                                     std::to_string(taxel.place));
       raised_[layout_.offset(m) + taxel.place] = &taxel;
     }
+  }
+  std::mt19937_64 random(seed ^ kRestSeed);
+  std::uniform_real_distribution<double> share(-kMostRestShare, kMostRestShare);
+  for (std::size_t m = 0; m < layout_.numMatrices() && layout_.decidesTouch(); ++m) {
+    const TouchRule& rule = layout_.matrix(m).touch;
+    for (std::size_t i = 0; i < layout_.matrix(m).numReadings(); ++i)
+      offsets_.push_back(fullScales_[m] * (share(random) + (rule.isSigned ? 0.0 : kMostRestShare)));
   }
 }
 
@@ -154,7 +163,62 @@ void SensorModel::scan(std::span<const double> degC,
       });
 }
 
-void SensorModel::measure(std::span<const double> degC, double handDegC, std::span<float> values) {
+Baseline SensorModel::baseline(std::span<const double> degC) const {
+  if (degC.size() != layout_.numMatrices())
+    throw std::invalid_argument("SensorModel: wrong number of temperatures");
+  Baseline rest{std::vector<float>(layout_.numReadings()),
+                std::vector<float>(layout_.numReadings())};
+  for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
+    const MatrixLayout& layout = layout_.matrix(m);
+    const MatrixCharacteristics& matrix = characteristics_.matrices[m];
+    for (std::size_t i = 0; i < layout.numReadings() && layout.touch.decides(); ++i) {
+      const auto cell = i / static_cast<std::size_t>(layout.touch.components);
+      if (layout.staticMask[cell] == 0) continue;
+      const std::size_t at = layout_.readingOffset(m) + i;
+      rest.rest[at] = static_cast<float>(offsets_[at] + matrix.restCounts(degC[m]));
+      rest.noise[at] = static_cast<float>(matrix.taxelSd);
+    }
+  }
+  return rest;
+}
+
+// A scan of a matrix that decides touch.
+void SensorModel::measureReadings(std::size_t m,
+                                  const Baseline& rest,
+                                  double handDegC,
+                                  std::span<float> values,
+                                  std::span<const std::array<double, 2>> shear) {
+  const MatrixLayout& layout = layout_.matrix(m);
+  const auto components = static_cast<std::size_t>(layout.touch.components);
+  const double mostSteps = std::floor(fullScales_[m] / resolution_);
+  const double largest = std::min(characteristics_.largestCounts, fullScales_[m]);
+  std::size_t at = layout_.readingOffset(m);
+  for (std::size_t i = 0; i < layout.numCells(); ++i) {
+    const double kpa = responseKpa(layout_.offset(m) + i);
+    const double pressed =
+        kpa > 0.0 ? settings_[m].sensitivity * characteristics_.countsAbove(kpa, handDegC) : 0.0;
+    for (std::size_t k = 0; k < components; ++k, ++at) {
+      values[at] = 0.0F;
+      if (layout.staticMask[i] == 0 || settings_[m].dynamicMask[i] == 0) continue;
+      const bool isNormal = k + 1 == components;
+      const double share = isNormal ? 1.0 : shear.empty() ? 0.0 : shear[m][k];
+      const double raw = static_cast<double>(rest.rest[at]) + pressed * share +
+                         static_cast<double>(rest.noise[at]) * heavyTailed(normal_(random_));
+      const double limited = std::copysign(saturated(std::abs(raw), largest), raw);
+      const double steps = std::clamp(
+          std::round(limited / resolution_), layout.touch.isSigned ? -mostSteps : 0.0, mostSteps);
+      values[at] = static_cast<float>(steps * resolution_);
+    }
+  }
+}
+
+void SensorModel::measure(std::span<const double> degC,
+                          double handDegC,
+                          std::span<float> values,
+                          std::span<const std::array<double, 2>> shear) {
+  if (values.size() != layout_.numReadings() ||
+      (!shear.empty() && shear.size() != layout_.numMatrices()))
+    throw std::invalid_argument("SensorModel: wrong number of readings or shears");
   const auto thresholdOf = [&](std::size_t m) {
     if (settings_[m].thresholdCounts > 0) return static_cast<double>(settings_[m].thresholdCounts);
     const MatrixCharacteristics& matrix = characteristics_.matrices[m];
@@ -162,13 +226,19 @@ void SensorModel::measure(std::span<const double> degC, double handDegC, std::sp
   };
   scanPlaces(degC,
              handDegC,
-             values.size(),
+             layout_.numCells(),
              thresholdOf,
              [&](std::size_t m, std::size_t place, double above) {
+               if (layout_.matrix(m).touch.decides()) return;
                const double mostSteps = std::floor(fullScales_[m] / resolution_);
                const double steps = std::clamp(std::round(above / resolution_), 0.0, mostSteps);
-               values[place] = static_cast<float>(steps * resolution_);
+               values[layout_.readingOffset(m) + place - layout_.offset(m)] =
+                   static_cast<float>(steps * resolution_);
              });
+  if (!layout_.decidesTouch()) return;
+  const Baseline rest = baseline(degC);
+  for (std::size_t m = 0; m < layout_.numMatrices(); ++m)
+    if (layout_.matrix(m).touch.decides()) measureReadings(m, rest, handDegC, values, shear);
 }
 
 void spreadPressure(const SensorLayout& layout, double share, std::span<double> pressureKpa) {

@@ -27,10 +27,14 @@ std::int64_t append(ProfileBuilder& builder,
                     const Scene& scene,
                     const SimulatedRecordingOptions& options,
                     std::int64_t startUs,
+                    Baselines& baselines,
                     const Progress& progress) {
   PhysicalHand hand(scene, options.hand);
   std::vector<std::uint16_t> counts(hand.hand().layout->numCells());
-  std::vector<float> values(counts.size());
+  std::vector<float> values(hand.hand().layout->numReadings());
+  const bool givesReadings = hand.hand().layout->decidesTouch();
+  if (givesReadings)
+    baselines.emplace_back(startUs, std::make_shared<const Baseline>(hand.baseline()));
   // A hand without a tactile controller sends a stream.
   const bool isStreamed = !hand.hand().file || hand.hand().file->controller.empty();
   double nextFrameS = 0.0, nextAngleS = 0.0, nextTemperatureS = 0.0;
@@ -51,20 +55,24 @@ std::int64_t append(ProfileBuilder& builder,
       nextTemperatureS += kTemperatureIntervalS;
     }
     if (nextFrameS <= nowS) {
-      if (isStreamed) {
+      if (isStreamed || givesReadings) {
         hand.measure(values);
       } else {
         hand.scan(counts);
         std::copy(counts.begin(), counts.end(), values.begin());
       }
-      builder.addFrame(nowUs, values);
+      if (givesReadings)
+        builder.addReadings(nowUs, values);
+      else
+        builder.addFrame(nowUs, values);
       nextFrameS += options.frameIntervalS;
     }
   }
   return startUs + std::llround((options.durationS + options.frameIntervalS) * kUsPerS);
 }
 
-Profile finished(ProfileBuilder& builder) {
+Profile finished(ProfileBuilder& builder, Baselines baselines) {
+  builder.setBaselines(std::move(baselines));
   ProfileInfo info;
   info.format = "synthetic";
   return builder.finish(info);
@@ -86,8 +94,9 @@ Profile simulateRecording(const Scene& scene,
                           const Progress& progress) {
   options.validate();
   ProfileBuilder builder(options.hand.hand);
-  append(builder, scene, options, options.startUs, progress);
-  return finished(builder);
+  Baselines baselines;
+  append(builder, scene, options, options.startUs, baselines, progress);
+  return finished(builder, std::move(baselines));
 }
 
 void GraspVariation::validate() const {
@@ -127,6 +136,7 @@ Profile simulateGrasps(const Scene& scene,
   options.validate();
   if (count < 1) throw std::invalid_argument("simulateGrasps: count must be 1 or more");
   ProfileBuilder builder(options.hand.hand);
+  Baselines baselines;
   std::int64_t startUs = options.startUs;
   for (int i = 0; i < count; ++i) {
     SimulatedRecordingOptions run = options;
@@ -134,9 +144,10 @@ Profile simulateGrasps(const Scene& scene,
     const Progress part = [&](double fraction) {
       return !progress || progress((i + fraction) / count);
     };
-    startUs = append(builder, variedScene(scene, variation, run.hand.seed), run, startUs, part);
+    startUs = append(
+        builder, variedScene(scene, variation, run.hand.seed), run, startUs, baselines, part);
   }
-  return finished(builder);
+  return finished(builder, std::move(baselines));
 }
 
 }  // namespace palpate

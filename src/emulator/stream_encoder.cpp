@@ -50,6 +50,8 @@ std::string StreamEncoder::description() const {
     Json matrix = Json::object();
     matrix.set("rows", std::int64_t{hand_.layout->matrix(m).rows});
     matrix.set("columns", std::int64_t{hand_.layout->matrix(m).columns});
+    const int components = hand_.layout->matrix(m).touch.components;
+    if (components != 1) matrix.set("components", std::int64_t{components});
     matrices.push(std::move(matrix));
   }
   Json about = Json::object();
@@ -86,7 +88,8 @@ std::string StreamEncoder::frameJson(std::uint64_t number,
     line += "{\"matrix_id\":" + std::to_string(m) +
             ",\"cells_x\":" + std::to_string(matrix.columns) +
             ",\"cells_y\":" + std::to_string(matrix.rows) + ",\"tactile_array\":[";
-    line = withNumbers(values.subspan(hand_.layout->offset(m), matrix.numCells()), std::move(line));
+    line = withNumbers(values.subspan(hand_.layout->readingOffset(m), matrix.numReadings()),
+                       std::move(line));
     line += "]}";
   }
   return line + "]}\n";

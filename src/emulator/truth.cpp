@@ -5,11 +5,13 @@
 
 namespace palpate {
 
-TruthWriter::TruthWriter(const std::filesystem::path& path, Overwrite overwrite) : path_(path) {
+TruthWriter::TruthWriter(const std::filesystem::path& path, Overwrite overwrite, bool hasShear)
+    : path_(path), hasShear_(hasShear) {
   requireWritable(path, overwrite);
   out_.open(path, std::ios::binary | std::ios::trunc);
   if (!out_) throw FileError(path, "can't be written");
-  out_ << "time_ms,matrix,contact,force_n,x_mm,y_mm,z_mm,slip_x_taxels,slip_y_taxels,turn_deg\n";
+  out_ << "time_ms,matrix,contact,force_n,x_mm,y_mm,z_mm,slip_x_taxels,slip_y_taxels,turn_deg"
+       << (hasShear ? ",shear_x_n,shear_y_n\n" : "\n");
   finish();
 }
 
@@ -21,7 +23,7 @@ void TruthWriter::add(std::int64_t hostUs, const std::vector<MatrixTruth>& truth
     line_ += ',';
     appendNumber(line_, static_cast<std::int64_t>(m));
     if (!matrix.contact) {
-      line_ += ",0,,,,,,,\n";
+      line_ += hasShear_ ? ",0,,,,,,,,,\n" : ",0,,,,,,,\n";
       continue;
     }
     line_ += ",1";
@@ -32,6 +34,11 @@ void TruthWriter::add(std::int64_t hostUs, const std::vector<MatrixTruth>& truth
                                matrix.slipXTaxels,
                                matrix.slipYTaxels,
                                matrix.turnDeg}) {
+      line_ += ',';
+      appendNumber(line_, value);
+    }
+    for (const double value : {matrix.shearXN, matrix.shearYN}) {
+      if (!hasShear_) continue;
       line_ += ',';
       appendNumber(line_, value);
     }

@@ -55,7 +55,7 @@ void takeTaxels(Planning& p,
     const TableColumn& column = p.columns[elements[e].column];
     Part& part = isGiven ? byUnit[{}] : byUnit[{column.unit, column.scale, column.offset}];
     part.elements.push_back(elements[e]);
-    part.places.push_back(places[e]);
+    part.places.push_back(readingAt(places[e], *p.hand.layout, p.mapping.components));
   }
   std::string units;
   for (const auto& [key, part] : byUnit) {
@@ -109,6 +109,23 @@ std::optional<Places> placesFor(Planning& p,
   return std::nullopt;
 }
 
+bool hasComponents(const Planning& p) {
+  return p.hand.layout->numReadings() != p.hand.layout->numCells();
+}
+
+// Nothing tells which number is which component.
+void noteInterleaved(Planning& p, const std::string& what) {
+  if (hasComponents(p) && p.mapping.components == ComponentOrder::kFound)
+    p.note(reason::kInterleaved, {what});
+}
+
+std::vector<std::size_t> usedColumnsOf(const std::vector<TableElement>& elements) {
+  std::vector<std::size_t> columns;
+  for (const TableElement& each : elements)
+    if (columns.empty() || columns.back() != each.column) columns.push_back(each.column);
+  return columns;
+}
+
 PlannedSeries mappedFrames(Planning& p) {
   const SensorLayout& layout = p.layout;
   PlannedSeries series;
@@ -116,20 +133,28 @@ PlannedSeries mappedFrames(Planning& p) {
   std::vector<bool> isMapped(layout.numMatrices());
   for (const MatrixMapping& wanted : p.mapping.matrices) {
     if (wanted.matrix && *wanted.matrix >= layout.numMatrices())
-      p.refuse(reason::kNoSuchMatrix, {std::to_string(*wanted.matrix), shapeText(layout)});
-    const ChosenElements chosen = chooseElements(p.columns, wanted.columns);
+      p.refuse(reason::kNoSuchMatrix, {std::to_string(*wanted.matrix), shapeText(*p.hand.layout)});
+    ChosenElements chosen = chooseElements(p.columns, wanted.columns);
     const std::string what = wanted.matrix ? p.hand.matrixName(*wanted.matrix) : "matrices";
-    const auto places =
-        chosen.letters.empty()
-            ? placesFor(p, chosen.elements, wanted.matrix, wanted.columnByColumn, what)
-            : placesByLetters(chosen, layout, wanted.matrix);
+    if (!chosen.letters.empty() && hasComponents(p))
+      p.refuse(reason::kPatternComponents, {wanted.columns});
+    std::optional<Places> places;
+    if (auto taxels = taxelsByComponent(p, usedColumnsOf(chosen.elements), wanted.matrix, what)) {
+      chosen.elements = std::move(taxels->elements);
+      places = std::move(taxels->places);
+    } else {
+      places = chosen.letters.empty()
+                   ? placesFor(p, chosen.elements, wanted.matrix, wanted.columnByColumn, what)
+                   : placesByLetters(chosen, layout, wanted.matrix);
+      noteInterleaved(p, what);
+    }
     if (!places)
       p.refuse(reason::kOtherNumbers,
                {wanted.columns,
                 counted(chosen.elements.size(), "number"),
-                wanted.matrix ? matrixShape(layout.matrix(*wanted.matrix)) + " of matrix " +
+                wanted.matrix ? matrixShape(p.hand.layout->matrix(*wanted.matrix)) + " of matrix " +
                                     std::to_string(*wanted.matrix)
-                              : shapeText(layout)});
+                              : shapeText(*p.hand.layout)});
     takeTaxels(p, series, what, chosen.elements, *places, wanted.values);
     for (std::size_t m = 0; m < layout.numMatrices(); ++m)
       isMapped[m] =
@@ -154,7 +179,8 @@ bool takeWhole(Planning& p, PlannedSeries& series, const Groups& groups, bool is
   for (const ColumnGroup& group : groups) {
     if (!readGroup(p, group, std::nullopt, isOpposite)) continue;
     if (whole)
-      p.refuse(reason::kBothFit, {firstName(p, *whole), firstName(p, group), "the taxels"});
+      p.refuse(reason::kBothFit,
+               {firstName(p, *whole), firstName(p, group), "the taxels" + componentsAdvice(p)});
     whole = &group;
   }
   if (whole) takeGroup(p, series, allName(p), *whole, std::nullopt, isOpposite);
@@ -246,7 +272,7 @@ void takeEachByName(Planning& p, PlannedSeries& series) {
     const auto places = placesFor(p, elements, m, false, name);
     if (!places)
       p.refuse(reason::kOtherFile,
-               {name, counted(elements.size(), "number"), matrixShape(p.layout.matrix(m))});
+               {name, counted(elements.size(), "number"), matrixShape(p.hand.layout->matrix(m))});
     takeTaxels(p, series, name, elements, *places);
   }
 }
@@ -318,7 +344,13 @@ PlannedSeries foundFrames(Planning& p) {
     return series;
   }
   joinFrameLines(p, series);
-  const Groups groups = groupColumns(p.columns, taxelCandidates(p));
+  const std::vector<std::size_t> candidates = taxelCandidates(p);
+  if (const auto taxels = taxelsByComponent(p, candidates, std::nullopt, allName(p))) {
+    takeTaxels(p, series, allName(p) + ", x, y, z by name", taxels->elements, taxels->places);
+    return series;
+  }
+  noteInterleaved(p, allName(p));
+  const Groups groups = groupColumns(p.columns, candidates);
   if (takeNamedParts(p, series)) return series;
   for (const bool isOpposite : {false, true})
     if (takeWhole(p, series, groups, isOpposite) || takeParts(p, series, groups, isOpposite))
@@ -326,10 +358,10 @@ PlannedSeries foundFrames(Planning& p) {
   if (takeLetters(p, series, groups) || takeRow(p, series, groups)) return series;
   p.refuse(reason::kNothingFits,
            {p.hand.name,
-            shapeText(p.layout),
-            matrixShape(p.layout.matrix(0)),
+            shapeText(*p.hand.layout),
+            matrixShape(p.hand.layout->matrix(0)),
             namesText(p.columns) + unusableText(p.columns) + p.source.advice() +
-                formsText(p.columns, p.layout)});
+                formsText(p.columns, p.layout) + componentsAdvice(p)});
 }
 
 // Whether the last axis of the arrays is the frames by its name ("time"), or the first one is;

@@ -173,6 +173,9 @@ Json mappingJson(const ImportMapping& mapping) {
     time.set("start", start);
   }
   if (time.size() > 0) json.set("time", std::move(time));
+  if (mapping.components != ComponentOrder::kFound)
+    json.set("components",
+             mapping.components == ComponentOrder::kPlanar ? "planar" : "interleaved");
   if (!mapping.matrices.empty())
     json.set("matrices", jsonList(mapping.matrices, [](const MatrixMapping& each) {
                Json matrix = Json::object();
@@ -198,10 +201,16 @@ ImportMapping mappingFromJson(const std::string& text, const std::filesystem::pa
   const MappingField field(std::move(json), "", source);
   if (field.text("format") != kMappingFormat)
     field.fail("has not \"format\": \"" + std::string(kMappingFormat) + "\": no import mapping");
-  field.only({"format", "text", "time", "matrices", "angles", "temperatures"});
+  field.only({"format", "text", "time", "components", "matrices", "angles", "temperatures"});
   ImportMapping mapping;
   if (field.has("text")) mapping.text = textFrom(field.object("text"));
   if (field.has("time")) mapping.time = timeFrom(field.object("time"));
+  if (const std::string order = field.text("components"); order == "planar")
+    mapping.components = ComponentOrder::kPlanar;
+  else if (order == "interleaved")
+    mapping.components = ComponentOrder::kInterleaved;
+  else if (!order.empty())
+    field.failAt("components", "is not interleaved or planar");
   if (field.has("matrices")) {
     const Json list = field.json().at("matrices");
     if (!list.isArray() || list.size() > kMostMatrixMappings)

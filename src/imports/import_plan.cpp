@@ -150,7 +150,9 @@ std::vector<std::string> numberingDoubts(const Planning& p) {
     while (group.elements[0].indices[position] == group.elements[1].indices[position]) ++position;
     std::set<std::int64_t> numbers;
     for (const TableElement& each : group.elements) numbers.insert(each.indices[position]);
-    if (numbers.size() != group.elements.size() || arePlacesOfTaxels(numbers, p.layout)) continue;
+    if (numbers.size() != group.elements.size() || arePlacesOfTaxels(numbers, p.layout) ||
+        arePlacesOfTaxels(numbers, *p.hand.layout))
+      continue;
     std::string missing;
     std::size_t count = 0;
     for (std::int64_t last = *numbers.begin(); const std::int64_t number : numbers) {
@@ -256,12 +258,13 @@ ImportPlan planTable(TableSource& source,
 }
 
 constexpr std::string_view kTaxelListColumns[] = {
-    "frame", "time_ms", "matrix", "y", "x", "value", "time_us"};
+    "frame", "time_ms", "matrix", "y", "x", "value", "time_us", "dx", "dy", "dz"};
+constexpr std::size_t kOldListColumns = 6;  // without time_us
+constexpr std::size_t kListColumns = 7;     // without readings
 
-// Older lists have no time_us.
 bool isTaxelList(const std::vector<TableColumn>& columns) {
-  constexpr std::size_t kAll = std::size(kTaxelListColumns);
-  return (columns.size() == kAll || columns.size() == kAll - 1) &&
+  return (columns.size() == kOldListColumns || columns.size() == kListColumns ||
+          columns.size() == std::size(kTaxelListColumns)) &&
          std::equal(
              columns.begin(),
              columns.end(),
@@ -276,13 +279,17 @@ ImportPlan planTaxelList(TableSource& source,
                          const TableOptions& options) {
   if (!mapping.matrices.empty() || mapping.time.rateHz || !mapping.time.column.empty())
     throw FormatError(source.path(), sentenceOf(reason::kTaxelList, {}));
+  if (hand.layout->numReadings() != hand.layout->numCells())
+    throw FormatError(source.path(), sentenceOf(reason::kTaxelListOfComponents, {}));
   ImportPlan plan;
   plan.isTaxelList = true;
   PlannedSeries frames;
   frames.file = source.path();
-  frames.columns = {0, 2, 3, 4, 5};
+  const std::size_t numColumns = source.columns().size();
+  // dz has the sign.
+  frames.columns = {0, 2, 3, 4, numColumns > kListColumns ? numColumns - 1 : 5};
   frames.values.resize(frames.columns.size());
-  const bool hasUs = source.columns().size() == std::size(kTaxelListColumns);
+  const bool hasUs = numColumns >= kListColumns;
   frames.time = hasUs ? 6 : 1;
   frames.timeUnit = hasUs ? TimeUnit::kMicroseconds : TimeUnit::kMilliseconds;
   plan.timeDescription = hasUs ? "time_us [us, by the file]" : "time_ms [ms, by the file]";
@@ -334,10 +341,6 @@ ImportPlan planImport(TableSource& source,
                       const TableOptions& options,
                       std::span<const SeriesFile> files,
                       std::uint64_t mostRows) {
-  if (hand.layout->numReadings() != hand.layout->numCells())
-    throw Error(source.path().string() +
-                ": tables of three components per taxel can't be imported; stream them "
-                "('palpate record --stream')");
   try {
     ImportPlan plan = isTaxelList(source.columns())
                           ? planTaxelList(source, hand, mapping, options)

@@ -34,11 +34,15 @@ ImportRows::ImportRows(const HandDescription& hand,
       frame_(hand.layout) {
   report_.notes = plan.notes;
   report_.doubts = plan.doubts;
-  for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
+  for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m) {
+    const TouchRule& rule = hand.layout->matrix(m).touch;
+    report_.outside.isSigned = report_.outside.isSigned || rule.isSigned;
     for (const std::uint8_t isTaxel : hand.layout->matrix(m).staticMask) {
-      maximum_.push_back(isTaxel != 0 ? hand.maximumOf(m) : -1.0F);
-      minimum_.push_back(hand.layout->matrix(m).touch.isSigned ? -hand.maximumOf(m) : 0.0F);
+      const auto components = static_cast<std::size_t>(rule.components);
+      maximum_.insert(maximum_.end(), components, isTaxel != 0 ? hand.maximumOf(m) : -1.0F);
+      minimum_.insert(minimum_.end(), components, rule.isSigned ? -hand.maximumOf(m) : 0.0F);
     }
+  }
   for (const PlannedSeries& series : plan.series) {
     if (series.kind != PlannedSeries::Kind::kFurther) continue;
     further_[&series].index = report_.series.size();
@@ -98,6 +102,10 @@ void ImportRows::run(TableSource& source, std::uint64_t mostRows, const Progress
     noteRows(source, true);
     if (timeReader_) frameShiftUs_ = timeReader_->shiftUs();
   }
+  if (report_.outside.below > 0 && !report_.outside.isSigned)
+    report_.notes.push_back(
+        "values below 0: where readings have a sign, the matrix in hand.json needs \"signed\": "
+        "true");
   finishSeries();
   noteOthers();
   countFirstGap();
@@ -329,13 +337,17 @@ float ImportRows::taxelValue(const TableSource& source,
     return taken;
   if (outside.first.empty()) {
     std::size_t m = 0;
-    while (place >= hand_.layout->offset(m) + hand_.layout->matrix(m).numCells()) ++m;
-    const std::size_t cell = place - hand_.layout->offset(m);
+    while (place >= hand_.layout->readingOffset(m) + hand_.layout->matrix(m).numReadings()) ++m;
+    const auto components = static_cast<std::size_t>(hand_.layout->matrix(m).touch.components);
+    const std::size_t within = place - hand_.layout->readingOffset(m);
+    const std::size_t cell = within / components;
     const auto width = static_cast<std::size_t>(hand_.layout->matrix(m).columns);
+    const std::string component =
+        components == 1 ? "" : std::string(", ") + "xyz"[within % components];
     outside.first = source.rowWord() + (" " + std::to_string(row.line)) + ", " +
                     hand_.matrixName(m) + ", row " + std::to_string(cell / width) + ", column " +
-                    std::to_string(cell % width) + ": " + numberText(value) + ", not in " +
-                    numberText(minimum_[place]) + ".." + numberText(maximum_[place]);
+                    std::to_string(cell % width) + component + ": " + numberText(value) +
+                    ", not in " + numberText(minimum_[place]) + ".." + numberText(maximum_[place]);
   }
   return std::isnan(value) ? 0.0F : taken;
 }

@@ -112,7 +112,7 @@ class ImportRows {
     std::map<std::string, std::uint64_t> others;  // rows that are left out
   };
   std::map<const PlannedSeries*, Origin> origins_;
-  std::vector<float> maximum_;  // of each place; below 0: it has no taxel
+  std::vector<float> maximum_;  // of each reading; below 0: it has no taxel
   std::vector<float> minimum_;  // below 0 where readings have a sign
   std::vector<double> sample_;
   GapDetector gaps_;

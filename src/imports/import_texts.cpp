@@ -48,7 +48,8 @@ std::string samplesText(PlannedSeries::Kind kind) {
 }
 
 std::string matrixShape(const MatrixLayout& matrix) {
-  return std::to_string(matrix.rows) + " x " + std::to_string(matrix.columns);
+  return std::to_string(matrix.rows) + " x " + std::to_string(matrix.columns) +
+         (matrix.touch.components == 3 ? " x 3" : "");
 }
 
 std::string shapeText(const SensorLayout& layout) {
@@ -63,6 +64,8 @@ std::string shapeText(const SensorLayout& layout) {
   text += ", " + counted(layout.numCells(), "place");
   if (layout.numTaxels() != layout.numCells())
     text += " with " + counted(layout.numTaxels(), "taxel");
+  if (layout.numReadings() != layout.numCells())
+    text += ", " + counted(layout.numReadings(), "number");
   return text;
 }
 

@@ -40,6 +40,9 @@ constexpr Reason kOtherNumbers{"$1 is %2 per row, but expected is %3"};
 constexpr Reason kNothingMapped{"%1: nothing is mapped to it, its taxels are 0"};
 constexpr Reason kTaxelList{
     "is a list of active taxels, as palpate convert writes it: its columns can't be chosen"};
+constexpr Reason kTaxelListOfComponents{
+    "is a list of active taxels with one value each, but the hand has three components per taxel; "
+    "convert the recording to .h5 or .npz instead"};
 // Rows and columns of a matrix.
 constexpr Reason kOtherShape{
     "%1 has as many numbers as %2, but other rows and columns; save it as frames x rows x columns, "
@@ -56,6 +59,15 @@ constexpr Reason kNamesTransposed{"%1: $2: the names count columns, then rows: t
 constexpr Reason kOrderOfNames{
     "%1: $2: the numbers in the names are taken for row and column, in this order; choose another "
     "one by --matrix 'NAME{x}_{y}'"};
+// Three components per taxel.
+constexpr Reason kInterleaved{
+    "%1: the numbers are taken as x, y, z of each taxel; --components planar: all x, then all y, "
+    "then all z"};
+constexpr Reason kComponentsInOrder{
+    "%1: the taxels are taken in the order of the file, their components by the names"};
+constexpr Reason kPatternComponents{
+    "$1: a pattern has no place for the component of a taxel; choose the columns in their order "
+    "(--matrix A..B --components interleaved)"};
 // Which columns are which matrix.
 constexpr Reason kBothFit{
     "both $1 and $2 could be %3; choose the columns of each matrix (--matrix)"};

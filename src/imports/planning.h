@@ -14,6 +14,7 @@
 #include "palpate/imports/import_plan.h"
 
 #include "imports/column_choice.h"
+#include "imports/component_choice.h"
 #include "imports/import_texts.h"
 #include "imports/time_choice.h"
 
@@ -36,7 +37,8 @@ struct Planning {
   const HandDescription& hand;
   ImportMapping mapping;  // with the rate of the file, if that is all there is
   const std::vector<TableColumn>& columns = source.columns();
-  const SensorLayout& layout = *hand.layout;
+  // Of the numbers of a frame (numbersLayout): that of the hand, but with three components.
+  SensorLayout layout = numbersLayout(*hand.layout, mapping.components);
   ImportPlan plan = {};
   TimeChoice times{source, mapping, plan};
   bool isReversed = false;                   // the axes of all arrays

@@ -94,7 +94,7 @@ std::string OutsideValues::summary() const {
     if (count > 0) parts += (parts.empty() ? "" : ", ") + std::to_string(count) + " " + what;
   };
   add(above, "above full scale");
-  add(below, "below 0");
+  add(below, isSigned ? "below minus full scale" : "below 0");
   add(notANumber, "NaN (taken as 0)");
   return counted(total(), "value") + " outside the hand's range: " + parts;
 }

@@ -86,6 +86,27 @@ TEST_F(ImportCommand, ValuesThatTheHandDoesNotHaveAreKeptAndTheCodeSaysSo) {
   EXPECT_EQ(openRecording(in("o.palpate")).frame(20).values[3], -5.0F);
 }
 
+TEST_F(ImportCommand, TheOrderOfThreeComponentsIsAnOption) {
+  std::filesystem::create_directory(in("skin"));
+  testing::writeFile(in("skin") + "/hand.json",
+                     R"({"format": "palpate-hand", "version": 1, "name": "skin", "full_scale": 1000,
+          "components": 3, "signed": true,
+          "matrices": [{"name": "pad", "rows": 1, "columns": 2, "pitch_mm": 4.0}]})");
+  testing::writeFile(in("skin.csv"), "time_s,a0,a1,a2,a3,a4,a5\n0,1,2,3,4,5,-6\n1,0,0,0,0,0,0\n");
+  const auto import = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"import", in("skin.csv"), "--hand", in("skin")};
+    words.insert(words.end(), more.begin(), more.end());
+    return palpate(words);
+  };
+  const auto preview = import({"--preview"});
+  EXPECT_EQ(preview.exitCode, 0) << preview.err;
+  EXPECT_NE(preview.out.find("--components planar"), std::string::npos) << preview.out;
+  EXPECT_EQ(import({"-o", in("o.palpate"), "--components", "planar"}).exitCode, 0);
+  EXPECT_EQ(openRecording(in("o.palpate")).frame(0).readings,
+            (std::vector<float>{1, 3, 5, 2, 4, -6}));
+  EXPECT_NE(import({"--components", "xyz"}).exitCode, 0);
+}
+
 TEST_F(ImportCommand, AnotherTableBecomesASeries) {
   testing::writeFile(in("ft.csv"), "t_ms,fx [N],fz [N]\n0,1,2\n5,x,4\n10,5,6\n");
   testing::writeFile(in("bare.csv"), "fx,fz\n5,1\n4,1\n6,2\n");

@@ -308,6 +308,42 @@ TEST(StreamLines, JsonFaultsNameTheMatrix) {
   EXPECT_EQ(faultOf("1,2,3\n", {.acceptNumbers = false}), "line 1: \"1,2,3\" is not a JSON object");
 }
 
+TEST(StreamLines, ThreeComponentsStandInThePlaceOfEachValue) {
+  const auto skin = [](std::vector<std::pair<int, int>> sizes) {
+    HandDescription hand = padHand(sizes);
+    std::vector<MatrixLayout> matrices = hand.layout->matrices();
+    for (MatrixLayout& matrix : matrices) matrix.touch = {.components = 3, .isSigned = true};
+    hand.layout = std::make_shared<const SensorLayout>(std::move(matrices));
+    hand.matrices.front().name = "left";
+    hand.matrices.back().name = hand.matrices.size() > 1 ? "right" : "left";
+    return hand;
+  };
+  const std::vector<double> expected{1, -2, 3, 4, 5, -6};
+  // A line, JSON, a line per row, and a line per matrix.
+  const std::vector<std::pair<std::string, HandDescription>> forms = {
+      {"1,-2,3,4,5,-6\n", skin({{2, 1}})},
+      {"{\"tactile_matrix\":[{\"matrix_id\":0,\"cells_x\":1,\"cells_y\":2,"
+       "\"tactile_array\":[1,-2,3,4,5,-6]}]}\n",
+       skin({{2, 1}})},
+      {"1,-2,3\n4,5,-6\n", skin({{2, 1}})},
+      {"left:1,-2,3\nright:4,5,-6\n", skin({{1, 1}, {1, 1}})}};
+  for (const auto& [text, hand] : forms) {
+    const Reading reading = readText(text, hand);
+    ASSERT_EQ(reading.items.size(), 1u) << text << reading.fault;
+    EXPECT_EQ(reading.items[0].numbers, expected) << text;
+  }
+  // Three for a hand with one, and two of three, are refused with what is expected.
+  EXPECT_NE(readText("1,2,3,4,5,6\n", padHand({{1, 2}})).fault.find("\"components\": 3"),
+            std::string::npos);
+  EXPECT_NE(readText("1,2,3,4\n", skin({{1, 2}})).fault.find("4 numbers instead of 6"),
+            std::string::npos);
+  EXPECT_NE(readText("{\"tactile_matrix\":[{\"matrix_id\":0,\"cells_x\":1,\"cells_y\":1,"
+                     "\"tactile_array\":[1,-2]}]}\n",
+                     skin({{1, 1}}))
+                .fault.find("2 values instead of 1 x 1 with three values each"),
+            std::string::npos);
+}
+
 // As `palpate stream --to tactile` divides a frame into datagrams.
 TEST(StreamLines, AFrameMayComeInMessagesWithTheSameNumber) {
   StreamLineParser parser{StreamShape(padHand({{1, 2}, {1, 1}, {1, 2}}))};

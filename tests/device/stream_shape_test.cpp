@@ -108,6 +108,9 @@ TEST(StreamShape, ReadsADescription) {
   EXPECT_EQ(readStreamDescription("{}", shape).mismatch, "");
   EXPECT_EQ(readStreamDescription(R"({"matrices":[{"rows":3,"columns":2}]})", shape).mismatch,
             "matrix 0 of the sender has 3 x 2 places, that of the chosen hand 2 x 3");
+  EXPECT_EQ(readStreamDescription(R"({"matrices":[{"rows":2,"columns":3,"components":3}]})", shape)
+                .mismatch,
+            "matrix 0 of the sender has 3 components per taxel, that of the chosen hand 1");
   EXPECT_EQ(readStreamDescription(R"({"matrices":[]})", shape).mismatch,
             "the sender has 0 matrices, the chosen hand 1");
   EXPECT_THROW(readStreamDescription("[]", shape), Error);

@@ -59,11 +59,22 @@ struct SentLog {
 const std::vector<std::string> kOtherHands = {
     "parallel_gripper", "four_fingers", "flat_pad_16x16", "sole"};
 
-void recordAndCompareHand(const std::string& key, EmulatedStreamFormat format) {
-  SCOPED_TRACE(key);
+// A skin whose readings have three components and a sign.
+HandDescription skinHand() {
+  return parseHand(
+      R"({"format": "palpate-hand", "version": 1, "name": "skin", "full_scale": 1000,
+          "components": 3, "signed": true, "touch_threshold": 20,
+          "matrices": [{"name": "left", "rows": 4, "columns": 3, "pitch_mm": 4.0},
+                       {"name": "right", "rows": 2, "columns": 2, "pitch_mm": 4.0,
+                        "picture": {"column": 1, "row": 0}}]})",
+      "",
+      "hand.json");
+}
+
+void recordAndCompareHand(const HandDescription& hand, EmulatedStreamFormat format) {
+  SCOPED_TRACE(hand.name);
   constexpr std::size_t kFrames = 150;
   constexpr double kRateHz = 40.0;  // 3.75 s of the hand
-  const HandDescription& hand = builtInHand(key);
   const TemporaryFolder folder;
   SentLog log;
   EmulatedStreamOptions options;
@@ -100,7 +111,7 @@ void recordAndCompareHand(const std::string& key, EmulatedStreamFormat format) {
   for (std::size_t n = 0; n < kFrames; ++n) {
     EXPECT_EQ(log.numbers[n], n);
     const TactileFrame frame = profile.frame(n);
-    ASSERT_EQ(frame.values, log.values[n]) << "frame " << n;
+    ASSERT_EQ(frame.stored(), log.values[n]) << "frame " << n;
     EXPECT_EQ(frame.deviceUs, std::llround(1e6 * static_cast<double>(n) / kRateHz));
     for (const float value : frame.values) active += value > 0.0F ? 1 : 0;
   }
@@ -120,16 +131,65 @@ void recordAndCompareHand(const std::string& key, EmulatedStreamFormat format) {
 
 TEST(EmulatedStream, EveryValueOfEveryOtherHandIsRecordedFromPackets) {
   for (const std::string& key : kOtherHands)
-    recordAndCompareHand(key, EmulatedStreamFormat::kBinary);
+    recordAndCompareHand(builtInHand(key), EmulatedStreamFormat::kBinary);
 }
 
 TEST(EmulatedStream, EveryValueOfEveryOtherHandIsRecordedFromLines) {
   for (const std::string& key : kOtherHands)
-    recordAndCompareHand(key, EmulatedStreamFormat::kLines);
+    recordAndCompareHand(builtInHand(key), EmulatedStreamFormat::kLines);
 }
 
 TEST(EmulatedStream, EveryValueOfEveryOtherHandIsRecordedFromJson) {
-  for (const std::string& key : kOtherHands) recordAndCompareHand(key, EmulatedStreamFormat::kJson);
+  for (const std::string& key : kOtherHands)
+    recordAndCompareHand(builtInHand(key), EmulatedStreamFormat::kJson);
+}
+
+TEST(EmulatedStream, EveryReadingOfASkinWithThreeComponentsIsRecordedFromEachForm) {
+  for (const auto format :
+       {EmulatedStreamFormat::kBinary, EmulatedStreamFormat::kLines, EmulatedStreamFormat::kJson})
+    recordAndCompareHand(skinHand(), format);
+}
+
+TEST(EmulatedStream, ABaselineOfASkinAtRestIsThatOfItsSensor) {
+  const TemporaryFolder folder;
+  PhysicalHandOptions physical;
+  physical.hand = skinHand();
+  EmulatedStreamOptions options;
+  options.rateHz = 40.0;
+  options.asFastAsRead = true;
+  EmulatedStream stream(std::make_unique<PhysicalHand>(Scene(), physical), options);
+  const PhysicalHand same(Scene(), physical);
+  CaptureOptions capture;
+  capture.recorder.queue.blockWhenFull = true;
+  CaptureSession session(std::make_unique<StreamDevice>(receiverOf(stream, physical.hand)),
+                         capture);
+  session.start();
+  ASSERT_TRUE(awaited([&] { return session.health().frames.frames >= 20; }));
+  session.takeBaseline();
+  RecordingOptions recording;
+  recording.path = folder / "a.palpate";
+  recording.stopAfterFrames = 50;
+  recording.preTriggerS = 0.0;
+  session.startRecording(recording);
+  ASSERT_TRUE(awaited([&] { return !session.recording(); }));
+  session.stop();
+  session.stopRecording();
+  const Profile profile = openRecording(folder / "a.palpate");
+  ASSERT_EQ(profile.baselines().size(), 1u);
+  const Baseline taken = *profile.baselines().front().second;
+  const Baseline known = same.baseline();
+  ASSERT_EQ(taken.rest.size(), known.rest.size());
+  for (std::size_t i = 0; i < known.rest.size(); ++i)
+    EXPECT_NEAR(taken.rest[i], known.rest[i], 3.0F) << "the noise is 1 count";
+  // Over its baseline nothing is touched; without it the offsets would be.
+  std::size_t touched = 0, raw = 0;
+  const Profile without = profile.withBaselines({});
+  for (std::size_t n = 0; n < profile.numFrames(); ++n) {
+    for (const float value : profile.frame(n).values) touched += value > 0.0F ? 1 : 0;
+    for (const float value : without.frame(n).values) raw += value > 0.0F ? 1 : 0;
+  }
+  EXPECT_EQ(touched, 0u);
+  EXPECT_GT(raw, profile.numFrames());
 }
 
 TEST(EmulatedStream, AnglesAndTemperaturesArriveAsTheyAre) {

@@ -357,6 +357,54 @@ TEST(PhysicalHand, SlipInTaxelsIsTheMotionOfThePrint) {
   EXPECT_LT((centre - at - by).norm(), 0.4);
 }
 
+// A ball that is moved over a pad: the rubber is stretched for 0.3 mm, then the ball slides.
+TEST(PhysicalHand, ShearGrowsToTheFrictionAndFollowsTheMotion) {
+  const HandGeometry geometry(sdh2Geometry());
+  const HandPose pose = geometry.pose(sdh2Preshape("centrical").anglesDeg(0.0));
+  const auto pointMm = [&](double xMm, double yMm) {
+    return Eigen::Vector3d(pose.pointMm(0, 2.0 * 3.4 + xMm, 4.0 * 3.4 + yMm));
+  };
+  Scene scene;
+  SceneObject ball;
+  ball.shape = {ShapeKind::kSphere, Eigen::Vector3d::Constant(24.0)};
+  ball.fixed = true;
+  ball.massKg = 0.0;
+  ball.friction = 0.5;
+  ball.positionMm = pointMm(0.0, 0.0) + pose.normalAt(0, 2.0 * 3.4, 4.0 * 3.4) * 10.5;
+  scene.objects.push_back(ball);
+  scene.script.push_back({0.1, MoveObject{0, pointMm(0.15, 0.0) - pointMm(0.0, 0.0), 0.1}});
+  scene.script.push_back({1.0, MoveObject{0, pointMm(0.0, -4.0) - pointMm(0.0, 0.0), 1.0}});
+  PhysicalHand hand(scene);
+  const auto shearAt = [&](double timeS) {
+    scanAt(hand, timeS);
+    const MatrixTruth truth = hand.truth()[0];
+    EXPECT_GT(truth.forceN, 0.0);
+    return Eigen::Vector2d(truth.shearXN / truth.forceN, truth.shearYN / truth.forceN);
+  };
+  EXPECT_LT(shearAt(0.05).norm(), 1e-6);
+  const Eigen::Vector2d stretched = shearAt(0.5);  // by half of 0.3 mm
+  EXPECT_NEAR(stretched.x(), 0.25, 0.01);
+  EXPECT_NEAR(stretched.y(), 0.0, 0.01);
+  const Eigen::Vector2d sliding = shearAt(2.5);
+  EXPECT_NEAR(sliding.x(), 0.0, 0.01);
+  EXPECT_NEAR(sliding.y(), -0.5, 0.01);
+}
+
+TEST(PhysicalHand, ShearOfAHeldObjectCarriesItsLoadWithinTheFriction) {
+  const Scene scene = sceneOf("slipping_handle");
+  PhysicalHand hand(scene);
+  double largest = 0.0;
+  for (double timeS = 1.0; timeS < 15.0; timeS += 0.5) {
+    scanAt(hand, timeS);
+    for (const MatrixTruth& truth : hand.truth()) {
+      const double shear = std::hypot(truth.shearXN, truth.shearYN);
+      EXPECT_LE(shear, scene.objects[0].friction * truth.forceN + 1e-9) << timeS;
+      largest = std::max(largest, shear);
+    }
+  }
+  EXPECT_GT(largest, 1.0) << "it is pulled with 18 N";
+}
+
 TEST(PhysicalHand, SettingsOfTheScriptReachTheSensor) {
   Scene scene;
   scene.script = {{1.0, SetSceneThreshold{std::nullopt, 0}},

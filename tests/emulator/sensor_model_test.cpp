@@ -1,6 +1,7 @@
 #include "palpate/emulator/sensor_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -407,6 +408,58 @@ TEST(SensorModelMeasure, ValuesAreInTheUnitAndScaleOfTheHand) {
   newtons.measure(degC, 30.0, values);
   EXPECT_NEAR(values[1], 79.9F, 0.06F);
   EXPECT_THROW(newtons.measure(degC, 30.0, std::span(values).subspan(1)), std::invalid_argument);
+}
+
+// A pad whose readings have three components and a sign, over an offset of their own.
+TEST(SensorModelMeasure, ReadingsHaveABaselineAndShear) {
+  HandDescription hand = padOf(1000.0F, "counts");
+  MatrixLayout matrix = MatrixLayout::full(1, 2, 2.0);
+  matrix.touch = {.components = 3, .isSigned = true};
+  hand.layout = std::make_shared<const SensorLayout>(std::vector{matrix});
+  SensorModel model(hand, linearSensor(1000.0), 1);
+  const std::vector<double> degC = {30.0};
+  const Baseline rest = model.baseline(degC);
+  ASSERT_EQ(rest.rest.size(), 6u);
+  for (const float reading : rest.rest) EXPECT_LE(std::abs(reading - 5.0F), 20.0F);
+  EXPECT_NE(rest.rest[0], rest.rest[3]) << "each has its own";
+  EXPECT_EQ(rest.noise, std::vector<float>(6, 0.0F));
+  std::vector<float> values(6);
+  const std::vector<std::array<double, 2>> shear = {{0.5, -0.25}};
+  model.measure(degC, 30.0, values, shear);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(values[i], rest.rest[i], 0.51F) << i;
+  // 2 per kPa less the dead zone of 0.05 kPa.
+  model.advance(std::vector<double>{50.0, 0.0}, 10.0);
+  model.measure(degC, 30.0, values, shear);
+  const float signal[] = {49.95F, -24.975F, 99.9F, 0.0F, 0.0F, 0.0F};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(values[i] - rest.rest[i], signal[i], 0.51F) << i;
+  // Both ends of the scale.
+  model.advance(std::vector<double>{1e6, 0.0}, 10.0);
+  model.measure(degC, 30.0, values, std::vector<std::array<double, 2>>{{-1.0, 0.0}});
+  EXPECT_EQ(values[0], -1000.0F);
+  EXPECT_EQ(values[2], 1000.0F);
+  model.settings()[0].dynamicMask[0] = 0;
+  model.measure(degC, 30.0, values);
+  EXPECT_EQ(values[2], 0.0F) << "not scanned";
+  EXPECT_THROW(model.measure(degC, 30.0, std::span(values).subspan(3)), std::invalid_argument);
+  EXPECT_THROW(model.baseline({}), std::invalid_argument);
+  // Without a sign nothing is below 0.
+  matrix.touch = {.components = 1, .isSigned = false, .threshold = 2.0F};
+  hand.layout = std::make_shared<const SensorLayout>(std::vector{matrix});
+  SensorCharacteristics noisy = linearSensor(1000.0);
+  noisy.matrices[0].restIntercept = 0.0;
+  noisy.matrices[0].taxelSd = 30.0;
+  SensorModel above(hand, noisy, 1);
+  EXPECT_EQ(above.baseline(degC).noise, std::vector<float>(2, 30.0F));
+  std::vector<float> two(2);
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    above.measure(degC, 30.0, two);
+    EXPECT_GE(two[0], 0.0F);
+    const auto value = static_cast<double>(two[0]);
+    sum += value;
+    squares += value * value;
+  }
+  EXPECT_GT(std::sqrt(squares / 500 - sum * sum / 250'000), 10.0) << "noise";
 }
 
 TEST(SensorModelMeasure, EqualOrNoTimeConstantsAreTheLimitOfUnequalOnes) {

@@ -146,6 +146,28 @@ TEST(SimulatedRecording, IsOneOfAnyHand) {
   EXPECT_LE(*std::max_element(frame.values.begin(), frame.values.end()), 600.0F);
 }
 
+TEST(SimulatedRecording, ASkinWithThreeComponentsHasReadingsOverItsBaseline) {
+  SimulatedRecordingOptions options;
+  options.durationS = 3.0;
+  options.hand.hand = parseHand(
+      R"({"format": "palpate-hand", "version": 1, "name": "skin", "full_scale": 1000,
+          "components": 3, "signed": true, "touch_threshold": 20,
+          "matrices": [{"name": "pad", "rows": 6, "columns": 6, "pitch_mm": 4.0}]})",
+      "",
+      "hand.json");
+  const Profile profile = simulateGrasps(defaultScene(options.hand.hand), 2, {}, options);
+  ASSERT_TRUE(profile.givesReadings());
+  ASSERT_EQ(profile.baselines().size(), 2u) << "each run has sensors of its own";
+  EXPECT_NE(*profile.baselines()[0].second, *profile.baselines()[1].second);
+  const TactileFrame rest = profile.frame(0);
+  EXPECT_EQ(rest.readings.size(), 108u);
+  EXPECT_EQ(*std::max_element(rest.values.begin(), rest.values.end()), 0.0F);
+  float largest = 0.0F;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i)
+    for (const float value : profile.frame(i).values) largest = std::max(largest, value);
+  EXPECT_GT(largest, 200.0F) << "the object presses";
+}
+
 TEST(SimulatedRecording, WrongQuestionsAreRefused) {
   SimulatedRecordingOptions options;
   options.durationS = 0.0;

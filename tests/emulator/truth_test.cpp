@@ -20,6 +20,20 @@ TEST(Truth, OneRowPerMatrixAndFrame) {
             "1417084265123,1,1,2.5,1,-2,140.25,0.5,-0.25,3\n");
 }
 
+TEST(Truth, HandsWithThreeComponentsHaveTheShear) {
+  const TemporaryFolder folder;
+  TruthWriter writer(folder / "truth.csv", Overwrite::kRefuse, true);
+  std::vector<MatrixTruth> truth(2);
+  truth[1] = {true, 2.5, 1.0, -2.0, 140.25, 0.5, -0.25, 3.0, 0.75, -0.5};
+  writer.add(1'417'084'265'123'456, truth);
+  writer.finish();
+  EXPECT_EQ(readFile(folder / "truth.csv"),
+            "time_ms,matrix,contact,force_n,x_mm,y_mm,z_mm,slip_x_taxels,slip_y_taxels,turn_deg,"
+            "shear_x_n,shear_y_n\n"
+            "1417084265123,0,0,,,,,,,,,\n"
+            "1417084265123,1,1,2.5,1,-2,140.25,0.5,-0.25,3,0.75,-0.5\n");
+}
+
 TEST(Truth, AFileIsNotReplacedUnasked) {
   const TemporaryFolder folder;
   writeFile(folder / "truth.csv", "mine");

@@ -39,11 +39,13 @@ void emulate(const HandDescription& hand) {
   PhysicalHandOptions options;
   options.hand = hand;
   PhysicalHand model(defaultScene(hand), options);
-  std::vector<float> values(hand.layout->numCells());
+  std::vector<float> values(hand.layout->numReadings());
   for (const double timeS : {0.1, 1.2, 1.5}) {
     model.advanceTo(timeS);
     model.measure(values);
-    for (const float value : values) requireOfHand(value >= 0.0F && value <= hand.maximumCounts);
+    for (const float value : values)
+      requireOfHand(value >= (hand.layout->decidesTouch() ? -hand.maximumCounts : 0.0F) &&
+                    value <= hand.maximumCounts);
   }
 }
 

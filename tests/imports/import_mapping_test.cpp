@@ -17,6 +17,7 @@ ImportMapping wholeMapping() {
                       {std::nullopt, "#86..#169", {}, true}};
   mapping.angles = {"joint*", {1.0, 0.0, "rad"}, "joint_time"};
   mapping.temperatures.columns = kNoColumns;
+  mapping.components = ComponentOrder::kPlanar;
   return mapping;
 }
 
@@ -40,8 +41,9 @@ TEST(ImportMapping, TheExampleOfTheHeaderIsOne) {
           "matrices": [{"matrix": 0, "columns": "left[{y}][{x}]", "scale": 0.1, "offset": -2, "unit": "kPa"},
                        {"matrix": 1, "columns": "#86..#169", "order": "columns"}],
           "angles": {"columns": "joint*", "unit": "rad", "time": "joint_time"},
-          "temperatures": {"columns": "none"}})",
+          "temperatures": {"columns": "none"}, "components": "planar"})",
       "m.json");
+  EXPECT_EQ(mapping.components, ComponentOrder::kPlanar);
   EXPECT_EQ(mapping.text.delimiter, ';');
   ASSERT_EQ(mapping.matrices.size(), 2u);
   EXPECT_EQ(mapping.matrices[0].values.scale, 0.1);
@@ -72,6 +74,7 @@ TEST(ImportMapping, RefusesWhatMakesNoSenseWithItsPlace) {
       {R"("matrices": [{"columns": "a", "order": "x"}])", "matrices[0].order"},
       {R"("matrices": [{"columns": 3}])", "matrices[0].columns is not a text"},
       {R"("text": {"decimal": ";"})", "text.decimal"},
+      {R"("components": "xyz")", "components is not interleaved or planar"},
       {R"("text": {"delimiter": "|"})", "text.delimiter"},
       {R"("text": {"header": "yes"})", "text.header"}};
   for (const auto& [rest, words] : cases) {

@@ -278,7 +278,7 @@ with h5py.File(folder + 'foreign.h5', 'w') as f: f['x'] = [1, 2, 3]
 shutil.copy(folder + 'a.h5', folder + 'touched.h5')
 with h5py.File(folder + 'touched.h5', 'r+') as f: f['tactile'].attrs['note'] = 'mine'
 with changed('restamped.h5') as f: f['tactile'].attrs['note'] = 'mine'
-with changed('newer.h5') as f: f.attrs['format_version'] = 4
+with changed('newer.h5') as f: f.attrs['format_version'] = 5
 with changed('no_joints.h5') as f: del f['joints']
 with changed('no_mask.h5') as f: del f['tactile/m1_static_mask']
 with changed('shorter.h5') as f: f['tactile/m1'].resize(1400, axis=0)

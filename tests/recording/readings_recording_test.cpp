@@ -1,4 +1,9 @@
 // Recordings of sensors whose readings have a sign, three components, or noise at rest.
+#include <random>
+
+#include <sqlite3.h>
+
+#include "palpate/core/error.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/model/touch.h"
@@ -6,8 +11,10 @@
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/recording_losses.h"
 #include "palpate/recording/second_summary.h"
 
+#include "imports/import_samples.h"
 #include "recording/palpate_damage.h"
 #include "testing/testing.h"
 
@@ -130,6 +137,163 @@ TEST(ReadingsRecording, OtherFormsHoldWhatIsSeen) {
     EXPECT_EQ(read.profile.frame(i).values, profile.frame(i).values) << i;
     EXPECT_EQ(read.profile.frame(i).allValues(), profile.frame(i).allValues()) << i;
   }
+}
+
+void execute(const std::filesystem::path& path, const std::string& sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+      << sqlite3_errmsg(db);
+  sqlite3_close(db);
+}
+
+// Every frame that is recovered has the readings that were recorded; returns how many there are.
+std::size_t soundFrames(const std::filesystem::path& path) {
+  PalpateRecovery recovery;
+  try {
+    recovery = recoverPalpateProfile(path);
+  } catch (const Error&) {
+    return 0;
+  }
+  if (!recovery.profile) return 0;
+  for (std::size_t i = 0; i < recovery.profile->numFrames(); ++i) {
+    const TactileFrame frame = recovery.profile->frame(i);
+    EXPECT_EQ(frame.readings, readingsOf(static_cast<int>((frame.hostUs - 1'000) / 10)));
+  }
+  return recovery.profile->numFrames();
+}
+
+TEST(ReadingsRecording, AnHdf5FileGivesTheReadingsBack) {
+  const TemporaryFolder folder;
+  const std::vector<Event> events = rest();
+  const Profile profile = recorded().withBaselines(baselinesOf(events, *skin().layout));
+  EXPECT_FALSE(profile.hasCounts()) << "the values are differences";
+  saveRecording(profile, events, folder / "a.h5");
+  EXPECT_EQ(leftOutText(profile, folder / "a.h5"), "");
+  const Recording read = readRecording(folder / "a.h5");
+  ASSERT_TRUE(read.profile.givesReadings());
+  EXPECT_EQ(read.profile.layout(), profile.layout());
+  ASSERT_EQ(read.profile.baselines().size(), 2u);
+  ASSERT_EQ(read.profile.numFrames(), 40u);
+  for (std::size_t i = 0; i < 40; ++i) {
+    EXPECT_EQ(read.profile.frame(i).readings, readingsOf(static_cast<int>(i))) << i;
+    EXPECT_EQ(read.profile.frame(i).values, profile.frame(i).values) << i;
+  }
+  // And from there into a native recording.
+  saveRecording(read.profile, read.events, folder / "b.palpate");
+  EXPECT_EQ(openRecording(folder / "b.palpate").frame(30).readings, readingsOf(30));
+}
+
+TEST(ReadingsRecording, NumpyMatlabAndHdf5HaveAnArrayOfReadings) {
+  const TemporaryFolder folder;
+  const std::vector<Event> events = rest();
+  const Profile profile = recorded().withBaselines(baselinesOf(events, *skin().layout));
+  for (const char* name : {"a.npz", "a.mat", "a.h5"}) {
+    saveRecording(profile, events, folder / name);
+    EXPECT_EQ(leftOutText(profile, folder / name), "") << name;
+  }
+  runPython(folder, R"(
+import json, sys, h5py, numpy as np, scipy.io
+folder = sys.argv[1] + '/'
+def expected(i):
+  row = np.full(15, 0.25)
+  row[0:3] = [0, 0, -i]
+  row[14] = 100 + i
+  return row[:12].reshape(2, 2, 3), row[12:].reshape(1, 3, 1)
+n = np.load(folder + 'a.npz')
+m = scipy.io.loadmat(folder + 'a.mat', simplify_cells=True)['tactile']
+h = h5py.File(folder + 'a.h5')
+assert h.attrs['format_version'] == 4
+rules = json.loads(str(n['meta']))['touch_rules']
+assert [r['components'] for r in rules] == [3, 1] and [r['signed'] for r in rules] == [True, False]
+assert json.loads(m['touch_rules']) == rules == json.loads(h['tactile'].attrs['touch_rules'])
+for i in range(40):
+  a, b = expected(i)
+  for f in (n['m0_readings'][i], h['tactile/m0_readings'][i]): assert np.array_equal(f, a), i
+  for f in (n['m1_readings'][i], h['tactile/m1_readings'][i]): assert np.array_equal(f, b), i
+  # MATLAB's axes are reversed: component x column x row x frame.
+  assert np.array_equal(m['m0_readings'][..., i].T, a), i
+assert [e['kind'] for e in json.loads(str(n['meta']))['events']] == ['baseline', 'baseline']
+)");
+}
+
+TEST(ReadingsRecording, CsvHasTheDifferencesOfEachComponent) {
+  const TemporaryFolder folder;
+  Baseline baseline{std::vector<float>(15), {}};
+  baseline.rest[0] = -2.0F;
+  baseline.rest[14] = 100.0F;
+  const Profile profile =
+      recorded().withBaselines({{0, std::make_shared<const Baseline>(baseline)}});
+  saveRecording(profile, {}, folder / "a.csv");
+  EXPECT_NE(leftOutText(profile, folder / "a.csv").find("no place for the readings"),
+            std::string::npos);
+  const std::string text = readFile(folder / "a.csv");
+  EXPECT_EQ(text.find("frame,time_ms,matrix,y,x,value,time_us,dx,dy,dz\n"), 0u) << text;
+  EXPECT_NE(text.find("\n7,1,0,0,0,7,1070,2,0,-7\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n7,1,1,0,2,7,1070,,,7\n"), std::string::npos) << text;
+}
+
+// A file whose layout and rules are those of three components, but whose frames have two numbers
+// per taxel.
+TEST(ReadingsRecording, FramesThatDontFitTheRulesAreNotShown) {
+  const TemporaryFolder folder;
+  const auto handOf = [](const std::string& matrix) {
+    return parseHand(R"({"format": "palpate-hand", "version": 1, "name": "skin", "signed": true,
+        "full_scale": 1000, "matrices": [{"name": "a", "rows": 1, "pitch_mm": 4, )" +
+                         matrix + "}]}",
+                     "",
+                     "hand.json");
+  };
+  ProfileBuilder flat(handOf(R"("columns": 4)"));
+  for (int i = 0; i < 40; ++i) flat.addReadings(1'000 + 10 * i, std::vector<float>(4, 1.0F));
+  saveRecording(flat.finish({}), {}, folder / "a.palpate");
+  ProfileBuilder skin(handOf(R"("columns": 2, "components": 3)"));
+  skin.addReadings(1'000, std::vector<float>(6, 1.0F));
+  saveRecording(skin.finish({}), {}, folder / "b.palpate");
+  execute(folder / "a.palpate",
+          "ATTACH '" + (folder / "b.palpate").string() +
+              "' AS b; DELETE FROM matrix; INSERT INTO matrix SELECT * FROM b.matrix;"
+              "DELETE FROM meta WHERE key IN ('touch_rules', 'hand_json');"
+              "INSERT INTO meta SELECT * FROM b.meta WHERE key IN ('touch_rules', 'hand_json')");
+  EXPECT_THROW(openRecording(folder / "a.palpate").frame(0), Error);
+  EXPECT_NE(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
+  EXPECT_EQ(soundFrames(folder / "a.palpate"), 0u);
+}
+
+TEST(ReadingsRecording, DamagedRulesAreRefusedAndRecoveredFromTheHand) {
+  const TemporaryFolder folder;
+  saveRecording(recorded(), rest(), folder / "a.palpate");
+  execute(folder / "a.palpate",
+          "UPDATE meta SET value=replace(value, 'true', 'null') WHERE key='touch_rules'");
+  std::string error;
+  try {
+    openRecording(folder / "a.palpate");
+  } catch (const FormatError& refused) {
+    error = refused.what();
+  }
+  EXPECT_NE(error.find("touch_rules"), std::string::npos) << error;
+  EXPECT_NE(error.find("palpate recover"), std::string::npos) << error;
+  EXPECT_EQ(soundFrames(folder / "a.palpate"), 40u);
+}
+
+TEST(ReadingsRecording, OfACutOrFlippedFileOnlySoundReadingsComeBack) {
+  const TemporaryFolder folder;
+  saveRecording(recorded(), rest(), folder / "a.palpate");
+  const std::string whole = readFile(folder / "a.palpate");
+  for (std::size_t tenth = 1; tenth < 10; ++tenth) {
+    writeFile(folder / "b.palpate", whole.substr(0, whole.size() * tenth / 10));
+    EXPECT_LE(soundFrames(folder / "b.palpate"), 40u) << tenth;
+  }
+  std::mt19937 random(5);
+  std::size_t most = 0;
+  for (int i = 0; i < 100; ++i) {
+    std::string flipped = whole;
+    const std::size_t at = random() % whole.size();
+    flipped[at] = static_cast<char>(flipped[at] ^ (1 << random() % 8));
+    writeFile(folder / "b.palpate", flipped);
+    most = std::max(most, soundFrames(folder / "b.palpate"));
+  }
+  EXPECT_EQ(most, 40u);
 }
 
 }  // namespace

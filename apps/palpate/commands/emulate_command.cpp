@@ -192,11 +192,11 @@ void printReady(const std::string& line) {
 }
 
 // The file of --truth; null without the option.
-std::unique_ptr<TruthWriter> truthOf(const CommandLine& given) {
+std::unique_ptr<TruthWriter> truthOf(const CommandLine& given, bool hasShear = false) {
   const auto path = given.text("truth");
   if (!path) return nullptr;
   return std::make_unique<TruthWriter>(
-      *path, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
+      *path, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse, hasShear);
 }
 
 void emulatePorts(const CommandLine& given, Interruption& interruption) {
@@ -225,7 +225,9 @@ void emulateStream(const CommandLine& given, Interruption& interruption) {
       throw UsageError("--stream and --" + std::string(other) + " can't be used together");
   const EmulatedStreamOptions options = streamedOptionsOf(given);
   std::unique_ptr<PhysicalHand> model = streamedHandOf(given, options.seed);
-  const std::unique_ptr<TruthWriter> truth = truthOf(given);
+  const SensorLayout& layout = *model->hand().layout;
+  const std::unique_ptr<TruthWriter> truth =
+      truthOf(given, layout.numReadings() != layout.numCells());
   EmulatedStreamObserver observer;
   if (truth)
     observer = [&truth](const EmulatedStreamFrame& frame) {

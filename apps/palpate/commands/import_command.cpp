@@ -82,6 +82,9 @@ ImportMapping importMappingOf(const CommandLine& given) {
     matrix.values.unit = given.text("unit").value_or(matrix.values.unit);
     if (matrix.values.scale == 0.0) throw UsageError("--scale 0 would make every value the same");
   }
+  if (const auto order = given.choice("components", {"interleaved", "planar"}))
+    mapping.components =
+        *order == "planar" ? ComponentOrder::kPlanar : ComponentOrder::kInterleaved;
   if (const auto angles = given.text("angles")) mapping.angles.columns = *angles;
   if (const auto unit = given.text("angle-unit")) mapping.angles.values.unit = *unit;
   if (const auto temperatures = given.text("temperatures"))
@@ -262,6 +265,10 @@ int importCommand(const Arguments& words) {
             {"matrix",
              "[M=]COLUMNS",
              "the columns of matrix M (number or name), or of all matrices; may be repeated"},
+            {"components",
+             "ORDER",
+             "of taxels with three components: interleaved (x, y, z of each taxel) or planar (all "
+             "x, then all y, then all z); default: by the names"},
             {"scale", "X", "of the matrices: value = number * X + offset"},
             {"offset", "X", "see --scale"},
             {"unit", "UNIT", "of the matrices, after scale and offset (kPa, Pa, N, ..)"},

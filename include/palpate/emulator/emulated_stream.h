@@ -45,7 +45,7 @@ struct EmulatedStreamFrame {
   std::uint64_t number = 0;
   double timeS = 0.0;             // of the hand
   std::int64_t hostUs = 0;        // host time [us since 1970]
-  std::span<const float> values;  // [unit of the hand]
+  std::span<const float> values;  // readings [unit of the hand]
   const PhysicalHand& model;      // its truth() belongs to this frame
 };
 using EmulatedStreamObserver = std::function<void(const EmulatedStreamFrame&)>;

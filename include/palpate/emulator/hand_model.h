@@ -35,6 +35,9 @@ struct MatrixTruth {
   double slipYTaxels = 0.0;
   // Rotation of the object about the normal since contact began [deg].
   double turnDeg = 0.0;
+  // Force of the object along the surface [N], x right, y down.
+  double shearXN = 0.0;
+  double shearYN = 0.0;
 };
 
 // Not thread-safe: EmulatedHand uses it only in its own thread.

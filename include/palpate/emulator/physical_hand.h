@@ -10,6 +10,7 @@
 #include <palpate/emulator/hand_model.h>
 #include <palpate/emulator/scene.h>
 #include <palpate/model/hand_file.h>
+#include <palpate/model/touch.h>
 
 namespace palpate {
 
@@ -53,8 +54,15 @@ class PhysicalHand final : public HandModel {
   std::vector<MatrixSetting>& settings() override;
   void scan(std::span<std::uint16_t> counts) override;
   // Fills `values` with what the hand's sender streams now, see SensorModel::measure(). The truth
-  // is that of this moment then. Size: numCells(). Draws other noise than scan().
+  // is that of this moment then. Size: numReadings(). Draws other noise than scan().
+  //
+  // Shear: where an object moves over a matrix, it stretches the rubber, whose force grows to
+  // friction times normal force within 0.3 mm and stays there. Weight and load of a held object
+  // are shared among its contacts by their normal forces. Together they don't exceed the friction.
   void measure(std::span<float> values);
+  // What measure() gives of matrices that decide touch when nothing presses, see
+  // SensorModel::baseline().
+  Baseline baseline() const;
   std::vector<double> temperatures() override;
   std::vector<MatrixTruth> truth() const override;
   // By the script of the scene.

@@ -3,6 +3,7 @@
 // threshold; saturation; 12-bit quantisation; masks. PhysicalHand uses it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <random>
 #include <span>
@@ -11,6 +12,7 @@
 #include <palpate/emulator/hand_model.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/sensor_characteristics.h>
+#include <palpate/model/touch.h>
 
 namespace palpate {
 
@@ -41,7 +43,21 @@ class SensorModel {
   // or of 1/4096 of the full scale in another unit. Where a matrix has no threshold, the largest
   // value of the unloaded matrix (noise line plus three times its RMSE) is subtracted, as a sender
   // of a stream does. Throws as scan().
-  void measure(std::span<const double> degC, double handDegC, std::span<float> values);
+  //
+  // A matrix that decides touch (TouchRule::decides) sends its readings instead, with nothing
+  // subtracted: baseline() and noise, and the pressure on z. x and y of a taxel with three
+  // components are `shear` of its matrix times its z. Readings with a sign go down to minus full
+  // scale. Size of `values`: numReadings().
+  // shear: per matrix, the tangential force along columns and rows as parts of the normal force;
+  // empty: none.
+  void measure(std::span<const double> degC,
+               double handDegC,
+               std::span<float> values,
+               std::span<const std::array<double, 2>> shear = {});
+  // The readings at rest of matrices that decide touch, without noise, and its standard deviation;
+  // 0 of others. Each reading has an offset of its own, by the seed: up to 2 % of full scale in
+  // either direction, or 0 to 4 % without a sign, above the rest line of the characteristics.
+  Baseline baseline(std::span<const double> degC) const;
 
  private:
   // Calls `store` with each place and its value above the threshold, before it is rounded; 0 where
@@ -53,6 +69,12 @@ class SensorModel {
                   const Threshold& thresholdOf,
                   const Store& store);
 
+  void measureReadings(std::size_t m,
+                       const Baseline& rest,
+                       double handDegC,
+                       std::span<float> values,
+                       std::span<const std::array<double, 2>> shear);
+
   const SensorLayout layout_;
   const SensorCharacteristics characteristics_;
   std::vector<double> fullScales_;  // per matrix [unit of the hand]
@@ -60,6 +82,7 @@ class SensorModel {
   std::vector<MatrixSetting> settings_;
   std::vector<double> first_, lagged_, creep_;  // per place [kPa]
   bool atRest_ = true;
+  std::vector<double> offsets_;  // per reading, at rest
   // Per place, a pointer into characteristics_; nullptr for an ordinary taxel.
   std::vector<const OffsetTaxel*> raised_;
   std::mt19937_64 random_;

@@ -8,7 +8,7 @@
 //    "unit": "kPa"},
 //                 {"matrix": 1, "columns": "#86..#169", "order": "columns"}],
 //    "angles": {"columns": "joint*", "unit": "rad", "time": "joint_time"},
-//    "temperatures": {"columns": "none"}}
+//    "temperatures": {"columns": "none"}, "components": "planar"}
 //
 // Columns are chosen by:
 //   NAME                     one column, by its whole name; of HDF5 the path of the data set
@@ -74,9 +74,17 @@ struct SampleMapping {
   bool operator==(const SampleMapping&) const = default;
 };
 
+// How the numbers of taxels with three components follow each other.
+enum class ComponentOrder {
+  kFound,        // by the letters x, y, z of the names or the axes of an array, else interleaved
+  kInterleaved,  // x, y, z of the first taxel, then of the next one
+  kPlanar        // of each matrix x of all taxels, then y, then z
+};
+
 struct ImportMapping {
   TableOptions text;
   TimeMapping time;
+  ComponentOrder components = ComponentOrder::kFound;
   std::vector<MatrixMapping> matrices;  // empty: found by name and shape
   SampleMapping angles;
   SampleMapping temperatures;

@@ -47,9 +47,11 @@ struct RefusedRows {
 // Values of taxels that are imported though the hand has no such values. NaN is taken as 0.
 struct OutsideValues {
   std::uint64_t above = 0;  // the full scale of the matrix
-  std::uint64_t below = 0;  // 0
+  std::uint64_t below = 0;  // 0, or minus full scale
   std::uint64_t notANumber = 0;
   std::string first;  // the first one: "line 3, pad, row 0, column 1: 1200"
+  // Readings of the hand may be below 0; `below` counts those below minus full scale.
+  bool isSigned = false;
 
   std::uint64_t total() const noexcept { return above + below + notANumber; }
   // "3 values outside of the hand's range: 1 above full scale, 2 below 0"; empty when there is

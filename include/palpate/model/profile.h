@@ -97,6 +97,8 @@ class Profile {
   const SensorLayout& layout() const noexcept { return *data_->hand.layout; }
   // Whether frames have readings (TactileFrame::readings).
   bool givesReadings() const { return data_->storage->givesReadings(); }
+  // Whether all `values` are whole counts: not of readings, whose values are differences.
+  bool hasCounts() const { return data_->info.valueType == ValueType::kCounts && !givesReadings(); }
   const Baselines& baselines() const noexcept { return data_->baselines; }
   // The same recording seen over other baselines.
   Profile withBaselines(Baselines baselines) const;

@@ -23,10 +23,11 @@
 
 namespace palpate {
 
-// The newest version of the layout that is read. Only recordings with further series, or with
-// taxels that aren't square (`pitch_y_mm`), are written in it; those with filtered frames have
-// version 2, for `mN_kept`, and all others version 1, so that earlier programs read them.
-constexpr int kHdf5LayoutVersion = 3;
+// The newest version of the layout that is read. Only recordings with readings are written in it,
+// for `mN_readings`; those with further series, or with taxels that aren't square (`pitch_y_mm`),
+// have version 3, with filtered frames version 2, for `mN_kept`, and all others version 1, so that
+// earlier programs read them.
+constexpr int kHdf5LayoutVersion = 4;
 
 // The first bytes of what writeHdf5() writes, and of HDF5 files without a user block.
 constexpr std::string_view kHdf5RecordingStart = "Palpate recording in HDF5\n";

@@ -48,6 +48,7 @@ constinit const RecordingFormat kNpzFormat{.name = "npz",
                                            .endings = kNpzEndings,
                                            .isExport = true,
                                            .holdsFurther = true,
+                                           .holdsReadings = true,
                                            .save = &saveNpz};
 constinit const RecordingFormat kJsonLinesFormat{.name = "jsonl",
                                                  .purpose = "JSON lines, schunk_sdh/TactileSensor",
@@ -60,6 +61,7 @@ constinit const RecordingFormat kMatFormat{.name = "mat",
                                            .isExport = true,
                                            .takesSeries = true,
                                            .holdsFurther = true,
+                                           .holdsReadings = true,
                                            .save = &saveMat};
 
 }  // namespace palpate

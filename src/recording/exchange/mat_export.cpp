@@ -30,7 +30,7 @@ class MatExport {
 
   MatValue tactile() {
     const SensorLayout& layout = profile_.layout();
-    const bool counts = profile_.info().valueType == ValueType::kCounts;
+    const bool counts = profile_.hasCounts();
     Fields fields;
     for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
       const std::string name = "m" + std::to_string(m);
@@ -47,12 +47,23 @@ class MatExport {
               writeActive(m, sink);
             }));
       const MatrixLayout& matrix = layout.matrix(m);
+      if (profile_.givesReadings()) {
+        std::vector<std::uint64_t> shape = shapeOf(m);
+        shape.insert(shape.begin(), static_cast<std::uint64_t>(matrix.touch.components));
+        fields.emplace_back(
+            name + "_readings",
+            MatValue::numbers(MatNumber::kF32, std::move(shape), [this, m](const MatSink& sink) {
+              writeReadings(m, sink);
+            }));
+      }
       fields.emplace_back(name + "_static_mask", maskOf(matrix, matrix.staticMask));
       fields.emplace_back(name + "_dynamic_mask", maskOf(matrix, matrix.dynamicMask));
       fields.emplace_back(name + "_name", MatValue::text(profile_.hand().matrixName(m)));
       fields.emplace_back(name + "_y", positions(matrix.rows, matrix.pitchMm.y));
       fields.emplace_back(name + "_x", positions(matrix.columns, matrix.pitchMm.x));
     }
+    if (profile_.givesReadings())
+      fields.emplace_back(kTouchRulesKey, MatValue::text(touchRulesText(layout)));
     fields.emplace_back("units", MatValue::text(profile_.hand().unit));
     fields.emplace_back("time_us", stampsOf(profile_.numFrames(), [this](std::size_t i) {
                           return profile_.frameTimeUs(i);
@@ -184,6 +195,14 @@ class MatExport {
       const std::size_t begin = profile_.layout().offset(m);
       for (std::size_t k = 0; k < cells; ++k) active[k] = isActive(frame, begin + k);
       sink(matBytesOf(active));
+    });
+  }
+
+  void writeReadings(std::size_t m, const MatSink& sink) {
+    forEachFrame([&](const TactileFrame& frame) {
+      const float* readings = frame.readings.data() + profile_.layout().readingOffset(m);
+      sink({reinterpret_cast<const char*>(readings),
+            profile_.layout().matrix(m).numReadings() * sizeof(float)});
     });
   }
 

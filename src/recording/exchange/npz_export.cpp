@@ -265,7 +265,9 @@ void requireOwnNames(const Profile& profile, const fs::path& path) {
                               "static_mask",
                               "meta"};
   for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
-    taken.insert({"m" + std::to_string(m), "m" + std::to_string(m) + "_active"});
+    taken.insert({"m" + std::to_string(m),
+                  "m" + std::to_string(m) + "_active",
+                  "m" + std::to_string(m) + "_readings"});
   for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
     for (const char* ending : {"", "_time_us", "_device_time_us"})
       if (const std::string& name = profile.series()[i].name; !taken.insert(name + ending).second)
@@ -284,7 +286,7 @@ std::vector<std::size_t> shapeOf(const Profile& profile, std::size_t m) {
 // True: a frame was filtered, so that its values don't say by themselves which taxels are active.
 bool writeMatrix(ZipWriter& zip, const Profile& profile, std::size_t m, const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 1024;
-  const bool counts = profile.info().valueType == ValueType::kCounts;
+  const bool counts = profile.hasCounts();
   NpyArray array(
       zip, "m" + std::to_string(m), counts ? "<u2" : "<f4", counts ? 2 : 4, shapeOf(profile, m));
   TactileFrame frame;
@@ -321,6 +323,21 @@ void writeActive(ZipWriter& zip, const Profile& profile, std::size_t m) {
   array.end();
 }
 
+// What the sensor sent: the shape of the matrix, and its components.
+void writeReadings(ZipWriter& zip, const Profile& profile, std::size_t m) {
+  const MatrixLayout& layout = profile.layout().matrix(m);
+  std::vector<std::size_t> shape = shapeOf(profile, m);
+  shape.push_back(static_cast<std::size_t>(layout.touch.components));
+  NpyArray array(zip, "m" + std::to_string(m) + "_readings", "<f4", 4, shape);
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    profile.readFrame(i, frame);
+    const std::size_t begin = profile.layout().readingOffset(m);
+    for (std::size_t k = 0; k < layout.numReadings(); ++k) array.f32(frame.readings[begin + k]);
+  }
+  array.end();
+}
+
 // A text as a NumPy array of no dimension: UTF-32 code points, so that no pickle is needed.
 void writeText(ZipWriter& zip, const std::string& name, const std::string& ascii) {
   NpyArray array(zip, name, "<U" + std::to_string(ascii.size()), 4 * ascii.size(), {});
@@ -340,9 +357,11 @@ std::string metaText(const Profile& profile, std::span<const Event> events) {
       .set("hand", profile.hand().name)
       .set("serial", profile.info().serial)
       .set("firmware", profile.info().firmware)
-      .set("value_type", profile.info().valueType == ValueType::kCounts ? "counts" : "float")
+      .set("value_type", profile.hasCounts() ? "counts" : "float")
       .set("pitch_mm", std::move(pitches))
       .set("events", eventsToJson(events));
+  if (profile.givesReadings())
+    meta.set(kTouchRulesKey, Json::parse(touchRulesText(profile.layout())));
   if (profile.series().size() > kHandSeries)
     meta.set(
         "series",
@@ -376,6 +395,8 @@ void writeNpz(const Profile& profile,
     filtered = writeMatrix(zip, profile, m, progress) || filtered;
   for (std::size_t m = 0; filtered && m < profile.layout().numMatrices(); ++m)
     writeActive(zip, profile, m);
+  for (std::size_t m = 0; profile.givesReadings() && m < profile.layout().numMatrices(); ++m)
+    writeReadings(zip, profile, m);
   npzExportWriteSamples(zip, "angle", writtenSamples(profile, kAngleSeries));
   npzExportWriteSamples(zip, "temperature", writtenSamples(profile, kTemperatureSeries));
   for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)

@@ -99,8 +99,15 @@ std::vector<fs::path> writeCsv(const Profile& profile,
     if (i >= kHandSeries) further.push_back(std::move(beside));
   }
 
-  std::string text = "frame,time_ms,matrix,y,x,value,time_us\n";
-  if (unitsRow) text += csvLine({"", "ms", "", "", "", profile.hand().unit, "us"});
+  std::vector<std::string> names{"frame", "time_ms", "matrix", "y", "x", "value", "time_us"};
+  std::vector<std::string> units{"", "ms", "", "", "", profile.hand().unit, "us"};
+  if (profile.givesReadings())
+    for (const char* name : {"dx", "dy", "dz"}) {
+      names.emplace_back(name);
+      units.push_back(profile.hand().unit);
+    }
+  std::string text = csvLine(names);
+  if (unitsRow) text += csvLine(units);
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
@@ -118,6 +125,14 @@ std::vector<fs::path> writeCsv(const Profile& profile,
           appendNumber(text, values(y, x));
           text += ',';
           appendNumber(text, frame.hostUs);
+          if (profile.givesReadings()) {
+            const bool isOne = profile.layout().matrix(m).touch.components == 1;
+            const auto force = forceAt(frame, {m, static_cast<int>(y), static_cast<int>(x)});
+            for (std::size_t k = 0; k < force.size(); ++k) {
+              text += ',';
+              if (!isOne || k == 2) appendNumber(text, force[k]);
+            }
+          }
           text += '\n';
         }
       }

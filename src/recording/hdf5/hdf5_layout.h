@@ -14,6 +14,7 @@ namespace palpate::hdf5_layout {
 constexpr const char* kFormat = "palpate";  // value of the attribute `format`
 constexpr std::int64_t kUnfilteredLayoutVersion = 1;
 constexpr std::int64_t kFilteredLayoutVersion = 2;
+constexpr std::int64_t kSeriesLayoutVersion = 3;
 constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
 constexpr std::int32_t kNoMatrix = std::numeric_limits<std::int32_t>::min();
 
@@ -40,5 +41,8 @@ inline const char* seriesValues(std::size_t series) {
 constexpr const char* kSeriesNames = "names";
 
 inline std::string matrixPath(std::size_t matrix) { return "tactile/m" + std::to_string(matrix); }
+// What the sensor sent, of recordings with readings; the group `tactile` then has the attribute
+// kTouchRulesKey.
+inline std::string readingsPath(std::size_t matrix) { return matrixPath(matrix) + "_readings"; }
 
 }  // namespace palpate::hdf5_layout

@@ -54,7 +54,7 @@ class ReadArray {
  public:
   ReadArray(Hdf5Process& file, std::string name) : file_(&file), name_(std::move(name)) {
     facts_ = file.facts(name_);
-    if (facts_.shape.size() > 3) fail("has another number of axes than in Palpate's layout");
+    if (facts_.shape.size() > 4) fail("has another number of axes than in Palpate's layout");
     if (!facts_.fault.empty()) fail(facts_.fault);
   }
 
@@ -351,6 +351,12 @@ class Hdf5Storage final : public ProfileStorage {
           ofFrames("tactile/device_time_ms", {timesUs_.size()}, {Hdf5Kind::kInteger}));
     bool anyCounts = false;
     for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
+      if (givesReadings()) {
+        std::vector<std::uint64_t> shape = shapeOf(m);
+        shape.push_back(static_cast<std::uint64_t>(layout_.matrix(m).touch.components));
+        matrices_.push_back(ofFrames(hdf5_layout::readingsPath(m), shape, {Hdf5Kind::kFloat}));
+        continue;
+      }
       matrices_.push_back(
           ofFrames(hdf5_layout::matrixPath(m), shapeOf(m), {Hdf5Kind::kInteger, Hdf5Kind::kFloat}));
       const bool counts = matrices_.back().kind() == Hdf5Kind::kInteger;
@@ -358,7 +364,7 @@ class Hdf5Storage final : public ProfileStorage {
       anyCounts = counts;
     }
     counts_ = anyCounts;
-    if (file_->has("tactile/filtered")) {
+    if (file_->has("tactile/filtered") && !givesReadings()) {
       filtered_.emplace(ofFrames("tactile/filtered", {timesUs_.size()}, {Hdf5Kind::kInteger}));
       for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
         const std::string path = hdf5_layout::matrixPath(m);
@@ -369,7 +375,7 @@ class Hdf5Storage final : public ProfileStorage {
       }
     }
     // A block is a chunk, but not more than fits into memory.
-    const std::size_t fitting = (16u << 20) / (layout_.numCells() * sizeof(float)) + 1;
+    const std::size_t fitting = (16u << 20) / (layout_.numReadings() * sizeof(float)) + 1;
     framesPerBlock_ = std::clamp<std::size_t>(
         std::min<std::size_t>(static_cast<std::size_t>(matrices_[0].chunkLength()), fitting),
         1,
@@ -384,6 +390,7 @@ class Hdf5Storage final : public ProfileStorage {
   const RecordingMeta& meta() const { return meta_; }
   const std::vector<Event>& events() const { return events_; }
 
+  bool givesReadings() const override { return layout_.decidesTouch(); }
   std::size_t numFrames() const override { return timesUs_.size(); }
   std::int64_t frameTimeUs(std::size_t frame) const override { return timesUs_.at(frame); }
   void readFrame(std::size_t frame, TactileFrame& out) const override {
@@ -393,13 +400,14 @@ class Hdf5Storage final : public ProfileStorage {
     if (!block->deviceTimes.empty() && block->deviceTimes[at] != hdf5_layout::kNoDeviceTime)
       out.deviceUs = checkedUs(block->deviceTimes[at]);
     out.filtered.clear();
-    out.values.resize(layout_.numCells());
+    std::vector<float>& stored = givesReadings() ? out.readings : out.values;
+    stored.resize(layout_.numReadings());
     for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
-      const std::size_t cells = layout_.matrix(m).numCells();
-      const auto from = block->values[m].begin() + static_cast<std::ptrdiff_t>(at * cells);
+      const std::size_t count = layout_.matrix(m).numReadings();
+      const auto from = block->values[m].begin() + static_cast<std::ptrdiff_t>(at * count);
       std::copy(from,
-                from + static_cast<std::ptrdiff_t>(cells),
-                out.values.begin() + static_cast<std::ptrdiff_t>(layout_.offset(m)));
+                from + static_cast<std::ptrdiff_t>(count),
+                stored.begin() + static_cast<std::ptrdiff_t>(layout_.readingOffset(m)));
     }
     if (block->filtered.empty() || block->filtered[at] == 0) return;
     out.filtered = out.values;
@@ -514,8 +522,14 @@ class Hdf5Storage final : public ProfileStorage {
       matrix.dynamicMask = readMask(name + "_dynamic_mask", {shape[1], shape[2]});
     }
     if (matrices.empty()) throw FormatError(file_->path(), "\"tactile/m0\" is missing");
+    const auto rules = file_->textAttribute("tactile", kTouchRulesKey, kMostAttributeBytes);
     try {
-      return SensorLayout(std::move(matrices));
+      SensorLayout layout(std::move(matrices));
+      return rules ? withTouchRules(layout, *rules) : std::move(layout);
+    } catch (const FormatError&) {
+      throw;
+    } catch (const Error& error) {
+      throw FormatError(file_->path(), error.what());
     } catch (const std::invalid_argument& error) {
       throw FormatError(file_->path(),
                         std::string("the layout of its matrices is invalid: ") + error.what());
@@ -535,7 +549,7 @@ class Hdf5Storage final : public ProfileStorage {
     block->first = first;
     const std::size_t count = std::min(framesPerBlock_, timesUs_.size() - first);
     for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
-      const std::size_t number = count * layout_.matrix(m).numCells();
+      const std::size_t number = count * layout_.matrix(m).numReadings();
       std::vector<float>& values = block->values.emplace_back(number);
       if (counts_) {
         // Values outside of the type of the memory are cut to its ends: INT32 holds what is wrong.
@@ -585,7 +599,7 @@ class Hdf5Storage final : public ProfileStorage {
   StampSeries timesUs_;
   std::optional<ReadArray> deviceTimes_;
   std::optional<ReadArray> filtered_;
-  std::vector<ReadArray> matrices_;
+  std::vector<ReadArray> matrices_;  // readings, or values
   std::vector<ReadArray> kept_;
   bool counts_ = true;
   std::size_t framesPerBlock_ = 1;
@@ -651,11 +665,17 @@ Recording readHdf5(const fs::path& path) {
   ProfileInfo info = readInfo(meta, "hdf5", storage->counts());
   HandDescription hand = recordedHand(
       meta, storage->layout(), storage->width(kAngleSeries), storage->width(kTemperatureSeries));
-  return {.profile =
-              recordedProfile(path, std::move(info), std::move(hand), storage, storage->further()),
+  Profile profile =
+      recordedProfile(path, std::move(info), std::move(hand), storage, storage->further());
+  Damage damage;
+  if (profile.givesReadings())
+    profile =
+        profile.withBaselines(baselinesOf(storage->events(), profile.layout(), &damage.events));
+  return {.profile = std::move(profile),
           .events = storage->events(),
           .meta = std::move(meta),
-          .provenance = storage->provenance()};
+          .provenance = storage->provenance(),
+          .damage = std::move(damage)};
 }
 
 }  // namespace palpate

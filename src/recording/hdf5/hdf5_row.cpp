@@ -48,6 +48,7 @@ constinit const RecordingFormat kHdf5Format{.name = "hdf5",
                                             .isExport = true,
                                             .takesSeries = true,
                                             .holdsFurther = true,
+                                            .holdsReadings = true,
                                             .reader = &kHdf5Reader,
                                             .save = &saveHdf5};
 

@@ -95,7 +95,9 @@ class Hdf5Writer {
       writeRoot();
       writeMeta();
       writeEvents();
-      makeGroup("tactile");
+      const Hdf5Id tactile = makeGroup("tactile");
+      if (profile_.givesReadings())
+        attribute(tactile.get(), kTouchRulesKey, touchRulesText(profile_.layout()));
       makeGroup("joints");
       makeGroup("temperatures");
       describeSeries();
@@ -261,8 +263,9 @@ class Hdf5Writer {
     const auto lock = hdf5Lock();
     attribute(out_.file(),
               "format_version",
-              profile_.series().size() > kHandSeries || !profile_.layout().hasSquareTaxels()
-                  ? kHdf5LayoutVersion
+              profile_.givesReadings() ? kHdf5LayoutVersion
+              : profile_.series().size() > kHandSeries || !profile_.layout().hasSquareTaxels()
+                  ? hdf5_layout::kSeriesLayoutVersion
               : anyFiltered_ ? hdf5_layout::kFilteredLayoutVersion
                              : hdf5_layout::kUnfilteredLayoutVersion);
   }
@@ -376,15 +379,16 @@ class Hdf5Writer {
     ChunkedArray* deviceTimes = nullptr;  // made with the first frame that has one
     ChunkedArray* isFiltered = nullptr;   // of a recording of floats
     std::vector<ChunkedArray*> matrices;
-    std::vector<ChunkedArray*> active;  // of a recording of floats
-    std::vector<ChunkedArray*> kept;    // of a recording of floats
+    std::vector<ChunkedArray*> active;    // of a recording of floats
+    std::vector<ChunkedArray*> kept;      // of a recording of floats
+    std::vector<ChunkedArray*> readings;  // of a recording with readings
     std::size_t perChunk = 1;
   };
 
   std::size_t framesPerChunk() const {
     std::size_t largest = 1;
     for (const MatrixLayout& matrix : profile_.layout().matrices())
-      largest = std::max(largest, matrix.numCells());
+      largest = std::max(largest, matrix.numReadings());
     const std::size_t fitting = kMaxChunkBytes / (largest * sizeof(float));
     return std::clamp<std::size_t>(std::min(fitting, profile_.numFrames()), 1, kMaxChunkFrames);
   }
@@ -428,6 +432,7 @@ class Hdf5Writer {
     const Hdf5Id dynamicMask =
         smallArray(path + "_dynamic_mask", u8(), {rows, columns}, layout.dynamicMask.data());
     frames.matrices.push_back(&array);
+    if (profile_.givesReadings()) frames.readings.push_back(&makeReadings(m, frames, shape, chunk));
     if (counts) return;
     const auto mask = [&](const char* ending) {
       ChunkedArray& made = chunkedArray(path + ending, u8(), shape, chunk);
@@ -438,12 +443,27 @@ class Hdf5Writer {
     frames.kept.push_back(mask("_kept"));
   }
 
+  ChunkedArray& makeReadings(std::size_t m, const FrameArrays& frames, Shape shape, Shape chunk) {
+    const int components = profile_.layout().matrix(m).touch.components;
+    shape.push_back(static_cast<hsize_t>(components));
+    chunk.push_back(static_cast<hsize_t>(components));
+    ChunkedArray& made =
+        chunkedArray(hdf5_layout::readingsPath(m), f32(), std::move(shape), std::move(chunk));
+    attribute(made.id.get(), "units", profile_.hand().unit);
+    attribute(made.id.get(),
+              "axes",
+              std::string("time, row (0 is the fingertip), column, component") +
+                  (components == 3 ? " (x, y, z)" : ""));
+    attachScale(made.id.get(), frames.times->id.get(), 0);
+    return made;
+  }
+
   FrameArrays makeFrameArrays() {
     const auto lock = hdf5Lock();
     FrameArrays frames;
     frames.perChunk = framesPerChunk();
     const std::size_t count = profile_.numFrames();
-    const bool counts = profile_.info().valueType == ValueType::kCounts;
+    const bool counts = profile_.hasCounts();
     frames.times = &timeArray("tactile", count, frames.perChunk);
     for (std::size_t m = 0; m < profile_.layout().numMatrices(); ++m) makeMatrix(frames, m, counts);
     if (!counts) {
@@ -491,6 +511,9 @@ class Hdf5Writer {
     std::vector<Bytes> values(layout.numMatrices());
     std::vector<Bytes> active(counts ? 0 : layout.numMatrices());
     std::vector<Bytes> kept(active.size());
+    std::vector<Bytes> readings(frames.readings.size());
+    for (std::size_t m = 0; m < readings.size(); ++m)
+      readings[m].resize(frames.perChunk * layout.matrix(m).numReadings() * sizeof(float));
     for (std::size_t m = 0; m < values.size(); ++m) {
       const std::size_t cells = frames.perChunk * layout.matrix(m).numCells();
       values[m].resize(cells * (counts ? 2 : 4));
@@ -510,6 +533,12 @@ class Hdf5Writer {
       if (!counts && !frame.filtered.empty()) {
         isFiltered[at] = 1;
         anyFiltered_ = true;
+      }
+      for (std::size_t m = 0; m < readings.size(); ++m) {
+        const std::size_t bytes = layout.matrix(m).numReadings() * sizeof(float);
+        std::memcpy(readings[m].data() + at * bytes,
+                    frame.readings.data() + layout.readingOffset(m),
+                    bytes);
       }
       for (std::size_t m = 0; m < values.size(); ++m) {
         const std::size_t cells = layout.matrix(m).numCells();
@@ -538,6 +567,8 @@ class Hdf5Writer {
     addChunk(*frames.times, {first}, std::move(times));
     if (frames.deviceTimes) addChunk(*frames.deviceTimes, {first}, std::move(deviceTimes));
     if (frames.isFiltered) addChunk(*frames.isFiltered, {first}, std::move(isFiltered));
+    for (std::size_t m = 0; m < readings.size(); ++m)
+      addChunk(*frames.readings[m], {first, 0, 0, 0}, std::move(readings[m]));
     for (std::size_t m = 0; m < values.size(); ++m) {
       addChunk(*frames.matrices[m], {first, 0, 0}, std::move(values[m]));
       if (counts) continue;

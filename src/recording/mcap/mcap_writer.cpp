@@ -42,7 +42,7 @@ void writeMcap(const RecordingContent& content,
   OutputFile out(path, overwrite);
   McapRecordingWriter writer([&out](std::string_view bytes) { out.write(bytes); },
                              profile.hand(),
-                             profile.info().valueType == ValueType::kCounts,
+                             profile.hasCounts(),
                              writtenMeta(profile.info(), profile.hand(), content.meta),
                              content.extras.provenance,
                              options);

@@ -356,7 +356,7 @@ void readBySql(const fs::path& path,
   recovery.damagedRows += found.meta.damaged;
   attemptRecovery(recovery, [&] { readBlocks(database, found, recovery, progress); });
   attemptRecovery(recovery, [&] {
-    found.layout = std::make_shared<SensorLayout>(readLayout(database, found.meta));
+    found.layout = std::make_shared<SensorLayout>(readLayout(database, found.meta, true));
   });
   attemptRecovery(recovery, [&] {
     found.series = readSeries(database);

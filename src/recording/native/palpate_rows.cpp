@@ -12,6 +12,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/dsa_sensor.h"
@@ -209,7 +210,25 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout) {
   }
 }
 
-SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta) {
+namespace {
+
+// The layout of the hand where rows of the meta data are damaged, perhaps the rules of touch, and
+// the hand decides touch; else null.
+std::shared_ptr<const SensorLayout> handLostRules(SqliteDatabase& database, const MetaRows& meta) {
+  if (meta.damaged == 0 || !meta[kTouchRulesKey].empty() ||
+      database.integerOf("PRAGMA user_version") != kPalpateVersionWithSeries)
+    return nullptr;
+  try {
+    const HandDescription hand = parseHand(meta["hand_json"], meta["hand_urdf"], "hand.json");
+    return hand.layout->decidesTouch() ? hand.layout : nullptr;
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta, bool rulesOfHand) {
   const std::filesystem::path& path = database.path();
   std::vector<MatrixLayout> matrices;
   const bool twoPitches = database.integerOf(
@@ -239,9 +258,16 @@ SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta) {
     if (isSensorId(rows.text(6))) matrix.uniqueId = rows.text(6);
     matrices.push_back(std::move(matrix));
   }
+  std::string rules = meta[kTouchRulesKey];
+  if (const auto hand = handLostRules(database, meta)) {
+    if (!rulesOfHand)
+      throw FormatError(path,
+                        "how its frames tell what is touched (touch_rules) is damaged; try "
+                        "'palpate recover'");
+    rules = touchRulesText(*hand);
+  }
   try {
     const SensorLayout layout(std::move(matrices));
-    const std::string rules = meta[kTouchRulesKey];
     return rules.empty() ? layout : withTouchRules(layout, rules);
   } catch (const std::exception& error) {
     throw FormatError(path, std::string("the layout of its matrices is invalid: ") + error.what());

@@ -45,7 +45,9 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 // Reads the layout back. Throws FormatError where it is damaged or makes no sense.
 // With the rules of touch of a recording of readings.
 struct MetaRows;
-SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta);
+// Where the rules of touch are damaged, those of the hand are taken with `rulesOfHand`; else that
+// throws FormatError.
+SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta, bool rulesOfHand = false);
 
 // The description of a series beside those of the hand. The first one makes the table.
 void insertSeries(SqliteDatabase& database, std::size_t index, const SeriesDescription& series);

@@ -13,6 +13,8 @@ TEST(Captions, MessagesNameMenusInsteadOfCommands) {
             "a.csv: exists already; choose another name");
   EXPECT_EQ(inWindowWords("import its tables ('palpate import')"),
             "import its tables (File > Import…)");
+  EXPECT_EQ(inWindowWords("as x, y, z of each taxel; --components planar: all x, then all y"),
+            "as x, y, z of each taxel; choose another order under Components: all x, then all y");
   EXPECT_EQ(inWindowWords("nothing to change"), "nothing to change");
 }
 

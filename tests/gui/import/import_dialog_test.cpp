@@ -100,6 +100,32 @@ TEST_F(ImportDialogTest, OnlyTheRowsOfTheHandAreOffered) {
       << dialog_->problem().toStdString();
 }
 
+TEST_F(ImportDialogTest, TheOrderOfComponentsIsAskedOfAHandThatHasThem) {
+  showPad();
+  auto* components = find<QComboBox>("importComponents");
+  EXPECT_TRUE(components->isHidden());
+  std::filesystem::create_directory(folder_ / "skin");
+  testing::writeFile(folder_ / "skin" / "hand.json",
+                     R"({"format": "palpate-hand", "version": 1, "name": "skin", "full_scale": 1000,
+          "components": 3, "signed": true,
+          "matrices": [{"name": "pad", "rows": 1, "columns": 2, "pitch_mm": 4.0}]})");
+  testing::writeFile(folder_ / "skin.csv", "time_s,a0,a1,a2,a3,a4,a5\n0,1,2,3,4,5,-6\n");
+  dialog_->setHand(path("skin"));
+  dialog_->setData(path("skin.csv"));
+  awaitPreview();
+  EXPECT_FALSE(components->isHidden());
+  EXPECT_EQ(dialog_->problem(), "");
+  const auto choices = [&] { return find<QLabel>("importChoices")->text(); };
+  EXPECT_TRUE(choices().contains("x, y, z of each taxel")) << choices().toStdString();
+  components->setCurrentIndex(2);
+  awaitPreview();
+  EXPECT_EQ(dialog_->request().mapping.components, ComponentOrder::kPlanar);
+  EXPECT_FALSE(choices().contains("x, y, z of each taxel")) << choices().toStdString();
+  dialog_->setHand("flat_pad_16x16");
+  awaitPreview();
+  EXPECT_TRUE(components->isHidden());
+}
+
 TEST_F(ImportDialogTest, ChangedFieldsAreTriedAtOnce) {
   showPad();
   auto* fields = find<ImportFields>("importFields");

@@ -42,6 +42,8 @@ QString inWindowWords(QString message) {
       {" (--rate)", " (Time, in Hz)"},
       {"--rate keeps all rows", "a rate (Time, in Hz) keeps all rows"},
       {" (--matrix)", " (in the table of matrices)"},
+      {" (--matrix A..B --components interleaved)", " (in the table of matrices)"},
+      {"--components planar: all x", "choose another order under Components: all x"},
       {"train one with --classifier gauss", "train one with the classifier gauss"},
       {"(palpate train --empty-hand-zero, or Zero before Train)", "(Zero before Train)"},
       {" isn't known (--area)", " isn't known"},

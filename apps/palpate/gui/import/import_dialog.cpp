@@ -147,6 +147,13 @@ QWidget* ImportDialog::makeFile() {
       {{"names: detected", "detect"}, {"first line: names", "present"}, {"no names", "absent"}});
   auto* text = inRow({{delimiter_, 1}, {decimal_, 1}, {header_, 1}});
   form->addRow(makeTitle("Te&xt", delimiter_), text);
+  components_ = importComboBox("importComponents",
+                               {{"by the names of the columns", ""},
+                                {"x, y, z of each taxel", "interleaved"},
+                                {"all x, then all y, then all z", "planar"}});
+  components_->setAccessibleName("Components of the taxels");
+  form->addRow("Components", components_);
+  form->setRowVisible(components_, false);
   time_ = named(new QLineEdit, "importTime");
   time_->setPlaceholderText(kDetected);
   timeUnit_ = importComboBox("importTimeUnit",
@@ -202,7 +209,7 @@ void ImportDialog::connectFields() {
     look();
   });
   connect(time_, &QLineEdit::editingFinished, this, changed);
-  for (QComboBox* box : {hand_, delimiter_, decimal_, header_, timeUnit_})
+  for (QComboBox* box : {hand_, delimiter_, decimal_, header_, components_, timeUnit_})
     connect(box, &QComboBox::currentIndexChanged, this, changed);
   connect(rate_, &QDoubleSpinBox::valueChanged, this, changed);
   connect(fields_, &ImportFields::edited, this, changed);
@@ -276,6 +283,7 @@ void ImportDialog::showMapping(const ImportMapping& mapping) {
                           static_cast<qsizetype>(delimiterName(mapping.text.delimiter).size())));
   chooseImportValue(*decimal_, QString(QChar(mapping.text.decimal)));
   header_->setCurrentIndex(static_cast<int>(mapping.text.header));
+  components_->setCurrentIndex(static_cast<int>(mapping.components));
   time_->setText(QString::fromStdString(mapping.time.column));
   chooseImportValue(*timeUnit_, QString::fromStdString(mapping.time.unit));
   rate_->setValue(mapping.time.rateHz.value_or(0.0));
@@ -292,6 +300,7 @@ ImportRequest ImportDialog::request() const {
       delimiterNamed(delimiter_->currentData().toString().toStdString()).value_or('\0');
   request.mapping.text.decimal = decimal_->currentData().toString() == "," ? ',' : '.';
   request.mapping.text.header = static_cast<HeaderChoice>(header_->currentIndex());
+  request.mapping.components = static_cast<ComponentOrder>(components_->currentIndex());
   request.mapping.time.column = time_->text().trimmed().toStdString();
   request.mapping.time.unit = timeUnit_->currentData().toString().toStdString();
   request.mapping.time.rateHz.reset();
@@ -313,7 +322,12 @@ void ImportDialog::look() {
 void ImportDialog::take(const ImportLook& look) {
   const bool otherHand = look.hand && (!looked_.hand || looked_.hand->name != look.hand->name);
   looked_ = look;
-  if (otherHand) fields_->setHand(*look.hand);
+  if (otherHand) {
+    fields_->setHand(*look.hand);
+    const SensorLayout& layout = *look.hand->layout;
+    static_cast<QFormLayout*>(components_->parentWidget()->layout())
+        ->setRowVisible(components_, layout.numReadings() != layout.numCells());
+  }
   QString form;
   QString choices;
   QString warnings;

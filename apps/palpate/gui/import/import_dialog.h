@@ -79,6 +79,7 @@ class ImportDialog : public QDialog {
   QComboBox* delimiter_ = nullptr;
   QComboBox* decimal_ = nullptr;
   QComboBox* header_ = nullptr;
+  QComboBox* components_ = nullptr;
   QLineEdit* time_ = nullptr;
   QComboBox* timeUnit_ = nullptr;
   QDoubleSpinBox* rate_ = nullptr;
