@@ -24,9 +24,7 @@ namespace {
 constexpr float kNotKnown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kFramesPerReport = 256;
 
-float orNotKnown(bool known, double value) {
-  return known ? static_cast<float>(value) : kNotKnown;
-}
+float orNotKnown(bool known, double value) { return known ? static_cast<float>(value) : kNotKnown; }
 
 // Series whose values one pass over the frames gives.
 enum class ComputedPass : std::uint8_t { kPressures, kCentroids, kSpheres, kSlips };
@@ -198,8 +196,7 @@ void computeSlips(const Profile& profile,
     const SlipSample* before = nullptr;
     for (const SlipSample& sample : series.matrices[m]) {
       // A step is that since the frame before, in which the matrix was touched, too.
-      const double stepS =
-          before ? series.timeS[sample.frame] - series.timeS[before->frame] : 0.0;
+      const double stepS = before ? series.timeS[sample.frame] - series.timeS[before->frame] : 0.0;
       const double stepMm =
           std::hypot(static_cast<double>(sample.dx), static_cast<double>(sample.dy)) * pitchMm;
       const std::span<float> row = out.row(sample.frame);

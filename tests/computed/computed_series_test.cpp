@@ -146,7 +146,8 @@ TEST(ComputedSeries, SlipIsInMillimetresAndMillimetresPerSecond) {
     ASSERT_NE(sample, nullptr);
     EXPECT_EQ(std::isnan(speed.values[i]), !sample->valid) << i;
     if (sample->valid) {
-      const double stepMm = std::hypot(static_cast<double>(sample->dx), static_cast<double>(sample->dy)) * pitchMm;
+      const double stepMm =
+          std::hypot(static_cast<double>(sample->dx), static_cast<double>(sample->dy)) * pitchMm;
       EXPECT_NEAR(speed.values[i], stepMm / 0.05, 1e-3) << i;
     }
     EXPECT_EQ(std::isnan(slip.values[i]), !sample->refValid) << i;

@@ -32,8 +32,8 @@ struct CalibrationChoice {
 // Nothing when --calibration is missing. Throws UsageError, FileError, FormatError.
 std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given);
 
-// Options of the curves that are computed of a recording (computed/computed_series.h), with the tare
-// and the settings that it contains. Throws as CalibratedFrames.
+// Options of the curves that are computed of a recording (computed/computed_series.h), with the
+// tare and the settings that it contains. Throws as CalibratedFrames.
 ComputedOptions computedOptions(const std::optional<CalibrationChoice>& choice,
                                 const std::filesystem::path& file,
                                 const Recording& recording);

@@ -81,8 +81,8 @@ void appendStart(std::string& line, std::size_t frame, std::int64_t hostUs) {
   line += ',';
 }
 
-// Whether the force isn't known only because contacts are lighter than all that were measured, as they are
-// where a grasp begins and ends.
+// Whether the force isn't known only because contacts are lighter than all that were measured, as
+// they are where a grasp begins and ends.
 bool isOnlyTooLight(const PressureFrame& pressures) {
   return pressures.areaKnown &&
          std::all_of(pressures.matrices.begin(),

@@ -50,9 +50,8 @@ bool sayAssumptions(const ComputedOptions& computed,
                     const std::vector<NamedFormula>& formulas,
                     bool quiet) {
   const bool wanted = std::ranges::any_of(formulas, [](const NamedFormula& one) {
-    return std::ranges::any_of(one.formula.names(), [](const std::string& name) {
-      return name.ends_with("_force_n");
-    });
+    return std::ranges::any_of(one.formula.names(),
+                               [](const std::string& name) { return name.ends_with("_force_n"); });
   });
   const bool unknown = wanted && !computed.calibration->pressure.knowsArea();
   const PressureReader reader(

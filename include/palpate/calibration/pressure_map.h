@@ -57,8 +57,8 @@ struct PressureFrame {
   bool areaKnown = true;
 };
 
-// Force of the hand, and of one matrix [N]; nothing where a contact is outside the measured range, or
-// the area of the indenter isn't known.
+// Force of the hand, and of one matrix [N]; nothing where a contact is outside the measured range,
+// or the area of the indenter isn't known.
 std::optional<double> knownForceN(const PressureFrame& pressures);
 std::optional<double> knownForceN(const MatrixPressure& matrix, bool areaKnown);
 

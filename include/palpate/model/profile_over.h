@@ -1,5 +1,5 @@
-// A profile storage that passes on everything but the values of frames from another profile. Views of
-// a profile (filtered, with computed series) derive from it.
+// A profile storage that passes on everything but the values of frames from another profile. Views
+// of a profile (filtered, with computed series) derive from it.
 #pragma once
 
 #include <cstddef>

@@ -69,7 +69,8 @@ struct Series {
 bool hasSeries(const Profile& profile, const SeriesChoice& choice);
 
 // Whether its values are at hand; false: the first to read them computes series of the profile that
-// are computed (Profile::isReady()), of a formula those that it names. True where hasSeries() isn't.
+// are computed (Profile::isReady()), of a formula those that it names. True where hasSeries()
+// isn't.
 bool isReady(const Profile& profile, const SeriesChoice& choice);
 
 // Returns the number of samples within fromS..toS.

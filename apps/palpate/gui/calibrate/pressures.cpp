@@ -82,7 +82,8 @@ void Pressures::show(const std::optional<Calibration>& calibration, QString text
   }
   windowState_.derivedResults.setCalibration(text);
   windowState_.derivedResults.setPressure(nullptr);
-  windowState_.derivedResults.setForces(forces_, windowState_.displayed.unfilteredRecording().get());
+  windowState_.derivedResults.setForces(forces_,
+                                        windowState_.displayed.unfilteredRecording().get());
   if (!source) showFrame();
 }
 
@@ -93,8 +94,7 @@ void Pressures::renewRecording(const Calibration& calibration) {
                                .pressure = pressureOptions(kept_, std::nullopt),
                                .tare = kept_.tare,
                                .counts = counts};
-  reader_ =
-      std::make_unique<PressureReader>(counts, calibration, forces.pressure, forces.tare);
+  reader_ = std::make_unique<PressureReader>(counts, calibration, forces.pressure, forces.tare);
   forces_ = std::make_shared<const ComputedOptions>(forces);
 }
 

@@ -50,11 +50,10 @@ class FormulaColumn {
   std::string cell(std::size_t row) {
     std::call_once(computed_, [this] {
       try {
-        values_ = readSeries(profile_,
-                             choice_,
-                             recording_->timeAt(span_.first),
-                             recording_->timeAt(span_.last))
-                      .values;
+        values_ =
+            readSeries(
+                profile_, choice_, recording_->timeAt(span_.first), recording_->timeAt(span_.last))
+                .values;
       } catch (const std::invalid_argument&) {
         // It can't be computed of this recording: the cells stay empty.
       }
@@ -88,15 +87,15 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
     choices.push_back(curve.choice);
     columns.push_back(columnOf(profile, curve.choice));
     formulas.push_back(curve.choice.kind == SeriesChoice::Kind::kFormula
-                           ? std::make_shared<FormulaColumn>(
-                                 recording, profile, curve.choice, span)
+                           ? std::make_shared<FormulaColumn>(recording, profile, curve.choice, span)
                            : nullptr);
     const bool ofMatrix = curve.choice.kind == SeriesChoice::Kind::kMatrix;
     table.header.push_back((curve.name + (ofMatrix ? " " + nameOf(curve.choice.signal) : "") +
                             (curve.baseUnit.isEmpty() ? "" : " [" + curve.baseUnit + "]"))
                                .toStdString());
   }
-  table.row = [recording, profile, choices, columns, formulas, first = span.first](std::size_t row) {
+  table.row = [recording, profile, choices, columns, formulas, first = span.first](
+                  std::size_t row) {
     const std::size_t frame = first + row;
     std::vector<std::string> cells = {
         std::to_string(frame),

@@ -245,8 +245,8 @@ void SeriesStore::begin(Entry& entry) {
                 goOn = progressOf(entry),
                 profile = *profile_] {
     try {
-      auto series = std::make_shared<Series>(
-          readableSeries(profile, choice, -kForever, kForever, goOn));
+      auto series =
+          std::make_shared<Series>(readableSeries(profile, choice, -kForever, kForever, goOn));
       // The same curve may have been dropped and wanted again, of another profile.
       deliver(choice, stop, [keep, series, dropped](Entry& to) {
         if (to.dropped == dropped) keep(to, std::move(*series));
@@ -264,8 +264,8 @@ void SeriesStore::beginLong(Entry& entry) {
   if (!ofMatrix) entry.buckets = std::make_shared<BucketSeries>(recording_->durationS(), 1.0);
   const Progress goOn = progressOf(entry);
   takeFirstLook(entry);
-  // Of a formula each sample needs its neighbours, so that there is no quick first look; nor is there
-  // one of what must be computed.
+  // Of a formula each sample needs its neighbours, so that there is no quick first look; nor is
+  // there one of what must be computed.
   if (!ofMatrix && choice.kind != SeriesChoice::Kind::kFormula && isReady(*profile_, choice)) {
     ++numJobs_;
     reads_.start([this, stop = stop_, choice, goOn, profile = *profile_] {
@@ -325,9 +325,7 @@ void SeriesStore::askForExact() {
     if (!isReady(*profile_, entry.choice)) continue;  // asked again when it is computed
     double fromS = fromS_ - (toS_ - fromS_);
     double toS = toS_ + (toS_ - fromS_);
-    const auto many = [&] {
-      return numSamples(*profile_, entry.choice, fromS, toS) > kMostExact;
-    };
+    const auto many = [&] { return numSamples(*profile_, entry.choice, fromS, toS) > kMostExact; };
     if (many()) {
       fromS = fromS_;
       toS = toS_;

@@ -29,8 +29,8 @@ class SeriesStore : public QObject {
 
   // Null: none.
   void setRecording(const OpenedRecordingPtr& recording);
-  // Sets the profile that the curves are read from: that of the recording with computed series. What
-  // was computed before is dropped; setWanted() asks for it anew.
+  // Sets the profile that the curves are read from: that of the recording with computed series.
+  // What was computed before is dropped; setWanted() asks for it anew.
   void setProfile(const Profile& profile);
   // Sets the plotted curves; those that the recording doesn't have are left out. Data of all others
   // are dropped.

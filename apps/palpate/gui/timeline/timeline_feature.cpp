@@ -512,8 +512,8 @@ void TimelineFeature::askForFormula(const QString& name) {
     return state().messages.flash("a formula needs a recording with frames");
   const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
   const Profile profile = profile_.value_or(recording->profile);
-  std::vector<FormulaSignal> from = formulaSignals(
-      profile, state().appearance.view().signal, state().selection.taxels());
+  std::vector<FormulaSignal> from =
+      formulaSignals(profile, state().appearance.view().signal, state().selection.taxels());
   // What is plotted comes first.
   const std::vector<PlottedCurve> shown = curves();
   std::stable_partition(from.begin(), from.end(), [&](const FormulaSignal& each) {
@@ -568,8 +568,7 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   const DisplayUnits& units = state().appearance.view().units;
   const std::vector<bool>& plotted = state().selection.plotted();
   for (std::size_t row = 0; row < plotted.size(); ++row)
-    if (plotted[row])
-      curves.push_back(matrixCurveOf(*hand, row));
+    if (plotted[row]) curves.push_back(matrixCurveOf(*hand, row));
   const bool live = state().displayed.isLive();
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording && !live) return curves;
@@ -658,8 +657,9 @@ void TimelineFeature::showReading() {
   const double done = chart_->store().progress();
   const auto computing = chart_->store().computing();
   header_->setReading(
-      computing ? "computing " + QString::number(static_cast<int>(*computing * 100.0)) + " %"
-      : done < 1.0 ? "reading " + QString::number(static_cast<int>(done * 100.0)) + " %" : QString());
+      computing    ? "computing " + QString::number(static_cast<int>(*computing * 100.0)) + " %"
+      : done < 1.0 ? "reading " + QString::number(static_cast<int>(done * 100.0)) + " %"
+                   : QString());
   if (recording && recording->isLong() && done >= 1.0) state().displayed.notifyMoreKnown();
 }
 
@@ -814,12 +814,11 @@ std::vector<ExportedView> TimelineFeature::views() {
     if (!recording) return tables;
     const auto add = [&](const QString& name, const std::optional<FrameSpan>& span) {
       if (!span) return;
-      tables.push_back(
-          {name,
-           [seen = windowState.displayed.filteredRecording(),
-            now = curves(),
-            span = *span,
-            profile = profile_] { return curveTable(seen, now, span, profile); }});
+      tables.push_back({name,
+                        [seen = windowState.displayed.filteredRecording(),
+                         now = curves(),
+                         span = *span,
+                         profile = profile_] { return curveTable(seen, now, span, profile); }});
     };
     add("the selected range", windowState.selectedFrames());
     const QCPRange seen = chart_->seen();
