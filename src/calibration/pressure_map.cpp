@@ -33,6 +33,19 @@ std::vector<float> filteredSumWeights(const MatrixLayout& layout) {
 
 }  // namespace
 
+std::optional<double> knownForceN(const PressureFrame& pressures) {
+  const bool touched = std::any_of(pressures.matrices.begin(),
+                                   pressures.matrices.end(),
+                                   [](const MatrixPressure& each) { return each.active > 0; });
+  if (touched && !(pressures.areaKnown && pressures.inRange)) return std::nullopt;
+  return pressures.forceN;
+}
+
+std::optional<double> knownForceN(const MatrixPressure& matrix, bool areaKnown) {
+  if (matrix.active > 0 && !(areaKnown && matrix.inRange)) return std::nullopt;
+  return matrix.forceN;
+}
+
 double taxelForceN(const PressureFrame& frame,
                    const SensorLayout& layout,
                    std::size_t matrix,

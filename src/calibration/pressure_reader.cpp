@@ -53,7 +53,12 @@ const PressureFrame& PressureReader::at(std::size_t frame) {
     now_.reset();
     map_.reset();
   }
-  for (; next <= frame; ++next) go(next);
+  for (; next <= frame; ++next) try {
+      go(next);
+    } catch (const Error&) {
+      // An earlier frame that can't be read is left out.
+      if (next == frame) throw;
+    }
   return pressures_;
 }
 

@@ -11,6 +11,7 @@
 #include "palpate/filter/filter_chain.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/model/rest_span.h"
+#include "palpate/model/profile_over.h"
 #include "palpate/model/timing.h"
 
 namespace palpate {
@@ -85,34 +86,10 @@ class FilteredProfileCursor final : public FrameSink {
   FilterChain chain_;
 };
 
-// A profile storage that passes on everything but the frames' values from the source.
-class BesideFrames : public ProfileStorage {
- public:
-  explicit BesideFrames(Profile source) : source_(std::move(source)) {}
-  std::size_t numFrames() const override { return source_.numFrames(); }
-  std::int64_t frameTimeUs(std::size_t frame) const override { return source_.frameTimeUs(frame); }
-  std::size_t numSamples(std::size_t series) const override { return source_.numSamples(series); }
-  std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const override {
-    return source_.sampleTimeUs(series, sample);
-  }
-  Sample sample(std::size_t series, std::size_t sample) const override {
-    return source_.sample(series, sample);
-  }
-  std::optional<std::size_t> frameAt(std::int64_t timeUs) const override {
-    return source_.frameAt(timeUs);
-  }
-  std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const override {
-    return source_.sampleAt(series, timeUs);
-  }
-
- protected:
-  const Profile source_;
-};
-
-class ComputedFrames final : public BesideFrames {
+class ComputedFrames final : public ProfileOver {
  public:
   ComputedFrames(Profile source, Profile frames)
-      : BesideFrames(std::move(source)), frames_(std::move(frames)) {}
+      : ProfileOver(std::move(source)), frames_(std::move(frames)) {}
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     frames_.readFrame(frame, out);
   }
@@ -121,13 +98,13 @@ class ComputedFrames final : public BesideFrames {
   const Profile frames_;
 };
 
-class FilteredFrames final : public BesideFrames {
+class FilteredFrames final : public ProfileOver {
  public:
   FilteredFrames(Profile source,
                  Recipe recipe,
                  std::vector<std::int64_t> restartsUs,
                  std::size_t memory)
-      : BesideFrames(std::move(source)),
+      : ProfileOver(std::move(source)),
         recipe_(std::move(recipe)),
         restartsUs_(std::move(restartsUs)),
         memory_(memory + kFramesForRate) {}

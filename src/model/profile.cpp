@@ -137,6 +137,16 @@ Sample Profile::sample(std::size_t series, std::size_t sample) const {
   return data_->storage->sample(series, sample);
 }
 
+bool Profile::isReady(std::size_t series) const {
+  check("series", series, data_->series.size());
+  return data_->storage->isReady(series);
+}
+
+void Profile::prepare(std::size_t series, const Progress& progress) const {
+  check("series", series, data_->series.size());
+  data_->storage->prepare(series, progress);
+}
+
 std::optional<std::size_t> Profile::frameAt(std::int64_t timeUs) const {
   return data_->storage->frameAt(timeUs);
 }

@@ -46,13 +46,20 @@ Profile cropped(const Profile& profile,
     builder.addFrame(frame);
   }
   const std::int64_t beginUs = profile.frameTimeUs(begin), endUs = profile.frameTimeUs(end);
-  for (SeriesDescription& each : profile.furtherSeries()) builder.addSeries(std::move(each));
   for (std::size_t series = 0; series < profile.series().size(); ++series) {
+    // They belong to what is seen, not to what was recorded.
+    if (profile.series()[series].role == kComputedRole) continue;
+    const std::size_t made =
+        series < kHandSeries ? series : builder.addSeries(profile.series()[series]);
     const auto [first, behind] =
         samplesAround(profile.numSamples(series), beginUs, endUs, [&](std::size_t i) {
           return profile.sampleTimeUs(series, i);
         });
-    for (std::size_t i = first; i < behind; ++i) builder.addSample(profile.sample(series, i));
+    for (std::size_t i = first; i < behind; ++i) {
+      Sample sample = profile.sample(series, i);
+      sample.series = made;
+      builder.addSample(sample);
+    }
   }
   return builder.finish(profile.info());
 }

@@ -313,6 +313,15 @@ void refuseUnknownFunctions(const std::string& text, const std::string& parsed) 
   }
 }
 
+// Why a series that could be computed isn't: " (needs a calibration: ..)"; empty for others.
+std::string reasonFor(const Profile& profile, const SeriesChoice& choice) {
+  if (choice.kind != SeriesChoice::Kind::kColumn) return {};
+  for (const SeriesDescription& series : profile.series())
+    if (series.name == choice.series && series.role == kComputedRole)
+      return " (" + series.source + ")";
+  return {};
+}
+
 // The times of the last sample before a run of samples that can't be read and of the first one
 // behind it, from the first frame [s].
 TimeSpan readableAround(const Profile& profile,
@@ -528,6 +537,8 @@ Series formulaSeries(const Profile& profile,
       std::string further;
       for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
         const SeriesDescription& series = profile.series()[i];
+        // Of those of each matrix one stands for all.
+        if (series.role == kComputedRole && !series.name.starts_with("hand_")) continue;
         further += nameOf({.kind = SeriesChoice::Kind::kColumn,
                            .series = series.name,
                            .column = series.columns.front().name},
@@ -542,7 +553,8 @@ Series formulaSeries(const Profile& profile,
     }
     if (!hasSeries(profile, *choice))
       throw std::invalid_argument("formula \"" + shortened(formula.text()) +
-                                  "\": the recording has no " + shortened(name));
+                                  "\": the recording has no " + shortened(name) +
+                                  reasonFor(profile, *choice));
     choices.push_back(*choice);
   }
   const auto part = [&](std::size_t which) {

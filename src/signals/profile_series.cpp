@@ -125,6 +125,7 @@ void readAll(const Profile& profile,
              const Progress& progress,
              UnreadableSamples* unreadable,
              Sink sink) {
+  if (const auto column = columnOf(profile, choice)) profile.prepare(column->series, progress);
   Reader reader(profile, choice);
   for (std::size_t i = begin; i < end; ++i) {
     reportProgress(progress, i - begin, end - begin, kSamplesPerReport);
@@ -238,6 +239,18 @@ bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
       break;
   }
   return choice.index <= profile.layout().numMatrices();
+}
+
+bool isReady(const Profile& profile, const SeriesChoice& choice) {
+  if (choice.kind != ProfileSeriesKind::kFormula) {
+    const auto column = columnOf(profile, choice);
+    return !column || profile.isReady(column->series);
+  }
+  if (!hasFormula(profile, choice.formula)) return true;
+  const Formula formula(choice.formula);
+  return std::ranges::all_of(formula.names(), [&](const std::string& name) {
+    return isReady(profile, *signalNamed(name, profile));
+  });
 }
 
 std::size_t numSamples(const Profile& profile,

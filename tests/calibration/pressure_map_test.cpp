@@ -238,5 +238,27 @@ TEST(PressureMap, RefusesWhatDoesNotFit) {
   EXPECT_THROW(map.apply(other, kWarm, out), std::invalid_argument);
 }
 
+TEST(KnownForce, IsNothingOutsideTheRangeAndWithoutTheArea) {
+  const MatrixPressure touched{.active = 3, .forceN = 2.5}, free{};
+  MatrixPressure beyond = touched;
+  beyond.inRange = false;
+  EXPECT_EQ(knownForceN(touched, true), 2.5);
+  EXPECT_EQ(knownForceN(touched, false), std::nullopt);
+  EXPECT_EQ(knownForceN(beyond, true), std::nullopt);
+  EXPECT_EQ(knownForceN(free, false), 0.0);
+  PressureFrame frame;
+  frame.matrices = {touched, free};
+  frame.forceN = 2.5;
+  EXPECT_EQ(knownForceN(frame), 2.5);
+  frame.areaKnown = false;
+  EXPECT_EQ(knownForceN(frame), std::nullopt);
+  frame.areaKnown = true;
+  frame.inRange = false;
+  EXPECT_EQ(knownForceN(frame), std::nullopt);
+  frame.matrices = {free, free};
+  frame.forceN = 0.0;
+  EXPECT_EQ(knownForceN(frame), 0.0);
+}
+
 }  // namespace
 }  // namespace palpate::pressure_map_test

@@ -72,5 +72,15 @@ TEST_F(DeriveCommandTest, SaysWhatIsWrong) {
       palpate({"derive", file_, "hand_sum", "--from", "9", "--to", "3"}), 2, {"--from"});
 }
 
+TEST_F(DeriveCommandTest, ComputedSeriesAreSignals) {
+  const auto result = palpate({"derive", file_, "x=m1_centroid_x_mm/m1_centroid_x_mm"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NE(result.out.find(",1\n"), std::string::npos) << "where matrix 1 is touched";
+  EXPECT_NE(result.out.find(",\n"), std::string::npos) << "where it isn't";
+  expectOneLineError(palpate({"derive", file_, "m1_mean - hand_force_n"}),
+                     1,
+                     {"needs a calibration: --calibration C.json"});
+}
+
 }  // namespace
 }  // namespace palpate::derive_command_test

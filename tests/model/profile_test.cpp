@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "palpate/model/profile_builder.h"
+#include "palpate/model/profile_over.h"
 
 #include "testing/damaged_profile.h"
 #include "testing/testing.h"
@@ -103,6 +104,39 @@ TEST(Profile, FramesThatCannotBeReadAreCountedByThePassThatGoesOn) {
   unreadable.add(8, "other");
   EXPECT_EQ(unreadable.runs, (std::vector<UnreadableSamples::Run>{{4, 6}, {8, 8}}));
   EXPECT_EQ(unreadable.firstFault, "x.palpate: block 7 is damaged");
+}
+
+// A profile whose temperatures are computed.
+class LazyStorage final : public ProfileOver {
+ public:
+  using ProfileOver::ProfileOver;
+  void readFrame(std::size_t frame, TactileFrame& out) const override {
+    source_.readFrame(frame, out);
+  }
+  bool isReady(std::size_t series) const override { return series != kTemperatureSeries || ready; }
+  void prepare(std::size_t series, const Progress&) const override {
+    if (series == kTemperatureSeries) ready = true;
+  }
+  mutable bool ready = false;
+};
+
+TEST(Profile, SaysWhichSeriesAreStillToBeComputed) {
+  ProfileBuilder builder(smallLayout());
+  builder.addFrame(5, frameOf(1.0F));
+  builder.addFrame(9, frameOf(2.0F));
+  const Profile source = builder.finish({});
+  EXPECT_TRUE(source.isReady(kTemperatureSeries)) << "recorded";
+  source.prepare(kTemperatureSeries);
+  EXPECT_THROW(source.isReady(7), std::out_of_range);
+  EXPECT_THROW(source.prepare(7), std::out_of_range);
+  const Profile lazy(source.info(), source.hand(), std::make_shared<LazyStorage>(source));
+  EXPECT_EQ(lazy.numFrames(), 2u);
+  EXPECT_EQ(lazy.frameTimeUs(1), 9);
+  EXPECT_EQ(lazy.frame(1).values, source.frame(1).values);
+  EXPECT_TRUE(lazy.isReady(kAngleSeries));
+  EXPECT_FALSE(lazy.isReady(kTemperatureSeries));
+  lazy.prepare(kTemperatureSeries);
+  EXPECT_TRUE(lazy.isReady(kTemperatureSeries));
 }
 
 }  // namespace

@@ -109,6 +109,17 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
   return choice;
 }
 
+ComputedOptions computedOptions(const std::optional<CalibrationChoice>& choice,
+                                const std::filesystem::path& file,
+                                const Recording& recording) {
+  ComputedOptions options{.counts = recording.profile};
+  if (!choice) return options;
+  options.calibration = choice->calibration;
+  options.pressure = withSerial(withNoted(choice->options, file, recording), recording.profile);
+  if (choice->tare) options.tare = tareIn(file, recording);
+  return options;
+}
+
 CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
                                    const std::filesystem::path& file,
                                    const Recording& recording,

@@ -1,5 +1,5 @@
 // Applies a calibration to the frames of a recording; used by `palpate calibrate apply` and
-// `palpate contact --calibration`.
+// by `contact` and `derive` with --calibration.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 
 #include "palpate/calibration/pressure_map.h"
 #include "palpate/calibration/tare.h"
+#include "palpate/computed/computed_series.h"
 #include "palpate/model/profile.h"
 #include "palpate/recording/recording_data.h"
 
@@ -30,6 +31,12 @@ struct CalibrationChoice {
 };
 // Nothing when --calibration is missing. Throws UsageError, FileError, FormatError.
 std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given);
+
+// Options of the curves that are computed of a recording (computed/computed_series.h), with the
+// tare and the settings that it contains. Throws as CalibratedFrames.
+ComputedOptions computedOptions(const std::optional<CalibrationChoice>& choice,
+                                const std::filesystem::path& file,
+                                const Recording& recording);
 
 // Computes the pressures of one frame after the other.
 class CalibratedFrames {

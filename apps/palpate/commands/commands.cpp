@@ -157,7 +157,7 @@ const std::vector<Command>& allCommands() {
        "converts recordings: .dsa, .palpate, .csv, .npz, .h5, .mat, .mcap, .jsonl",
        &convertCommand},
       {"demo", "runs a tour without a window: emulated hands grasp and recognise objects", nullptr},
-      {"derive", "computes curves from signals by formulas, as CSV", &deriveCommand},
+      {"derive", "computes curves from signals by formulas, as CSV", nullptr},
       {"emulate", "runs an emulated hand on two ports until it is interrupted", nullptr},
       {"evaluate", "measures how well grasps are recognised, as JSON", nullptr},
       {"features", "computes the features of each grasp for recognition, as CSV", &featuresCommand},

@@ -23,18 +23,8 @@
 namespace palpate::commands {
 namespace {
 
-// The force of the hand [N]; nothing where a contact is outside the measured range, or the area of
-// the indenter isn't known.
-std::optional<double> knownForceN(const PressureFrame& pressures) {
-  const bool touched = std::any_of(pressures.matrices.begin(),
-                                   pressures.matrices.end(),
-                                   [](const MatrixPressure& each) { return each.active > 0; });
-  if (touched && !(pressures.areaKnown && pressures.inRange)) return std::nullopt;
-  return pressures.forceN;
-}
-
-// Whether that is so only because contacts are lighter than all that were measured, as they are
-// where a grasp begins and ends.
+// Whether the force isn't known only because contacts are lighter than all that were measured, as
+// they are where a grasp begins and ends.
 bool isOnlyTooLight(const PressureFrame& pressures) {
   return pressures.areaKnown &&
          std::all_of(pressures.matrices.begin(),

@@ -1,17 +1,22 @@
 // The command `palpate derive FILE NAME=FORMULA..` prints curves that formulas make of the signals
 // of a recording as CSV.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "palpate/calibration/pressure_reader.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/formula.h"
 
+#include "commands/calibrated_frames.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
@@ -39,11 +44,30 @@ NamedFormula namedFormula(const std::string& word) {
   }
 }
 
+// Says what the forces assume; returns whether forces that a formula names aren't known, which is
+// said with --quiet, too.
+bool sayAssumptions(const ComputedOptions& computed,
+                    const std::vector<NamedFormula>& formulas,
+                    bool quiet) {
+  const bool wanted = std::ranges::any_of(formulas, [](const NamedFormula& one) {
+    return std::ranges::any_of(one.formula.names(),
+                               [](const std::string& name) { return name.ends_with("_force_n"); });
+  });
+  const bool unknown = wanted && !computed.calibration->pressure.knowsArea();
+  const PressureReader reader(
+      *computed.counts, *computed.calibration, computed.pressure, computed.tare);
+  for (const std::string& sentence : reader.assumptions())
+    if (!quiet || (unknown && sentence == kUnknownAreaText))
+      std::fprintf(stderr, "palpate: %s\n", escapedLine(sentence).c_str());
+  return unknown;
+}
+
 }  // namespace
 
 int deriveCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate derive FILE NAME=FORMULA.. [--from N] [--to N] [--filter SPEC..]",
+      {.synopsis = "palpate derive FILE NAME=FORMULA.. [--from N] [--to N] [--filter SPEC..] "
+                   "[--calibration C.json]",
        .purpose =
            "Computes curves from signals by formulas and prints them as CSV: frame,time_s and a "
            "column for each formula. Signals: m1_mean, m1_filtered_mean, m1_min, m1_max, m1_sum, "
@@ -52,15 +76,20 @@ int deriveCommand(const Arguments& words) {
            "frames; t [s]. Operators + - * / ^ ( ), comparisons and a ? b : c; functions abs sqrt "
            "min max exp ln sin .., and of signals: der(x), the slope of x over time [1/s]; "
            "smooth(x,n) and median(x,n) over n samples; lowpass(x,hz), highpass(x,hz), "
-           "bandpass(x,low,high), bandstop(x,low,high). A value that isn't known is an empty cell.",
-       .options = withFilterOptions({{"from", "N", "first frame, default 0"},
-                                     {"to", "N", "last frame, inclusive"},
-                                     timeOption()}),
+           "bandpass(x,low,high), bandstop(x,low,high). Signals that are "
+           "computed of the frames: m1_centroid_x_mm, hand_sphere_diameter_mm, m1_slip_speed_mm_s, "
+           "m1_slip_mm, and with --calibration hand_force_n, m1_force_n [N], m1_pressure_kpa, "
+           "m1_pressure_max_kpa. A value that isn't known is an empty cell.",
+       .options = withCalibration(withFilterOptions(
+           {{"from", "N", "first frame, default 0"},
+            {"to", "N", "last frame, inclusive"},
+            timeOption()})),
        .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",
        .minArguments = 2},
       words);
   if (given.helpShown()) return kDone;
   const Recipe recipe = recipeOf(given);
+  const auto calibration = calibrationGiven(given);
   const std::string& file = given.words().front();
   std::vector<NamedFormula> formulas;
   for (std::size_t i = 1; i < given.words().size(); ++i)
@@ -72,12 +101,15 @@ int deriveCommand(const Arguments& words) {
   ProgressLine line("reading " + file, given.quiet());
   Recording recorded = openReported(file, line, given.quiet());
   takeTimes(given, recorded, file, line.callback());
-  const Profile profile = filteredBy(recipe, recorded, file, line.callback());
-  if (profile.numFrames() == 0) throw Error(file + ": has no frames");
+  const Profile frames = filteredBy(recipe, recorded, file, line.callback());
+  if (frames.numFrames() == 0) throw Error(file + ": has no frames");
+  const ComputedOptions computed = computedOptions(calibration, file, recorded);
+  const Profile profile = withComputedSeries(frames, computed);
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
   const auto from = static_cast<std::size_t>(given.integer("from", 0, last).value_or(0));
   const auto to = static_cast<std::size_t>(given.integer("to", 0, last).value_or(last));
   if (from > to) throw UsageError("--from is after --to");
+  const bool unknown = calibration && sayAssumptions(computed, formulas, given.quiet());
   // The whole recording is computed, so that a slope at the ends of the part is that of its
   // neighbours.
   std::vector<Series> curves;
@@ -112,7 +144,7 @@ int deriveCommand(const Arguments& words) {
   }
   out.finish();
   line.wipe();
-  return kDone;
+  return unknown ? kPartlyDone : kDone;
 }
 
 }  // namespace palpate::commands

@@ -15,6 +15,7 @@ int runWindowCommand(const std::string& name, const Arguments& words) {
       {"classify", &classifyCommand},
       {"contact", &contactCommand},
       {"demo", &demoCommand},
+      {"derive", &deriveCommand},
       {"emulate", &emulateCommand},
       {"evaluate", &evaluateCommand},
       {"grasp", &graspCommand},

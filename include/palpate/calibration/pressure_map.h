@@ -57,6 +57,11 @@ struct PressureFrame {
   bool areaKnown = true;
 };
 
+// Force of the hand, and of one matrix [N]; nothing where a contact is outside the measured range,
+// or the area of the indenter isn't known.
+std::optional<double> knownForceN(const PressureFrame& pressures);
+std::optional<double> knownForceN(const MatrixPressure& matrix, bool areaKnown);
+
 // What tables say where the area of the indenter is not known.
 inline constexpr const char* kUnknownAreaText =
     "the area of the indenter is not known (calibrate pressure --area MM2): forces are upper "

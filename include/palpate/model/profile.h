@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include <palpate/core/progress.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/series.h>
 #include <palpate/model/tactile_frame.h>
@@ -72,6 +73,10 @@ class ProfileStorage {
   virtual std::size_t numSamples(std::size_t series) const = 0;
   virtual std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const = 0;
   virtual Sample sample(std::size_t series, std::size_t sample) const = 0;
+  // Of a series that is computed: whether its samples are at hand. Otherwise prepare() computes
+  // them, which may take as long as a pass over all frames; so does the first sample().
+  virtual bool isReady(std::size_t /*series*/) const { return true; }
+  virtual void prepare(std::size_t /*series*/, const Progress& /*progress*/) const {}
   // The last sample at or before a time, the first one before all; empty without samples. These
   // search over the times. A storage that knows the times of whole parts of its file searches over
   // those first, and reads only the part in which the sample lies.
@@ -126,6 +131,9 @@ class Profile {
   std::size_t numSamples(std::size_t series) const;
   std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const;
   Sample sample(std::size_t series, std::size_t sample) const;
+  // See ProfileStorage. prepare() throws Cancelled, and what computing the series throws.
+  bool isReady(std::size_t series) const;
+  void prepare(std::size_t series, const Progress& progress = {}) const;
   // The same for the series of the hand.
   std::size_t numAngles() const { return numSamples(kAngleSeries); }
   std::int64_t angleTimeUs(std::size_t i) const { return sampleTimeUs(kAngleSeries, i); }

@@ -21,6 +21,9 @@ constexpr std::size_t kMaxSeries = 64;      // of a profile, those of the hand i
 constexpr std::size_t kMaxColumns = 64;     // of a series
 constexpr std::size_t kMaxSeriesName = 40;  // characters
 
+// The role of series that are not recorded but computed of the frames (computed/computed_series.h).
+inline constexpr const char* kComputedRole = "computed";
+
 // One number of each sample of a series.
 struct Column {
   std::string name;  // "fz"; unique in its series, without control characters

@@ -68,6 +68,11 @@ struct Series {
 // matrices.)
 bool hasSeries(const Profile& profile, const SeriesChoice& choice);
 
+// Whether its values are at hand; false: the first to read them computes series of the profile that
+// are computed (Profile::isReady()), of a formula those that it names. True where hasSeries()
+// isn't.
+bool isReady(const Profile& profile, const SeriesChoice& choice);
+
 // Returns the number of samples within fromS..toS.
 std::size_t numSamples(const Profile& profile,
                        const SeriesChoice& choice,

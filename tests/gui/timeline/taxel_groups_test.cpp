@@ -160,5 +160,34 @@ TEST_F(TaxelGroupsTest, FurtherSeriesHaveASectionEach) {
   EXPECT_EQ(loadPlottedExtras(settings()), tree.extras());
 }
 
+TEST_F(TaxelGroupsTest, ComputedSeriesAreListedAndSayWhatTheyNeed) {
+  TaxelGroups groups(settings());
+  FormulaCurves formulas(settings());
+  SignalTree tree(groups, formulas);
+  const std::size_t hand = sdh2().layout->numMatrices();
+  tree.setSource(
+      sdh2(),
+      {.computed = {
+           {{"hand_force", kComputedRole, {{"n", "N"}}, ""},
+            ComputedKind::kForce,
+            hand,
+            {"force"},
+            "needs a calibration"},
+           {{"m0_slip", kComputedRole, {{"mm", "mm"}}, ""}, ComputedKind::kSlip, 0, {"slip"}}}});
+  EXPECT_FALSE(tree.setTicked("force of the whole hand", true));
+  EXPECT_FALSE(tree.setTicked("matrices in kPa and N", true));
+  const auto* list = tree.findChild<QTreeWidget*>("signalList");
+  const auto found =
+      list->findItems("force of the whole hand", Qt::MatchStartsWith | Qt::MatchRecursive);
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_EQ(found[0]->toolTip(0), "needs a calibration");
+  EXPECT_TRUE(tree.setTicked("slip on", true));
+  EXPECT_EQ(tree.extras().columns, (std::set<QString>{"m0_slip mm"}));
+  PlottedExtras calibrated = tree.extras();
+  calibrated.calibrated = true;
+  savePlottedExtras(calibrated, settings());
+  EXPECT_EQ(loadPlottedExtras(settings()), calibrated);
+}
+
 }  // namespace
 }  // namespace palpate::gui::taxel_groups_test

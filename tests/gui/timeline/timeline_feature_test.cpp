@@ -362,5 +362,64 @@ TEST_F(TimelineFeatureTest, TheReasonWhyAFormulaIsNotShownDoesNotCoverTheNameOfA
   }
 }
 
+TEST_F(TimelineFeatureTest, ComputedSeriesArePlottedOnceTheyAreComputed) {
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setPlotted({false, false});
+  ASSERT_TRUE(feature_.signalTree().setTicked("centroid x on", true));
+  TimelineChart& chart = feature_.panel().chart();
+  ASSERT_EQ(chart.curves().size(), 1u);
+  EXPECT_EQ(chart.curves()[0].unit, "mm");
+  feature_.settle();
+  const auto samples = chart.store().samples(chart.curves()[0].choice);
+  ASSERT_NE(samples, nullptr);
+  EXPECT_EQ(samples->values.size(), 20u);
+  EXPECT_EQ(chart.store().computing(), std::nullopt);
+  // A formula takes its name.
+  windowState_->formulas.keep({"in cm", "m0_centroid_x_mm / 10", "cm"});
+  ASSERT_TRUE(feature_.signalTree().setTicked("in cm", true));
+  EXPECT_EQ(chart.curves().size(), 2u);
+  // Without a calibration there is no force, and a formula says so.
+  EXPECT_FALSE(feature_.signalTree().setTicked("force of", true));
+  windowState_->formulas.keep({"double", "2 * hand_force_n", "N"});
+  ASSERT_TRUE(feature_.signalTree().setTicked("double", true));
+  EXPECT_EQ(chart.curves().size(), 2u);
+  const auto* notes = chart.findChild<QLabel*>("chartNotes");
+  EXPECT_TRUE(notes->text().contains("needs a calibration")) << notes->text().toStdString();
+}
+
+TEST_F(TimelineFeatureTest, WithACalibrationThereAreForcesAndMatricesInTheirUnits) {
+  const OpenedRecordingPtr shown = recording("a");
+  windowState_->displayed.show(shown);
+  windowState_->selection.setPlotted({true, false});
+  TimelineChart& chart = feature_.panel().chart();
+  Calibration calibration;
+  for (const double t : {28.0, 36.0, 44.0})
+    for (double k = 50.0; k <= 850.0; k += 100.0)
+      calibration.samples.push_back({.file = "a",
+                                     .sha256 = "",
+                                     .pressureKpa = 0.1 * k + (t > 30.0 ? 0.01 : -0.01),
+                                     .staticResponseCounts = k,
+                                     .driftCountsPerS = 0.0,
+                                     .nearestDegC = t,
+                                     .activeAreaMm2 = 100.0});
+  calibration.pressure = fitPressureModel(calibration.samples, {.indenterAreaMm2 = 50.0});
+  windowState_->derivedResults.setForces(
+      std::make_shared<const ComputedOptions>(ComputedOptions{.calibration = calibration}),
+      shown.get());
+  EXPECT_NE(windowState_->derivedResults.forcesOf(shown.get()), nullptr);
+  EXPECT_EQ(windowState_->derivedResults.forcesOf(this), nullptr) << "another recording";
+  ASSERT_TRUE(feature_.signalTree().setTicked("force of the whole hand", true));
+  ASSERT_TRUE(feature_.signalTree().setTicked("matrices in kPa and N", true));
+  ASSERT_EQ(chart.curves().size(), 2u);
+  EXPECT_EQ(chart.curves()[0].unit, "kPa");
+  EXPECT_EQ(chart.curves()[1].unit, "N");
+  feature_.settle();
+  for (const PlottedCurve& curve : chart.curves())
+    EXPECT_NE(chart.store().samples(curve.choice), nullptr) << curve.name.toStdString();
+  windowState_->derivedResults.setForces(nullptr, shown.get());
+  ASSERT_EQ(chart.curves().size(), 1u);
+  EXPECT_EQ(chart.curves()[0].unit, "counts") << "the calibration is gone";
+}
+
 }  // namespace
 }  // namespace palpate::gui::timeline_feature_test

@@ -68,6 +68,7 @@ void Pressures::take(const QString& path) {
 
 void Pressures::show(const std::optional<Calibration>& calibration, QString text) {
   reader_.reset();
+  forces_.reset();
   LiveSource* source = windowState_.displayed.source();
   try {
     if (source)
@@ -81,15 +82,20 @@ void Pressures::show(const std::optional<Calibration>& calibration, QString text
   }
   windowState_.derivedResults.setCalibration(text);
   windowState_.derivedResults.setPressure(nullptr);
+  windowState_.derivedResults.setForces(forces_,
+                                        windowState_.displayed.unfilteredRecording().get());
   if (!source) showFrame();
 }
 
 void Pressures::renewRecording(const Calibration& calibration) {
   if (!kept_.problem.isEmpty()) throw Error(kept_.problem.toStdString());
-  reader_ = std::make_unique<PressureReader>(windowState_.displayed.unfilteredRecording()->profile,
-                                             calibration,
-                                             pressureOptions(kept_, std::nullopt),
-                                             kept_.tare);
+  const Profile& counts = windowState_.displayed.unfilteredRecording()->profile;
+  const ComputedOptions forces{.calibration = calibration,
+                               .pressure = pressureOptions(kept_, std::nullopt),
+                               .tare = kept_.tare,
+                               .counts = counts};
+  reader_ = std::make_unique<PressureReader>(counts, calibration, forces.pressure, forces.tare);
+  forces_ = std::make_shared<const ComputedOptions>(forces);
 }
 
 // Computes the pressures of the recording's frame at the cursor.

@@ -46,6 +46,8 @@ class Pressures : public QObject {
   KeptWithRecording kept_;
   // Pressures of the shown recording; null when there are none.
   std::unique_ptr<PressureReader> reader_;
+  // What other views compute forces of the recording with; null as reader_.
+  std::shared_ptr<const ComputedOptions> forces_;
   // Identifies what the shown pressures were computed from.
   struct Of {
     // The recording or the history of the live source.

@@ -171,6 +171,32 @@ PlottedCurve columnCurve(const SeriesDescription& series, std::size_t column, st
           unit};
 }
 
+PlottedCurve computedCurve(const HandDescription& hand,
+                           const ComputedSeries& series,
+                           std::size_t column,
+                           const DisplayUnits& units) {
+  PlottedCurve made = columnCurve(series.description, column, 0);
+  const bool whole = series.matrix == hand.layout->numMatrices();
+  made.name = QString::fromStdString(series.captions.at(column)) +
+              (whole ? QString(" of the whole hand")
+                     : " on " + QString::fromStdString(hand.matrixName(series.matrix)));
+  if (made.unit == "kPa") {
+    const ShownUnit shown = shownUnit(units.pressure);
+    made.unit = shown.symbol;
+    made.conversion = shown.conversion;
+  }
+  made.axis = (series.kind == ComputedKind::kForce      ? "force in "
+               : series.kind == ComputedKind::kPressure ? "pressure in "
+               : made.unit == "mm"                      ? "length in "
+                                                        : "speed in ") +
+              made.unit;
+  made.pen.setColor(whole ? wholeColor() : matrixColor(series.matrix));
+  // Each kind and column has a dash of its own beside the solid line of the matrices.
+  const auto kind = static_cast<qreal>(series.kind), part = static_cast<qreal>(column);
+  made.pen.setDashPattern({4 + 3 * kind, 2, 1 + part, 2});
+  return made;
+}
+
 PlottedCurve forceCurve(const HandDescription& hand, std::size_t row) {
   const bool whole = row == hand.layout->numMatrices();
   PlottedCurve made = curve(

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include <palpate/computed/computed_series.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/signals/profile_series.h>
 
@@ -61,6 +62,11 @@ PlottedCurve temperatureCurve(const HandDescription& hand,
                               const DisplayUnits& units = {});
 // A column of a further series. `place`: index among all such columns, which decides the colour.
 PlottedCurve columnCurve(const SeriesDescription& series, std::size_t column, std::size_t place);
+// A column of a computed series: "force on finger 0 distal", "sphere diameter of the whole hand".
+PlottedCurve computedCurve(const HandDescription& hand,
+                           const ComputedSeries& series,
+                           std::size_t column,
+                           const DisplayUnits& units = {});
 // "wrist fz"
 QString nameOf(const SeriesDescription& series, const Column& column);
 // As it is shown: "°" for "deg", "°C" for "degC".

@@ -43,14 +43,15 @@ std::string statisticsCell(double value) {
 SelectedCurves selectedCurves(const OpenedRecordingPtr& recording,
                               const std::vector<PlottedCurve>& curves,
                               const FrameSpan& span,
-                              const Progress& progress) {
+                              const Progress& progress,
+                              const std::optional<Profile>& with) {
   SelectedCurves selected{.gapS = gapFromS(recording->timingNow())};
   for (const PlottedCurve& curve : curves) {
     const bool ofMatrix = curve.choice.kind == SeriesChoice::Kind::kMatrix;
     selected.curves.push_back(
         {curve.name + (ofMatrix ? " " + nameOf(curve.choice.signal) : QString()), curve.unit});
   }
-  const TextTable values = curveTable(recording, curves, span);
+  const TextTable values = curveTable(recording, curves, span, with);
   for (std::size_t i = 0; i < values.numRows; ++i) {
     reportProgress(progress, i, values.numRows);
     const std::vector<std::string> cells = values.row(i);
@@ -92,10 +93,11 @@ TextTable statisticsTable(const SelectedCurves& selected) {
 TextTable statisticsTable(const OpenedRecordingPtr& recording,
                           const std::vector<PlottedCurve>& curves,
                           const FrameSpan& span,
-                          const Progress& progress) {
+                          const Progress& progress,
+                          const std::optional<Profile>& with) {
   std::vector<PlottedCurve> inFiles;
   for (const PlottedCurve& curve : curves) inFiles.push_back(inBaseUnit(curve));
-  return statisticsTable(selectedCurves(recording, inFiles, span, progress));
+  return statisticsTable(selectedCurves(recording, inFiles, span, progress, with));
 }
 
 TextTable differenceTable(const SelectedCurves& selected) {

@@ -28,11 +28,12 @@ struct SelectedCurves {
   double gapS = 0.0;
 };
 // Values are in the units that are shown. Reads every frame of the span. Throws Cancelled,
-// FormatError (a damaged frame).
+// FormatError (a damaged frame). `with`: as curveTable().
 SelectedCurves selectedCurves(const OpenedRecordingPtr& recording,
                               const std::vector<PlottedCurve>& curves,
                               const FrameSpan& span,
-                              const Progress& progress = {});
+                              const Progress& progress = {},
+                              const std::optional<Profile>& with = {});
 
 // A row per curve: its name and unit, the number of frames with a value, mean, standard deviation,
 // smallest and largest value, slope [unit/s], integral over time [unit s]; see
@@ -43,7 +44,8 @@ TextTable statisticsTable(const SelectedCurves& selected);
 TextTable statisticsTable(const OpenedRecordingPtr& recording,
                           const std::vector<PlottedCurve>& curves,
                           const FrameSpan& span,
-                          const Progress& progress = {});
+                          const Progress& progress = {},
+                          const std::optional<Profile>& with = {});
 
 // A row per curve: name, unit, its first and its last value in the selection, their difference, and
 // the difference by the time between them [unit/s].

@@ -64,12 +64,14 @@ std::vector<FormulaSignal> formulaSignals(const Profile& profile,
   for (std::size_t sensor = 0; sensor < hand.temperatureSensors.size(); ++sensor)
     add(QString::fromStdString(hand.temperatureSensors[sensor].name),
         {.kind = SeriesChoice::Kind::kTemperature, .index = sensor});
-  for (const SeriesDescription& series : furtherSeriesOf(profile))
+  for (const SeriesDescription& series : furtherSeriesOf(profile)) {
+    if (series.role == kComputedRole && !profile.seriesNamed(series.name)) continue;
     for (std::size_t column = 0; column < series.columns.size(); ++column) {
       const PlottedCurve curve = columnCurve(series, column, 0);
       add(curve.name, curve.choice);
       found.back().unit = curve.baseUnit;
     }
+  }
   return found;
 }
 

@@ -62,9 +62,12 @@ SeriesStore::SeriesStore(QObject* parent) : QObject(parent) {
   news_.setInterval(kNewsMs);
   connect(&news_, &QTimer::timeout, this, [this] {
     const double now = progress();
-    if (now != toldProgress_) emit changed();
+    const double computing = computing_;
+    const bool isNew = now != toldProgress_ || computing != toldComputing_;
     toldProgress_ = now;
-    if (now >= 1.0) news_.stop();
+    toldComputing_ = computing;
+    if (now >= 1.0 && numJobs_ == 0) news_.stop();
+    if (isNew) emit changed();
   });
 }
 
@@ -80,6 +83,7 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
   if (stop_) *stop_ = true;
   stop_ = std::make_shared<std::atomic<bool>>(false);
   recording_ = recording;
+  profile_ = recording ? std::optional(recording->profile) : std::nullopt;
   entries_.clear();
   firstLook_.reset();
   fromS_ = 0.0;
@@ -99,6 +103,35 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
   });
   toldProgress_ = 0.0;
   news_.start();
+}
+
+void SeriesStore::setProfile(const Profile& profile) {
+  if (!recording_) return;
+  profile_ = profile;
+  dropIf([&](const Entry& entry) {
+    if (entry.choice.kind == SeriesChoice::Kind::kFormula) return true;
+    const auto column = columnOf(recording_->profile, entry.choice);
+    return entry.choice.kind == SeriesChoice::Kind::kColumn && !column;
+  });
+}
+
+template <typename Which>
+void SeriesStore::dropIf(const Which& which) {
+  std::erase_if(entries_, [&](const Entry& entry) {
+    if (!which(entry)) return false;
+    *entry.dropped = true;
+    return true;
+  });
+}
+
+// Of reading a curve in a worker; tells how far series are that must be computed for it.
+Progress SeriesStore::progressOf(const Entry& entry) {
+  const bool computes = !isReady(*profile_, entry.choice);
+  if (computes) news_.start();
+  return [this, computes, stop = stop_, dropped = entry.dropped](double done) {
+    if (computes) computing_ = done;
+    return !*stop && !*dropped;
+  };
 }
 
 // Reads all signals of frames spread over the recording, once for all curves.
@@ -161,12 +194,12 @@ const SeriesStore::Entry* SeriesStore::find(const SeriesChoice& choice) const {
 }
 
 void SeriesStore::setWanted(const std::vector<SeriesChoice>& wanted) {
-  std::erase_if(entries_, [&](const Entry& entry) {
+  dropIf([&](const Entry& entry) {
     return std::find(wanted.begin(), wanted.end(), entry.choice) == wanted.end();
   });
   if (!recording_) return;
   for (const SeriesChoice& choice : wanted) {
-    if (find(choice) || !hasSeries(recording_->profile, choice)) continue;
+    if (find(choice) || !hasSeries(*profile_, choice)) continue;
     Entry& entry = entries_.emplace_back();
     entry.choice = choice;
     begin(entry);
@@ -198,18 +231,29 @@ void SeriesStore::begin(Entry& entry) {
   };
   if (choice.kind == SeriesChoice::Kind::kMatrix)
     return keep(entry, fromTable(*recording_, choice));
-  // A formula may be slow, and may not be computable: it is read in the background.
-  if (choice.kind != SeriesChoice::Kind::kFormula &&
-      numSamples(recording_->profile, choice, -kForever, kForever) <= kReadAtOnce)
-    return keep(entry, readableSeries(recording_->profile, choice, -kForever, kForever));
+  // A formula may be slow, and may not be computable: it is read in the background, as is what must
+  // be computed.
+  if (choice.kind != SeriesChoice::Kind::kFormula && isReady(*profile_, choice) &&
+      numSamples(*profile_, choice, -kForever, kForever) <= kReadAtOnce)
+    return keep(entry, readableSeries(*profile_, choice, -kForever, kForever));
   ++numJobs_;
-  reads_.start([this, stop = stop_, choice, keep, profile = recording_->profile] {
+  reads_.start([this,
+                stop = stop_,
+                dropped = entry.dropped,
+                choice,
+                keep,
+                goOn = progressOf(entry),
+                profile = *profile_] {
     try {
-      auto series = std::make_shared<Series>(
-          readableSeries(profile, choice, -kForever, kForever, [&](double) { return !*stop; }));
-      deliver(choice, stop, [keep, series](Entry& to) { keep(to, std::move(*series)); });
+      auto series =
+          std::make_shared<Series>(readableSeries(profile, choice, -kForever, kForever, goOn));
+      // The same curve may have been dropped and wanted again, of another profile.
+      deliver(choice, stop, [keep, series, dropped](Entry& to) {
+        if (to.dropped == dropped) keep(to, std::move(*series));
+      });
     } catch (const std::exception&) {
     }
+    computing_ = -1.0;
     --numJobs_;
   });
 }
@@ -218,12 +262,13 @@ void SeriesStore::beginLong(Entry& entry) {
   const SeriesChoice choice = entry.choice;
   const bool ofMatrix = choice.kind == SeriesChoice::Kind::kMatrix;
   if (!ofMatrix) entry.buckets = std::make_shared<BucketSeries>(recording_->durationS(), 1.0);
-  const auto goOn = [stop = stop_](double) { return !stop->load(); };
+  const Progress goOn = progressOf(entry);
   takeFirstLook(entry);
-  // Of a formula each sample needs its neighbours, so that there is no quick first look.
-  if (!ofMatrix && choice.kind != SeriesChoice::Kind::kFormula) {
+  // Of a formula each sample needs its neighbours, so that there is no quick first look; nor is
+  // there one of what must be computed.
+  if (!ofMatrix && choice.kind != SeriesChoice::Kind::kFormula && isReady(*profile_, choice)) {
     ++numJobs_;
-    reads_.start([this, stop = stop_, choice, goOn, profile = recording_->profile] {
+    reads_.start([this, stop = stop_, choice, goOn, profile = *profile_] {
       try {
         UnreadableSamples unreadable;
         auto series =
@@ -239,7 +284,7 @@ void SeriesStore::beginLong(Entry& entry) {
   }
   if (ofMatrix) return;
   ++numJobs_;
-  passes_.start([this, goOn, choice, buckets = entry.buckets, profile = recording_->profile] {
+  passes_.start([this, goOn, choice, buckets = entry.buckets, profile = *profile_] {
     try {
       UnreadableSamples unreadable;
       visitSeries(
@@ -253,8 +298,15 @@ void SeriesStore::beginLong(Entry& entry) {
     } catch (const std::exception&) {
       buckets->finish();  // a formula that can't be computed: nothing more will come
     }
+    computing_ = -1.0;
     --numJobs_;
-    QMetaObject::invokeMethod(this, &SeriesStore::changed, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+          askForExact();
+          emit changed();
+        },
+        Qt::QueuedConnection);
   });
   news_.start();
 }
@@ -270,11 +322,10 @@ void SeriesStore::askForExact() {
   if (!recording_ || !recording_->isLong()) return;
   for (Entry& entry : entries_) {
     if (entry.exactRequested || (entry.exactFromS <= fromS_ && toS_ <= entry.exactToS)) continue;
+    if (!isReady(*profile_, entry.choice)) continue;  // asked again when it is computed
     double fromS = fromS_ - (toS_ - fromS_);
     double toS = toS_ + (toS_ - fromS_);
-    const auto many = [&] {
-      return numSamples(recording_->profile, entry.choice, fromS, toS) > kMostExact;
-    };
+    const auto many = [&] { return numSamples(*profile_, entry.choice, fromS, toS) > kMostExact; };
     if (many()) {
       fromS = fromS_;
       toS = toS_;
@@ -283,7 +334,13 @@ void SeriesStore::askForExact() {
     entry.exactRequested = true;
     ++numJobs_;
     reads_.start(
-        [this, stop = stop_, choice = entry.choice, fromS, toS, profile = recording_->profile] {
+        [this,
+         stop = stop_,
+         dropped = entry.dropped,
+         choice = entry.choice,
+         fromS,
+         toS,
+         profile = *profile_] {
           // Where nothing can be read, it has no sample: those of another span would be wrong here.
           auto series = std::make_shared<const Series>();
           try {
@@ -291,7 +348,8 @@ void SeriesStore::askForExact() {
                 readableSeries(profile, choice, fromS, toS, [&](double) { return !*stop; }));
           } catch (const std::exception&) {
           }
-          deliver(choice, stop, [this, series, fromS, toS](Entry& to) {
+          deliver(choice, stop, [this, series, dropped, fromS, toS](Entry& to) {
+            if (to.dropped != dropped) return;
             to.exactRequested = false;
             to.exactFromS = fromS;
             to.exactToS = toS;
@@ -363,8 +421,9 @@ std::optional<double> SeriesStore::valueAt(const SeriesChoice& choice, double ti
   // It would have to be computed from gap to gap, with the window standing still.
   if (choice.kind == SeriesChoice::Kind::kFormula && Formula(choice.formula).hasFrequencyFilter())
     return std::nullopt;
+  if (!isReady(*profile_, choice)) return std::nullopt;
   try {
-    const Series one = readableSeries(recording_->profile, choice, timeS, timeS);
+    const Series one = readableSeries(*profile_, choice, timeS, timeS);
     if (!one.values.empty()) return last(one);
   } catch (const Error&) {
     // A formula of signals that can't be read.
@@ -411,6 +470,11 @@ double SeriesStore::progress() const {
         static_cast<double>(buckets->numReady()) / static_cast<double>(buckets->numBuckets()));
   }
   return least;
+}
+
+std::optional<double> SeriesStore::computing() const {
+  const double share = computing_;
+  return share < 0.0 ? std::nullopt : std::optional(share);
 }
 
 void SeriesStore::waitForFirstLook() {

@@ -29,6 +29,9 @@ class SeriesStore : public QObject {
 
   // Null: none.
   void setRecording(const OpenedRecordingPtr& recording);
+  // Sets the profile that the curves are read from: that of the recording with computed series.
+  // What was computed before is dropped; setWanted() asks for it anew.
+  void setProfile(const Profile& profile);
   // Sets the plotted curves; those that the recording doesn't have are left out. Data of all others
   // are dropped.
   void setWanted(const std::vector<SeriesChoice>& wanted);
@@ -52,6 +55,8 @@ class SeriesStore : public QObject {
 
   // Share of the recording that has been read for the plotted curves, 0..1.
   double progress() const;
+  // Share of the series that are being computed now for a curve; nothing: none is.
+  std::optional<double> computing() const;
   bool busy() const { return progress() < 1.0 || numJobs_ > 0; }
   // Wait for everything that was requested, or only for the first samples; for tests and pictures.
   void waitUntilRead();
@@ -61,6 +66,7 @@ class SeriesStore : public QObject {
   void changed();
 
  private:
+  using Stop = std::shared_ptr<std::atomic<bool>>;
   struct Entry {
     SeriesChoice choice;
     // Short recording: all samples.
@@ -74,9 +80,14 @@ class SeriesStore : public QObject {
     double exactToS = -1.0;
     bool exactRequested = false;
     std::optional<std::pair<double, double>> extremes;
+    // Set when the curve is no longer wanted: ends its computing.
+    Stop dropped = std::make_shared<std::atomic<bool>>(false);
   };
-  using Stop = std::shared_ptr<std::atomic<bool>>;
 
+  // Takes the curve out; what is computed for it ends.
+  template <typename Which>
+  void dropIf(const Which& which);
+  Progress progressOf(const Entry& entry);
   Entry* find(const SeriesChoice& choice);
   const Entry* find(const SeriesChoice& choice) const;
   void begin(Entry& entry);
@@ -96,6 +107,8 @@ class SeriesStore : public QObject {
   };
 
   OpenedRecordingPtr recording_;
+  // Of the recording; perhaps with computed series.
+  std::optional<Profile> profile_;
   std::shared_ptr<const FirstLook> firstLook_;
   std::vector<Entry> entries_;
   double fromS_ = 0.0;
@@ -109,6 +122,9 @@ class SeriesStore : public QObject {
   QTimer news_;
   std::atomic<int> numJobs_ = 0;
   double toldProgress_ = 1.0;
+  // Below 0: nothing is computed.
+  std::atomic<double> computing_ = -1.0;
+  double toldComputing_ = -1.0;
 };
 
 }  // namespace palpate::gui

@@ -30,8 +30,25 @@ enum SignalTreeKind {
   kTemperature,
   kForce,
   kFormulaLine,
-  kColumnLine
+  kColumnLine,
+  kCalibratedLine
 };
+
+QString computedCaption(ComputedKind kind) {
+  switch (kind) {
+    case ComputedKind::kForce:
+      return "force";
+    case ComputedKind::kPressure:
+      return "pressure";
+    case ComputedKind::kCentroid:
+      return "centroid of the contact";
+    case ComputedKind::kSphere:
+      return "sphere around the contacts";
+    case ComputedKind::kSlip:
+      return "slip";
+  }
+  return {};
+}
 
 std::set<int> numbersIn(const QVariant& value) {
   std::set<int> numbers;
@@ -60,6 +77,7 @@ PlottedExtras loadPlottedExtras(const QSettings& settings) {
     extras.formulas.insert(name);
   for (const QString& name : settings.value("plotted/columns").toStringList())
     extras.columns.insert(name);
+  extras.calibrated = settings.value("plotted/calibrated", false).toBool();
   extras.angles = numbersIn(settings.value("plotted/angles"));
   extras.temperatures = numbersIn(settings.value("plotted/temperatures"));
   extras.forces = numbersIn(settings.value("plotted/forces"));
@@ -72,6 +90,7 @@ void savePlottedExtras(const PlottedExtras& extras, QSettings& settings) {
   settings.setValue("plotted/formulas",
                     QStringList(extras.formulas.begin(), extras.formulas.end()));
   settings.setValue("plotted/columns", QStringList(extras.columns.begin(), extras.columns.end()));
+  settings.setValue("plotted/calibrated", extras.calibrated);
   settings.setValue("plotted/angles", signalTreeWordsOf(extras.angles));
   settings.setValue("plotted/temperatures", signalTreeWordsOf(extras.temperatures));
   settings.setValue("plotted/forces", signalTreeWordsOf(extras.forces));
@@ -158,18 +177,59 @@ QTreeWidgetItem* SignalTree::section(const QString& title) {
   return item;
 }
 
+QTreeWidgetItem* SignalTree::addLine(
+    QTreeWidgetItem* parent, const QString& text, int kind, int index, bool on) {
+  auto* item = new QTreeWidgetItem(parent, {text});
+  item->setData(0, kSignalTreeKind, kind);
+  item->setData(0, kIndex, index);
+  item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
+  item->setCheckState(0, on ? Qt::Checked : Qt::Unchecked);
+  return item;
+}
+
+// A heading per kind, open where one of its lines is ticked.
+void SignalTree::addComputed() {
+  if (source_.computed.empty()) return;
+  QTreeWidgetItem* computed = section("Computed");
+  const auto disable = [](QTreeWidgetItem* item, const std::string& missing) {
+    item->setFlags(item->flags() & ~(Qt::ItemIsEnabled | Qt::ItemIsSelectable));
+    item->setToolTip(0, QString::fromStdString(missing));
+  };
+  const std::string& noForces = source_.computed.front().missing;
+  QTreeWidgetItem* calibrated =
+      addLine(computed, "matrices in kPa and N", kCalibratedLine, 0, extras_.calibrated);
+  calibrated->setToolTip(0, "Mean, filtered mean and maximum as pressure, sum as force");
+  if (!noForces.empty()) disable(calibrated, noForces);
+  QTreeWidgetItem* group = nullptr;
+  std::optional<ComputedKind> kind;
+  std::vector<QTreeWidgetItem*> closed;
+  for (const ComputedSeries& series : source_.computed) {
+    if (kind != series.kind) {
+      kind = series.kind;
+      group = new QTreeWidgetItem(computed, {computedCaption(series.kind)});
+      group->setFlags(Qt::ItemIsEnabled);
+      group->setData(0, kSignalTreeKind, kSection);
+      closed.push_back(group);
+    }
+    for (std::size_t i = 0; i < series.description.columns.size(); ++i) {
+      const QString name = nameOf(series.description, series.description.columns[i]);
+      const PlottedCurve curve = computedCurve(hand_, series, i, units_);
+      const bool on = extras_.columns.contains(name);
+      QTreeWidgetItem* item =
+          addLine(group, curve.name + " (" + curve.unit + ")", kColumnLine, 0, on);
+      item->setData(0, kName, name);
+      if (!series.missing.empty()) disable(item, series.missing);
+      if (on) std::erase(closed, group);
+    }
+  }
+  tree_->expandAll();
+  for (QTreeWidgetItem* item : closed) item->setExpanded(false);
+}
+
 void SignalTree::rebuild() {
   building_ = true;
   tree_->clear();
-  const auto line =
-      [](QTreeWidgetItem* parent, const QString& text, SignalTreeKind kind, int index, bool on) {
-        auto* item = new QTreeWidgetItem(parent, {text});
-        item->setData(0, kSignalTreeKind, kind);
-        item->setData(0, kIndex, index);
-        item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
-        item->setCheckState(0, on ? Qt::Checked : Qt::Unchecked);
-        return item;
-      };
+  const auto line = [this](auto... of) { return addLine(of...); };
   const auto nothing = [](QTreeWidgetItem* parent, const QString& text) {
     auto* item = new QTreeWidgetItem(parent, {text});
     item->setFlags(Qt::NoItemFlags);
@@ -253,6 +313,7 @@ void SignalTree::rebuild() {
         static_cast<int>(i),
         extras_.forces.contains(static_cast<int>(i)));
   tree_->expandAll();
+  addComputed();
   group_->setEnabled(numChosen_ > 0);
   formula_->setEnabled(hand_.layout != nullptr && !source_.hasForces);
   building_ = false;
@@ -296,6 +357,9 @@ void SignalTree::onItemChanged(QTreeWidgetItem* item) {
       break;
     case kFormulaLine:
       put(extras_.formulas, item->data(0, kName).toString());
+      break;
+    case kCalibratedLine:
+      extras_.calibrated = on;
       break;
     case kColumnLine:
       put(extras_.columns, item->data(0, kName).toString());
@@ -349,7 +413,8 @@ void SignalTree::openBelow(const QWidget& button) {
 
 bool SignalTree::setTicked(const QString& text, bool on) {
   for (QTreeWidgetItem* item : tree_->findItems(text, Qt::MatchStartsWith | Qt::MatchRecursive)) {
-    if (!(item->flags() & Qt::ItemIsUserCheckable)) continue;
+    if (!(item->flags() & Qt::ItemIsUserCheckable) || !(item->flags() & Qt::ItemIsEnabled))
+      continue;
     item->setCheckState(0, on ? Qt::Checked : Qt::Unchecked);
     return true;
   }

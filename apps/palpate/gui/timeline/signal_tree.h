@@ -1,7 +1,6 @@
 // A list with check boxes that chooses which curves the timeline shows in addition to those of the
 // matrices: the selected taxels, named groups, formulas, joint angles, temperatures, columns of
-// further series, forces. It
-// stays open while several are ticked.
+// further series, computed ones, forces. It stays open while several are ticked.
 #pragma once
 
 #include <QFrame>
@@ -11,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include <palpate/computed/computed_series.h>
 #include <palpate/model/hand_description.h>
 
 #include "gui/appearance/display_units.h"
@@ -34,8 +34,10 @@ struct PlottedExtras {
   std::set<int> forces = {};
   // Names of curves by formulas.
   std::set<QString> formulas = {};
-  // Columns of further series by their names: "wrist fz".
+  // Columns of further series by their names: "wrist fz"; of computed ones, too: "m1_force n".
   std::set<QString> columns = {};
+  // Whether curves of matrices are in kPa and N where the recording is calibrated.
+  bool calibrated = false;
   bool operator==(const PlottedExtras&) const = default;
 };
 PlottedExtras loadPlottedExtras(const QSettings& settings);
@@ -47,6 +49,8 @@ struct SignalSource {
   bool hasTemperatures = false;
   // Those beside the series of the hand.
   std::vector<SeriesDescription> series = {};
+  // Computed of the frames; those with something missing are shown, but can't be ticked.
+  std::vector<ComputedSeries> computed = {};
   // Whether a calibration gives forces; nothing: forces aren't offered.
   std::optional<bool> hasForces = std::nullopt;
 };
@@ -82,6 +86,9 @@ class SignalTree : public QFrame {
  private:
   void rebuild();
   QTreeWidgetItem* section(const QString& title);
+  void addComputed();
+  QTreeWidgetItem* addLine(
+      QTreeWidgetItem* parent, const QString& text, int kind, int index, bool on);
   static void toggle(QTreeWidgetItem& item);
   void onItemChanged(QTreeWidgetItem* item);
 

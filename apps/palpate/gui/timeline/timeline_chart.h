@@ -27,6 +27,11 @@ class TimelineChart : public Chart {
 
   // Null: the chart is empty.
   void setRecording(const OpenedRecordingPtr& recording);
+  // See SeriesStore. The curves are read anew where they need it.
+  void setProfile(const Profile& profile) {
+    store_.setProfile(profile);
+    setCurves(std::vector<PlottedCurve>(curves_));
+  }
   const OpenedRecordingPtr& recording() const noexcept { return recording_; }
   // Curves that the recording doesn't have stay empty.
   void setCurves(const std::vector<PlottedCurve>& curves);

@@ -183,12 +183,48 @@ void TimelineFeature::takeSource() {
   chart_->setBefore(displayed.filteredRecording() != behind ? behind : nullptr);
   const QCPRange seen = chart_->seen();
   state().selection.setVisibleSpan({seen.lower, seen.upper});
-  if (displayed.isRecording())
-    signalTree_->setSource(behind->profile.hand(),
-                           {.hasAngles = behind->profile.numAngles() > 0,
-                            .hasTemperatures = behind->profile.numTemperatures() > 0,
-                            .series = furtherSeries()});
+  renewComputed();
   if (displayed.isLive()) takeLive();
+}
+
+void TimelineFeature::renewComputed() {
+  const DisplayedSource& displayed = state().displayed;
+  const OpenedRecordingPtr& behind = displayed.unfilteredRecording();
+  const OpenedRecordingPtr& seen = displayed.filteredRecording();
+  computed_.clear();
+  profile_.reset();
+  reasons_.clear();
+  if (!seen || !behind || displayed.isLive()) return;
+  if (seen->profile.numFrames() > 0) {
+    ComputedOptions options;
+    if (const auto forces = state().derivedResults.forcesOf(behind.get())) options = *forces;
+    options.counts = behind->profile;
+    computed_ = computedSeries(seen->profile, options);
+    profile_ = withComputedSeries(seen->profile, options);
+    chart_->setProfile(*profile_);
+  }
+  signalTree_->setSource(behind->profile.hand(),
+                         {.hasAngles = behind->profile.numAngles() > 0,
+                          .hasTemperatures = behind->profile.numTemperatures() > 0,
+                          .series = furtherSeries(),
+                          .computed = computed_});
+}
+
+bool TimelineFeature::cancelComputing() {
+  if (!chart_->store().computing() || !profile_) return false;
+  for (const ComputedSeries& series : computed_)
+    for (const Column& column : series.description.columns)
+      if (!isReady(*profile_,
+                   {.kind = SeriesChoice::Kind::kColumn,
+                    .series = series.description.name,
+                    .column = column.name}))
+        extras_.columns.erase(nameOf(series.description, column));
+  for (const FormulaCurve& each : state().formulas.all())
+    if (!isReady(*profile_, each.choice())) extras_.formulas.erase(each.name);
+  extras_.calibrated = false;
+  signalTree_->setExtras(extras_);
+  showCurves();
+  return true;
 }
 
 void TimelineFeature::takeLive() {
@@ -242,6 +278,11 @@ void TimelineFeature::connectLive() {
   connect(&state().displayed, &DisplayedSource::handChanged, this, [this] { offerLiveCurves(); });
   connect(&currentFrame, &CurrentFrame::resultsReceived, this, &TimelineFeature::takeLiveSeries);
   const DerivedResults& derived = state().derivedResults;
+  connect(&derived, &DerivedResults::forcesChanged, this, [this] {
+    if (state().displayed.isLive()) return;
+    renewComputed();
+    showCurves();
+  });
   connect(&derived, &DerivedResults::pressureChanged, this, [this, &derived] {
     const bool has = derived.pressure() != nullptr;
     if (has == hasForces_) return;
@@ -371,6 +412,8 @@ void TimelineFeature::connectSelection() {
     signalTree_->setNumChosen(selection.taxels().count());
     if (extras_.chosenTaxels) showCurves();
   });
+  state().escapeHandler.add(EscapeHandler::Order::kComputation,
+                            [this] { return cancelComputing(); });
   state().escapeHandler.add(EscapeHandler::Order::kSpan, [this, &selection] {
     if (!selection.span() || state().displayed.isLive()) return false;
     selection.setSpan(std::nullopt);
@@ -469,8 +512,9 @@ void TimelineFeature::askForFormula(const QString& name) {
   if (!recording || recording->profile.numFrames() == 0)
     return state().messages.flash("a formula needs a recording with frames");
   const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
-  std::vector<FormulaSignal> from = formulaSignals(
-      recording->profile, state().appearance.view().signal, state().selection.taxels());
+  const Profile profile = profile_.value_or(recording->profile);
+  std::vector<FormulaSignal> from =
+      formulaSignals(profile, state().appearance.view().signal, state().selection.taxels());
   // What is plotted comes first.
   const std::vector<PlottedCurve> shown = curves();
   std::stable_partition(from.begin(), from.end(), [&](const FormulaSignal& each) {
@@ -478,7 +522,7 @@ void TimelineFeature::askForFormula(const QString& name) {
       return palpate::nameOf(curve.choice, recording->profile.layout()) == each.name.toStdString();
     });
   });
-  auto* dialog = new FormulaDialog(std::move(from), recording->profile, before, window());
+  auto* dialog = new FormulaDialog(std::move(from), profile, before, window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QDialog::accepted, this, [this, dialog, before] {
     const FormulaCurve made = dialog->curve();
@@ -497,6 +541,27 @@ void TimelineFeature::askForFormula(const QString& name) {
   dialog->open();
 }
 
+PlottedCurve TimelineFeature::matrixCurveOf(const HandDescription& hand, std::size_t row) const {
+  const DisplayUnits& units = state().appearance.view().units;
+  const SignalKind signal = state().appearance.view().signal;
+  PlottedCurve made = matrixCurve(hand, row, signal, units);
+  if (!extras_.calibrated || state().displayed.isLive()) return made;
+  const bool isForce = signal == SignalKind::kSum;
+  const bool isPressure = signal == SignalKind::kMean || signal == SignalKind::kFilteredMean ||
+                          signal == SignalKind::kMaximum;
+  if (!isForce && !isPressure) return made;
+  for (const ComputedSeries& series : computed_) {
+    if (series.kind != (isForce ? ComputedKind::kForce : ComputedKind::kPressure) ||
+        series.matrix != row || !series.missing.empty())
+      continue;
+    PlottedCurve calibrated =
+        computedCurve(hand, series, signal == SignalKind::kMaximum ? 1 : 0, units);
+    calibrated.pen = made.pen;
+    return calibrated;
+  }
+  return made;
+}
+
 std::vector<PlottedCurve> TimelineFeature::curves() const {
   std::vector<PlottedCurve> curves;
   const HandDescription* hand = state().displayed.hand();
@@ -504,13 +569,13 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   const DisplayUnits& units = state().appearance.view().units;
   const std::vector<bool>& plotted = state().selection.plotted();
   for (std::size_t row = 0; row < plotted.size(); ++row)
-    if (plotted[row])
-      curves.push_back(matrixCurve(*hand, row, state().appearance.view().signal, units));
+    if (plotted[row]) curves.push_back(matrixCurveOf(*hand, row));
   const bool live = state().displayed.isLive();
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording && !live) return curves;
   const auto add = [&](PlottedCurve curve) {
-    if (live || hasSeries(recording->profile, curve.choice)) curves.push_back(std::move(curve));
+    if (live || hasSeries(profile_.value_or(recording->profile), curve.choice))
+      curves.push_back(std::move(curve));
   };
   const TaxelSelection& chosen = state().selection.taxels();
   if (extras_.chosenTaxels && !chosen.empty()) {
@@ -548,6 +613,10 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
     for (std::size_t column = 0; column < series.columns.size(); ++column, ++place)
       if (extras_.columns.contains(nameOf(series, series.columns[column])))
         add(columnCurve(series, column, place));
+  for (const ComputedSeries& series : computed_)
+    for (std::size_t i = 0; i < series.description.columns.size(); ++i)
+      if (extras_.columns.contains(nameOf(series.description, series.description.columns[i])))
+        add(computedCurve(*hand, series, i, units));
   for (const int row : extras_.forces)
     if (live && hasForces_ && row <= static_cast<int>(hand->layout->numMatrices()))
       add(forceCurve(*hand, static_cast<std::size_t>(row)));
@@ -579,15 +648,19 @@ QString TimelineFeature::reasonAgainst(const FormulaCurve& formula) const {
   reasonsFor_ = recording;
   const auto known = reasons_.find(formula.formula);
   if (known != reasons_.end()) return known->second;
-  return reasons_[formula.formula] = problemOf(formula.formula, &recording->profile);
+  const Profile& profile = profile_ ? *profile_ : recording->profile;
+  return reasons_[formula.formula] = problemOf(formula.formula, &profile);
 }
 
 void TimelineFeature::showReading() {
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (state().displayed.isLive()) return;
   const double done = chart_->store().progress();
+  const auto computing = chart_->store().computing();
   header_->setReading(
-      done < 1.0 ? "reading " + QString::number(static_cast<int>(done * 100.0)) + " %" : QString());
+      computing    ? "computing " + QString::number(static_cast<int>(*computing * 100.0)) + " %"
+      : done < 1.0 ? "reading " + QString::number(static_cast<int>(done * 100.0)) + " %"
+                   : QString());
   if (recording && recording->isLong() && done >= 1.0) state().displayed.notifyMoreKnown();
 }
 
@@ -633,8 +706,8 @@ void TimelineFeature::showStatistics() {
   statisticsJob_.cancel();
   statisticsJob_.start(
       fileNameOf(*recording),
-      [recording, shown, frames, selected](const Progress& progress) {
-        *selected = selectedCurves(recording, shown, *frames, progress);
+      [recording, shown, frames, selected, profile = profile_](const Progress& progress) {
+        *selected = selectedCurves(recording, shown, *frames, progress, profile);
       },
       [this, recording, frames, selected] {
         const QString range = fileNameOf(*recording) + state().activeFilters.caption() +
@@ -742,10 +815,11 @@ std::vector<ExportedView> TimelineFeature::views() {
     if (!recording) return tables;
     const auto add = [&](const QString& name, const std::optional<FrameSpan>& span) {
       if (!span) return;
-      tables.push_back(
-          {name, [seen = windowState.displayed.filteredRecording(), now = curves(), span = *span] {
-             return curveTable(seen, now, span);
-           }});
+      tables.push_back({name,
+                        [seen = windowState.displayed.filteredRecording(),
+                         now = curves(),
+                         span = *span,
+                         profile = profile_] { return curveTable(seen, now, span, profile); }});
     };
     add("the selected range", windowState.selectedFrames());
     const QCPRange seen = chart_->seen();
@@ -755,9 +829,10 @@ std::vector<ExportedView> TimelineFeature::views() {
     if (const auto selected = windowState.selectedFrames())
       tables.push_back(
           {"statistics of the selected range",
-           [of = windowState.displayed.filteredRecording(), now = curves(), span = *selected] {
-             return statisticsTable(of, now, span);
-           }});
+           [of = windowState.displayed.filteredRecording(),
+            now = curves(),
+            span = *selected,
+            profile = profile_] { return statisticsTable(of, now, span, {}, profile); }});
     return tables;
   };
   return {view};

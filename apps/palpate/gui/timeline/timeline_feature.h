@@ -5,6 +5,10 @@
 #include <QStackedWidget>
 #include <map>
 #include <memory>
+#include <optional>
+#include <vector>
+
+#include <palpate/computed/computed_series.h>
 
 #include "gui/chart/plotted_curve.h"
 #include "gui/timeline/baseline_controls.h"
@@ -51,6 +55,12 @@ class TimelineFeature : public Feature {
   void connectActions();
   void connectCurves();
   void takeSource();
+  // The series that can be computed of what is shown, with the calibration that is applied now.
+  void renewComputed();
+  // Escape: curves that are being computed are no longer ticked. False: none is.
+  bool cancelComputing();
+  // That of a matrix: in kPa or N where it is wanted and known.
+  PlottedCurve matrixCurveOf(const HandDescription& hand, std::size_t row) const;
   void takeLive();
   // The curves that the live source has.
   void offerLiveCurves();
@@ -84,6 +94,9 @@ class TimelineFeature : public Feature {
   Dock* dock_;
   std::unique_ptr<CropJob> crop_;
   GraspExport* graspExport_;
+  // Of the shown recording: computed_ are series of profile_, which is empty without a recording.
+  std::vector<ComputedSeries> computed_;
+  std::optional<Profile> profile_;
   // Computes the statistics of a selection.
   BackgroundJob statisticsJob_;
   std::unique_ptr<EventEditing> editing_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <palpate/calibration/pressure_reader.h>
+#include <palpate/computed/computed_series.h>
 
 #include "gui/window_state/hand_slip.h"
 
@@ -31,6 +32,16 @@ class DerivedResults : public QObject {
     calibration_ = text;
     emit calibrationChanged();
   }
+  // What forces of a recording are computed with: calibration, settings and tare. Null: no
+  // calibration is applied to it, or it is another recording.
+  std::shared_ptr<const ComputedOptions> forcesOf(const void* recording) const {
+    return recording == forcesOf_ ? forces_ : nullptr;
+  }
+  void setForces(std::shared_ptr<const ComputedOptions> forces, const void* recording) {
+    forces_ = std::move(forces);
+    forcesOf_ = recording;
+    emit forcesChanged();
+  }
   const std::vector<HandSlip>& slips() const noexcept { return slips_; }
   void setSlips(std::vector<HandSlip> slips) {
     slips_ = std::move(slips);
@@ -47,12 +58,15 @@ class DerivedResults : public QObject {
  signals:
   void pressureChanged();
   void calibrationChanged();
+  void forcesChanged();
   void slipsChanged();
   void unmeasurableChanged();
 
  private:
   std::shared_ptr<const PressureFrame> pressure_;
   QString calibration_ = "none: values are counts";
+  std::shared_ptr<const ComputedOptions> forces_;
+  const void* forcesOf_ = nullptr;  // never dereferenced
   std::vector<HandSlip> slips_;
   std::vector<QString> unmeasurable_;
 };

@@ -76,9 +76,12 @@ QString problemOf(const QString& formula, const Profile* profile) {
     const double toS =
         static_cast<double>(profile->frameTimeUs(last) - profile->frameTimeUs(0)) / kUsPerS;
     const Profile beginning = cropped(*profile, 0, last);
-    // A further series may begin later: it can't be tried there.
+    // A further series may begin later, and a computed one isn't there: it can't be tried.
     const SeriesChoice choice{.kind = SeriesChoice::Kind::kFormula, .formula = parsed.text()};
-    if (!hasSeries(beginning, choice) && hasSeries(*profile, choice)) return {};
+    if (!hasSeries(beginning, choice)) {
+      if (hasSeries(*profile, choice)) return {};
+      (void)formulaSeries(*profile, parsed, 0.0, 0.0);  // throws: it names what is missing
+    }
     (void)formulaSeries(beginning, parsed, 0.0, toS);
     return {};
   } catch (const Error&) {
