@@ -60,7 +60,7 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   for (const SpectrumView each : kAllSpectrumViews) view_->addItem(nameOf(each));
   signal_ = named(new QComboBox(this),
                   "spectrumSignal",
-                  "Of which signal: the chosen taxels, or a curve by a formula",
+                  "Of which signal: the chosen taxels, a curve by a formula, or a column of a series",
                   "Of which signal");
   signal_->setFocusPolicy(Qt::TabFocus);
   signal_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
