@@ -278,8 +278,7 @@ std::optional<std::size_t> exportedTimeOf(const std::vector<TableColumn>& column
     return std::nullopt;
   const std::size_t last =
       columns.size() - (columns.back().name == "device_time_us" ? std::size_t{2} : std::size_t{1});
-  return last > kFirstValue && columns[last].name == "time_us" ? std::optional(last)
-                                                               : std::nullopt;
+  return last > kFirstValue && columns[last].name == "time_us" ? std::optional(last) : std::nullopt;
 }
 
 PlannedSeries planSeriesFile(const SeriesFile& wanted,

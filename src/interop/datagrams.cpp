@@ -99,8 +99,7 @@ void addSeries(ObjectParts& parts, std::string_view member, std::size_t colon) {
     }
     const std::size_t open = series.find(":{") + 2;
     const std::string name(series.substr(0, open));
-    for (const std::string_view column :
-         membersOf(series.substr(open, series.size() - open - 1))) {
+    for (const std::string_view column : membersOf(series.substr(open, series.size() - open - 1))) {
       if (!chunk.empty() && !fits(chunk + "," + std::string(column))) finish("}}");
       chunk += (chunk.empty() ? name : ",") + std::string(column);
     }

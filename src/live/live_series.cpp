@@ -265,8 +265,7 @@ std::optional<std::pair<double, double>> LiveSeries::extremes(const SeriesChoice
 std::vector<TimeSpan> LiveSeries::gaps() const {
   std::vector<TimeSpan> spans;
   for (const std::size_t index : frames_.breaks)
-    if (index >= frames_.first)
-      spans.push_back({frames_.timeS[index], frames_.timeS[index + 1]});
+    if (index >= frames_.first) spans.push_back({frames_.timeS[index], frames_.timeS[index + 1]});
   return spans;
 }
 

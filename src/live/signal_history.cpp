@@ -84,8 +84,8 @@ void SignalHistory::add(const FurtherSample& sample) {
   const std::lock_guard lock(mutex_);
   const auto known = std::ranges::find_if(
       further_, [&](const Kept& each) { return each.series->name == sample.series->name; });
-  Kept& kept = known == further_.end() ? further_.emplace_back(Kept{.series = sample.series})
-                                       : *known;
+  Kept& kept =
+      known == further_.end() ? further_.emplace_back(Kept{.series = sample.series}) : *known;
   if (kept.series->columns != sample.series->columns) kept = Kept{.series = sample.series};
   const std::int64_t hostUs = sample.sample.hostUs;
   bool afterGap = false;
@@ -122,8 +122,8 @@ ColumnRows SignalHistory::column(const std::string& series,
                                  std::int64_t afterUs) const {
   const std::lock_guard lock(mutex_);
   ColumnRows rows;
-  const auto kept = std::ranges::find_if(
-      further_, [&](const Kept& each) { return each.series->name == series; });
+  const auto kept =
+      std::ranges::find_if(further_, [&](const Kept& each) { return each.series->name == series; });
   if (kept == further_.end()) return rows;
   const auto& columns = kept->series->columns;
   const auto at = std::ranges::find(columns, column, &Column::name);

@@ -89,9 +89,9 @@ void readSeriesSpans(RecordingDetails& details, PalpateConnection& access) {
   SqliteDatabase& database = access.database();
   for (auto& [index, series] : readSeries(database).sound) {
     if (index < kHandSeries) continue;
-    SqliteStatement span = database.prepare(
-        "SELECT sum(n), min(t0_us), max(t1_us) FROM block WHERE stream=" +
-        std::to_string(static_cast<int>(streamOfSeries(index))));
+    SqliteStatement span =
+        database.prepare("SELECT sum(n), min(t0_us), max(t1_us) FROM block WHERE stream=" +
+                         std::to_string(static_cast<int>(streamOfSeries(index))));
     SeriesDetails& found = details.series.emplace_back();
     found.name = std::move(series.name);
     found.columns = std::move(series.columns);

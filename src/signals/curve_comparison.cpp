@@ -94,7 +94,7 @@ double gapFromS(const TimingReport& timing) {
   return gapThresholdS(timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0);
 }
 
-double gapFromS(std::span<const double> timeS) {
+double gapOfTimesS(std::span<const double> timeS) {
   if (timeS.size() < 2) return gapThresholdS(0.0);
   std::vector<double> intervals(timeS.size() - 1);
   for (std::size_t i = 0; i < intervals.size(); ++i) intervals[i] = timeS[i + 1] - timeS[i];

@@ -262,8 +262,8 @@ TEST(LiveSeries, AFasterSeriesHasEveryRow) {
   const auto wrist = std::make_shared<const SeriesDescription>(
       SeriesDescription{"wrist", "", {{"fx", "N"}, {"fz", "N"}}, ""});
   const auto row = [&](int i) {
-    history.add(
-        FurtherSample{wrist, {resultsAt(0.01 * i).frame->hostUs, {1.0 * i, -1.0 * i}, kHandSeries}});
+    history.add(FurtherSample{
+        wrist, {resultsAt(0.01 * i).frame->hostUs, {1.0 * i, -1.0 * i}, kHandSeries}});
   };
   for (int i = 0; i <= 100; ++i) {
     row(i);

@@ -33,12 +33,13 @@ std::int64_t lostOf(const RecordingReport& report, const RecordedSeries& series)
 }  // namespace
 
 std::vector<OptionSpec> seriesOptions() {
-  return {{"series",
-           "NAME=SOURCE",
-           "also rows of numbers of another sensor, SOURCE as for --stream, or PORT@BAUD; repeatable"},
-          {"series-columns",
-           "NAME=COLUMNS",
-           "what its numbers are, as 'time_ms,fx[N],fy[N]', where no header says it"}};
+  return {
+      {"series",
+       "NAME=SOURCE",
+       "also rows of numbers of another sensor, SOURCE as for --stream, or PORT@BAUD; repeatable"},
+      {"series-columns",
+       "NAME=COLUMNS",
+       "what its numbers are, as 'time_ms,fx[N],fy[N]', where no header says it"}};
 }
 
 void addSeriesSources(const CommandLine& given, CaptureSession& session) {

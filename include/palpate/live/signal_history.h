@@ -63,8 +63,8 @@ struct ColumnRows {
 
 // The oldest samples are dropped as soon as one of the limits is exceeded.
 struct SignalHistoryOptions {
-  double keepS = 600.0;                  // [s], > 0
-  std::size_t keepSamples = 30000;       // >= 1
+  double keepS = 600.0;             // [s], > 0
+  std::size_t keepSamples = 30000;  // >= 1
   // Of the frames, and as much again of all further series; about 1.3 kB per sample of an SDH-2, 9
   // bytes and 8 per column of a further one; >= 1.
   std::size_t keepBytes = 64ULL << 20U;

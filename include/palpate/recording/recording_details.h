@@ -19,7 +19,7 @@ namespace palpate {
 struct SeriesDetails {
   std::string name;
   std::int64_t samples = 0;
-  double rateHz = 0.0;         // mean; 0: fewer than two samples
+  double rateHz = 0.0;  // mean; 0: fewer than two samples
   std::vector<Column> columns;
   // "wrench: fx [N], fy [N], 100 Hz".
   std::string text() const;

@@ -50,7 +50,7 @@ CurveComparison compareCurves(const Series& a,
 // Longest interval that is no gap (model/timing.h): max(1 s, 5 median intervals).
 double gapFromS(const TimingReport& timing);
 // The same of the times of a series, ascending [s].
-double gapFromS(std::span<const double> timeS);
+double gapOfTimesS(std::span<const double> timeS);
 // The last sample at or before a time [s]; empty: there is none within `longestS`.
 std::optional<std::size_t> sampleAt(const Series& series, double timeS, double longestS);
 

@@ -255,7 +255,8 @@ void CompareChart::refill() {
   };
   const auto gaps = [this](const std::shared_ptr<const Series>& series,
                            const std::shared_ptr<const TimedProfile>& timed) {
-    return curves_.column && series ? gapsOf(*series, gapFromS(series->timeS)) : gapFramesOf(timed);
+    return curves_.column && series ? gapsOf(*series, gapOfTimesS(series->timeS))
+                                    : gapFramesOf(timed);
   };
   fill(0, curves_.curveA, gaps(curves_.curveA, curves_.a), 0.0);
   fill(1, curves_.curveB, gaps(curves_.curveB, curves_.b), curves_.offsetS);
@@ -357,15 +358,15 @@ QString CompareChart::valuesAt(double seconds) const {
                         double at) {
     text += "\n" + QString(name) + "  ";
     if (curves_.column) {
-      const auto sample = series ? sampleAt(*series, at, gapFromS(series->timeS)) : std::nullopt;
+      const auto sample = series ? sampleAt(*series, at, gapOfTimesS(series->timeS)) : std::nullopt;
       const bool isKnown = sample && std::isfinite(series->values[*sample]);
       return text += isKnown ? unit.text(series->values[*sample], 1) : QString("–"), void();
     }
     const auto frame = timed.frameAt(at);
     if (!frame || !series || *frame >= series->values.size()) return text += "no frame", void();
     const double value = series->values[*frame];
-    text += (std::isfinite(value) ? unit.text(value, 1) : QString("damaged")) +
-            " · frame " + QString::number(*frame);
+    text += (std::isfinite(value) ? unit.text(value, 1) : QString("damaged")) + " · frame " +
+            QString::number(*frame);
   };
   line("A", *curves_.a, curves_.curveA, seconds);
   line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);

@@ -846,7 +846,7 @@ TextTable ComparePanel::curveTable() const {
     table.header[3] = "sample_b";
   }
   std::optional<double> longestS;  // of a column
-  if (column() && answer_.curveB) longestS = gapFromS(answer_.curveB->timeS);
+  if (column() && answer_.curveB) longestS = gapOfTimesS(answer_.curveB->timeS);
   table.row = [answer = answer_, longestS, isColumn = column() != nullptr](std::size_t i) {
     const double at = answer.curveA->timeS[i];
     std::vector<std::string> cells = {

@@ -47,7 +47,7 @@ SeriesChoice choiceFor(const CompareQuestion& question, const OpenedRecording& r
 
 // The longest interval of a curve that is no gap: of the frames, or of the samples of a column.
 double longestOf(const CompareQuestion& question, const Series& series, const TimedProfile& timed) {
-  return question.choice.kind == SeriesChoice::Kind::kColumn ? gapFromS(series.timeS)
+  return question.choice.kind == SeriesChoice::Kind::kColumn ? gapOfTimesS(series.timeS)
                                                              : gapFromS(timed.timing);
 }
 

@@ -104,11 +104,13 @@ void ConnectFeature::addQuestions() {
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.connection();
   };
-  windowState.prompts.sensor =
-      [this]() -> std::optional<std::pair<Sensor, std::shared_ptr<void>>> {
+  windowState.prompts.sensor = [this]() -> std::optional<std::pair<Sensor, std::shared_ptr<void>>> {
     PortScan scan;
     QStringList taken = sensorNames();
-    taken << "angles" << "temperatures" << "tactile" << "events";
+    taken << "angles"
+          << "temperatures"
+          << "tactile"
+          << "events";
     Sensor proposal{.name = "sensor"};
     for (int i = 2; taken.contains(proposal.name); ++i)
       proposal.name = "sensor_" + QString::number(i);
@@ -323,9 +325,8 @@ void ConnectFeature::fillMenu() {
   if (const QStringList names = sensorNames(); !names.isEmpty()) {
     QMenu* remove = menu->addMenu("Remove a sensor");
     for (const QString& name : names)
-      connect(remove->addAction(name), &QAction::triggered, this, [this, name] {
-        removeSensor(name);
-      });
+      connect(
+          remove->addAction(name), &QAction::triggered, this, [this, name] { removeSensor(name); });
   }
   menu->addSeparator();
   menu->addAction(actions_.disconnectHand);

@@ -52,8 +52,7 @@ SensorDialog::SensorDialog(const Sensor& proposal,
   add_ = makeOk(this, "sensorAdd", "Add");
   auto* cancel = makeCancel(this, "sensorCancel");
   auto* page = inColumn({form, inRow({look_, Stretch{}}), {rows_, 1}}, around(Space::kDialog));
-  setLayout(inColumn({{page, 1},
-                      makeDialogFoot(inRow({{problem_, 1}, cancel, add_}, kFootEdges))},
+  setLayout(inColumn({{page, 1}, makeDialogFoot(inRow({{problem_, 1}, cancel, add_}, kFootEdges))},
                      Space::kNone));
 
   source_->setSource(proposal.source, proposal.baud);

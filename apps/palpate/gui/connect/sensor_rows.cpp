@@ -35,8 +35,8 @@ QString SensorRows::text() const {
   QString state = comes ? numberOf(status.port.items, "row") : QString("no rows come");
   if (status.rateHz > 0.0) state += ", " + figure(status.rateHz, 1) + "/s";
   if (status.port.suspect > 0)
-    state += ", " + numberOf(status.port.suspect, "line") + " refused, the last: " +
-             QString::fromStdString(escapedLine(source_.lastFault()));
+    state += ", " + numberOf(status.port.suspect, "line") +
+             " refused, the last: " + QString::fromStdString(escapedLine(source_.lastFault()));
   else if (!comes && !status.port.message.empty())
     state += ": " + QString::fromStdString(escapedLine(status.port.message));
   QStringList lines{state};

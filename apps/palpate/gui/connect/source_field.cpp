@@ -130,8 +130,8 @@ void SourceField::makeFields() {
         this);
     fields_->addWidget(awaiting);
   }
-  setLayout(inColumn({fields_, markedLine(placeMark_, placeText_, name_ + "PlaceText")},
-                     Space::kNarrow));
+  setLayout(
+      inColumn({fields_, markedLine(placeMark_, placeText_, name_ + "PlaceText")}, Space::kNarrow));
 }
 
 SourceField::Place SourceField::place() const { return static_cast<Place>(place_->currentIndex()); }

@@ -29,7 +29,8 @@ ImportLook lookAtImport(const ImportRequest& request, const std::vector<fs::path
       look.problem = "choose a file";
       return look;
     }
-    look.preview = previewImport(request.data.toStdString(), *look.hand, request.mapping, request.series);
+    look.preview =
+        previewImport(request.data.toStdString(), *look.hand, request.mapping, request.series);
     look.problem = QString::fromStdString(look.preview->problem);
   } catch (const std::exception& error) {
     look.problem = QString::fromUtf8(error.what());

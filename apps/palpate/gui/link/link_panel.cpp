@@ -139,8 +139,8 @@ std::vector<Fact> factsOf(const SeriesSource& sensor) {
     facts.push_back({name + ": why", QString::fromStdString(escapedLine(port.message)), true});
   if (port.suspect > 0)
     facts.push_back({name + ": refused",
-                     numberOf(port.suspect, "line") + ", the last: " +
-                         QString::fromStdString(escapedLine(sensor.lastFault())),
+                     numberOf(port.suspect, "line") +
+                         ", the last: " + QString::fromStdString(escapedLine(sensor.lastFault())),
                      true});
   if (sensor.isOpenToOthers())
     facts.push_back({name + ": senders", QString::fromStdString(sensor.notice()), true});

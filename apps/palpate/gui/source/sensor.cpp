@@ -25,7 +25,8 @@ SeriesSourceOptions optionsOf(const Sensor& sensor) {
                               .source = sensor.source.toStdString(),
                               .baud = sensor.baud};
   if (options.source == "-") throw std::invalid_argument("The window can't read standard input.");
-  if (!sensor.columns.trimmed().isEmpty()) options.columns = columnsOf(sensor.columns.toStdString());
+  if (!sensor.columns.trimmed().isEmpty())
+    options.columns = columnsOf(sensor.columns.toStdString());
   options.validate();
   return options;
 }

@@ -158,8 +158,8 @@ void SpectrumPanel::listSignals() {
       for (std::size_t i = 0; i < series.columns.size(); ++i) {
         const PlottedCurve column = columnCurve(series, i, 0);
         const std::string name = palpate::nameOf(column.choice, recording_->profile.layout());
-        const bool isTaken = std::ranges::find(signals_, column.name, &FormulaCurve::name) !=
-                             signals_.end();
+        const bool isTaken =
+            std::ranges::find(signals_, column.name, &FormulaCurve::name) != signals_.end();
         if (!isTaken && signalNamed(name, recording_->profile) == column.choice)
           signals_.push_back({column.name, QString::fromStdString(name), column.unit});
       }
