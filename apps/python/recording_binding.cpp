@@ -111,6 +111,19 @@ py::dict details(const fs::path& path) {
   result["run"] = found.run;
   result["notes"] = found.notes;
   result["labels"] = found.labels;
+  py::list series;
+  for (const SeriesDetails& each : found.series) {
+    py::dict entry;
+    entry["name"] = each.name;
+    entry["samples"] = each.samples;
+    entry["rate_hz"] = each.rateHz;
+    py::list columns;
+    for (const Column& column : each.columns)
+      columns.append(py::make_tuple(column.name, column.unit));
+    entry["columns"] = std::move(columns);
+    series.append(std::move(entry));
+  }
+  result["series"] = std::move(series);
   return result;
 }
 

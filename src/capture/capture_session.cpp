@@ -97,8 +97,7 @@ CaptureSession::~CaptureSession() {
 }
 
 void CaptureSession::addSeries(std::unique_ptr<SeriesSource> source) {
-  if (started_ || recorder_.recording())
-    throw std::logic_error("CaptureSession::addSeries: it was started already");
+  requireNoRecording();
   if (!source) throw std::invalid_argument("CaptureSession: no series");
   std::vector<std::string> taken = seriesNames();
   if (taken.size() == kMaxSeries)
@@ -108,13 +107,70 @@ void CaptureSession::addSeries(std::unique_ptr<SeriesSource> source) {
   if (std::ranges::find(taken, source->name()) != taken.end())
     throw std::invalid_argument("two series have the name " + source->name() +
                                 ", or it is one of the hand's");
-  sources_.push_back(std::move(source));
-  recorder_.nameSeries(seriesNames());
+  std::size_t place = 0;
+  {
+    const std::lock_guard lock(sourcesMutex_);
+    place = sources_.size();
+    sources_.push_back(std::move(source));
+  }
+  nameSeries();
+  if (started_) startSeries(place);
+}
+
+void CaptureSession::removeSeries(const std::string& name) {
+  requireNoRecording();
+  std::shared_ptr<SeriesSource> source;
+  {
+    const std::lock_guard lock(sourcesMutex_);
+    const auto at = std::ranges::find_if(
+        sources_, [&](const auto& each) { return each && each->name() == name; });
+    if (at == sources_.end()) throw std::invalid_argument("no sensor has the name " + name);
+    source = std::exchange(*at, nullptr);
+  }
+  source->stop();
+  nameSeries();
+  note({nowUs(), nowUs(), "link", {}, "series " + name + " was removed", ""});
+}
+
+void CaptureSession::requireNoRecording() const {
+  if (recorder_.recording())
+    throw std::logic_error("a recording is running: stop it before sensors are added or removed");
+}
+
+// The recorder and all consumers name series in their gaps.
+void CaptureSession::nameSeries() {
+  const std::vector<std::string> names = seriesNames();
+  recorder_.nameSeries(names);
+  const std::lock_guard lock(feedsMutex_);
+  for (const auto& queue : feeds_) queue->nameSeries(names);
+}
+
+void CaptureSession::startSeries(std::size_t place) {
+  std::shared_ptr<SeriesSource> source;
+  {
+    const std::lock_guard lock(sourcesMutex_);
+    source = sources_[place];
+  }
+  if (!source) return;
+  try {
+    source->start(furtherSink_, kHandSeries + device_->series().size() + place);
+  } catch (const std::exception& error) {  // no thread is left: the hand goes on without it
+    onEvent({nowUs(), nowUs(), "alarm", {}, "series " + source->name() + ": " + error.what(), ""});
+  }
+}
+
+std::vector<std::shared_ptr<SeriesSource>> CaptureSession::seriesSources() const {
+  const std::lock_guard lock(sourcesMutex_);
+  std::vector<std::shared_ptr<SeriesSource>> present = sources_;
+  std::erase(present, nullptr);
+  return present;
 }
 
 std::vector<SeriesDescription> CaptureSession::furtherSeries() const {
   std::vector<SeriesDescription> all = device_->series();
-  for (const auto& source : sources_) all.push_back(source->description());
+  const std::lock_guard lock(sourcesMutex_);
+  for (const auto& source : sources_)
+    all.push_back(source ? source->description() : SeriesDescription{});
   return all;
 }
 
@@ -148,26 +204,15 @@ void CaptureSession::start() {
   if (options_.ownThread) recorder_.run();
   device_->start(*this);
   started_ = true;
-  const std::size_t first = kHandSeries + device_->series().size();
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    try {
-      sources_[i]->start(furtherSink_, first + i);
-    } catch (const std::exception& error) {  // no thread is left: the hand goes on without it
-      onEvent({nowUs(),
-               nowUs(),
-               "alarm",
-               {},
-               "series " + sources_[i]->name() + ": " + error.what(),
-               ""});
-    }
-  }
+  for (std::size_t place = 0; place < sources_.size(); ++place) startSeries(place);
 }
 
 void CaptureSession::stop() noexcept {
   if (!started_) return;
-  for (const auto& source : sources_) source->requestStop();
+  const auto sources = seriesSources();
+  for (const auto& source : sources) source->requestStop();
   device_->stop();
-  for (const auto& source : sources_) source->stop();
+  for (const auto& source : sources) source->stop();
   started_ = false;
   recorder_.stop();
   recorder_.halt();
@@ -189,7 +234,7 @@ void CaptureSession::startRecording(RecordingOptions options) {
     for (const RecordingLoss& loss : lossesOf(gaps))
       for (const char* name : {"lost", "lost_estimated"})
         last[name] += static_cast<std::int64_t>(loss.lost);
-    for (const auto& source : sources_) {
+    for (const auto& source : seriesSources()) {
       auto gap = source->openGap(untilUs);
       if (!gap) continue;
       for (const RecordingLoss& loss : lossesOf({&*gap, 1}))
@@ -287,7 +332,7 @@ bool CaptureSession::canUndoBaseline() const {
 
 std::map<std::string, std::int64_t> CaptureSession::counters() const {
   auto counters = countersOf(device_->status());
-  for (const auto& source : sources_) {
+  for (const auto& source : seriesSources()) {
     const PortStatus port = source->status().port;
     const auto add = [&](const char* what, std::uint64_t count) {
       counters[seriesCounter(source->name(), what)] = static_cast<std::int64_t>(count);
@@ -419,7 +464,7 @@ LinkInputs CaptureSession::inputs() const {
   inputs.frames = meter_.read(clock_.monotonicUs());
   inputs.queues = recorder_.queueStats();
   inputs.recorder = recorder_.status();
-  for (const auto& source : sources_) inputs.series.push_back(source->status());
+  for (const auto& source : seriesSources()) inputs.series.push_back(source->status());
   {
     const std::vector<std::string> names = seriesNames();
     const std::lock_guard clocksLock(clocksMutex_);

@@ -438,6 +438,7 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
     if (isFurther && (sample->series - kHandSeries >= further_.size() ||
                       !further_[sample->series - kHandSeries].indexInFile))
       learnSeries();
+    if (isFurther && isRemoved(sample->series - kHandSeries)) return;
     writeTo(item);
   } catch (const FileError&) {  // commits have failed until the memory limit was reached
     return recordLoss(item);
@@ -450,6 +451,11 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
   endLossInterval(static_cast<std::size_t>(streamOf(item)));
   ++dirtyItems_;
   if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.sinceMonoUs;
+}
+
+// A sample from before the recording, of a series that was removed before it.
+bool RecordingParts::isRemoved(std::size_t index) const {
+  return index < further_.size() && further_[index].description.name.empty();
 }
 
 void RecordingParts::append(PalpateWriter& writer, const CaptureItem& item) const {
@@ -839,6 +845,7 @@ std::vector<RecordedSeries> RecordingParts::recordedSeries() const {
   for (std::size_t i = 0; i < further_.size(); ++i) {
     const FurtherSeries& series = further_[i];
     const auto lost = static_cast<std::int64_t>(lostInQueues_[1 + kHandSeries + i]) + series.lost;
+    if (isRemoved(i) && lost == 0) continue;
     const double seconds = static_cast<double>(series.lastUs - series.firstUs) / kUsPerS;
     recorded.push_back({series.description.name,
                         series.samples,

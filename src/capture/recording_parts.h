@@ -113,6 +113,7 @@ class RecordingParts {
   void writeTo(const CaptureItem& item);
   void append(PalpateWriter& writer, const CaptureItem& item) const;
   void learnSeries();
+  bool isRemoved(std::size_t index) const;
   std::vector<RecordedSeries> recordedSeries() const;
   std::int64_t lostByQueues() const;
   void keepUncommitted(const CaptureItem& item);

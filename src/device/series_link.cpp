@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "palpate/core/escaped_line.h"
-#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 
+#include "device/silence.h"
 #include "device/stream_source.h"
 
 namespace palpate {
@@ -29,11 +29,6 @@ constexpr std::int64_t kBurstUs = 100'000;  // rows of this time may come at onc
 constexpr std::int64_t kLongestWaitUs = 50'000;
 constexpr std::int64_t kShownUs = 2'000'000;
 constexpr std::int64_t kToldAgainUs = 10'000'000;
-
-std::uint64_t rowsIn(std::int64_t us, double periodUs, bool withoutLast) {
-  const double periods = std::round(static_cast<double>(us) / periodUs);
-  return static_cast<std::uint64_t>(std::max(periods - (withoutLast ? 1.0 : 0.0), 0.0));
-}
 
 }  // namespace
 
@@ -69,7 +64,7 @@ std::optional<Event> SeriesLink::openGap(std::int64_t untilUs) const {
   std::lock_guard lock(mutex_);
   if (!gap_ || gap_->isEnd || untilUs - gap_->fromUs < kSeriesSilentUs) return std::nullopt;
   std::optional<std::uint64_t> missing;
-  if (gap_->periodUs > 0.0) missing = rowsIn(untilUs - gap_->fromUs, gap_->periodUs, false);
+  if (gap_->periodUs > 0.0) missing = missingIn(untilUs - gap_->fromUs, gap_->periodUs, false);
   return gapEventOf(*gap_, untilUs, missing);
 }
 
@@ -241,7 +236,7 @@ void SeriesLink::endGap(std::int64_t toUs, bool rowReceived) {
   if (gap.isEnd)
     missing = 0;
   else if (gap.periodUs > 0.0)
-    missing = rowsIn(toUs - gap.fromUs, gap.periodUs, rowReceived);
+    missing = missingIn(toUs - gap.fromUs, gap.periodUs, rowReceived);
   updateStatus([&](PortStatus& status) {
     status.lost += missing.value_or(0);
     status.estimatedLost += missing.value_or(0);
@@ -252,17 +247,8 @@ void SeriesLink::endGap(std::int64_t toUs, bool rowReceived) {
 Event SeriesLink::gapEventOf(const Gap& gap,
                              std::int64_t toUs,
                              std::optional<std::uint64_t> missing) const {
-  const double seconds = static_cast<double>(toUs - gap.fromUs) / kUsPerS;
-  Json json = Json::object().set("stream", description_.name).set("seconds", seconds);
-  std::string text = "no rows of the " + what_ + " for " +
-                     numberText(std::round(seconds * kMsPerS) / kMsPerS) + " s";
-  if (missing) {
-    json.set("lost", static_cast<std::int64_t>(*missing)).set("estimated", !gap.isEnd);
-    text += *missing == 0 ? std::string(", none is missing")
-                          : ", about " + counted(*missing, "sample") +
-                                (*missing == 1 ? " is missing" : " are missing");
-  }
-  return {gap.fromUs, toUs, "gap", {}, text, json.text(-1)};
+  return palpate::gapEventOf(
+      {gap.fromUs, toUs, missing, !gap.isEnd}, "rows of the " + what_, "sample", description_.name);
 }
 
 }  // namespace palpate

@@ -4,17 +4,40 @@
 #include <thread>
 #include <utility>
 
+#include "palpate/core/number_text.h"
+
 #include "device/series_link.h"
 #include "device/stream_source.h"
 
 namespace palpate {
+namespace {
+
+void requireBaud(std::int64_t baud) {
+  if (baud < 50 || baud > 10'000'000)
+    throw std::invalid_argument("baud " + std::to_string(baud) + " is not in 50..10000000");
+}
+
+}  // namespace
+
+SeriesPlace seriesPlaceOf(std::string_view text) {
+  constexpr std::string_view kSerial = "serial:";
+  const bool isSerial = text.starts_with(kSerial);
+  if (isSerial) text.remove_prefix(kSerial.size());
+  SeriesPlace place{std::string(text)};
+  const std::size_t at = text.rfind('@');
+  if ((!isSerial && !text.starts_with('/')) || at == std::string_view::npos) return place;
+  const auto baud = parseInteger(text.substr(at + 1));
+  if (!baud) return place;
+  requireBaud(*baud);
+  place.source.resize(at);
+  place.baud = static_cast<int>(*baud);
+  return place;
+}
 
 void SeriesSourceOptions::validate() const {
   palpate::validate(SeriesDescription{name, "", {{"1", ""}}, ""});
   if (source.empty()) throw std::invalid_argument("series " + name + ": no source is named");
-  if (baud < 50 || baud > 10'000'000)
-    throw std::invalid_argument("series " + name + ": baud " + std::to_string(baud) +
-                                " is not in 50..10000000");
+  requireBaud(baud);
   if (!columns.empty()) requireColumns(columns);
   if (!open) StreamSource{source, baud};
 }

@@ -7,10 +7,10 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
-#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 
+#include "device/silence.h"
 #include "device/stream_source.h"
 
 namespace palpate {
@@ -34,7 +34,6 @@ constexpr std::int64_t kLossEveryUs = 100'000;
 constexpr std::int64_t kPileUs = 300'000;
 constexpr std::size_t kMaxRemarks = 100;
 constexpr double kImplausibleSpeed = 10.0;
-constexpr double kSecondUs = 1e6;
 constexpr double kRateWeight = 0.05;
 
 StreamLineOptions lineOptionsOf(const StreamDeviceOptions& device,
@@ -50,28 +49,11 @@ std::string secondsText(std::int64_t us) {
   return numberText(std::round(static_cast<double>(us) / 1e5) / 10.0) + " s";
 }
 
-// Frames of this period in a time.
-std::uint64_t framesIn(std::int64_t us, double periodUs, bool withoutLast) {
-  const double periods = std::round(static_cast<double>(us) / periodUs);
-  return static_cast<std::uint64_t>(std::max(periods - (withoutLast ? 1.0 : 0.0), 0.0));
-}
-
-// An event of kind "gap"; `missing` frames, if their number is known.
-Event gapEventOf(std::int64_t fromUs,
-                 std::int64_t toUs,
-                 std::optional<std::uint64_t> missing,
-                 bool estimated) {
-  const double seconds = static_cast<double>(toUs - fromUs) / kSecondUs;
-  Json json = Json::object().set("seconds", seconds);
-  std::string text = "no frames for " + numberText(std::round(seconds * 1000.0) / 1000.0) + " s";
-  if (missing) {
-    json.set("lost", static_cast<std::int64_t>(*missing)).set("estimated", estimated);
-    text += *missing == 0
-                ? std::string(", none is missing")
-                : std::string(estimated ? ", about " : ", ") + counted(*missing, "frame") +
-                      (*missing == 1 ? " is missing" : " are missing");
-  }
-  return {fromUs, toUs, "gap", {}, text, json.text(-1)};
+Event frameGap(std::int64_t fromUs,
+               std::int64_t toUs,
+               std::optional<std::uint64_t> missing,
+               bool estimated) {
+  return gapEventOf({fromUs, toUs, missing, estimated}, "frames", "frame");
 }
 
 }  // namespace
@@ -116,8 +98,8 @@ std::optional<Event> StreamLink::openGap(std::int64_t untilUs) const {
   const std::int64_t gapUs = toUs - openGap_->fromUs;
   if (gapUs < kStreamSilentUs) return std::nullopt;
   std::optional<std::uint64_t> missing;
-  if (openGap_->periodUs > 0.0) missing = framesIn(gapUs, openGap_->periodUs, false);
-  return gapEventOf(openGap_->fromUs, toUs, missing, /*estimated=*/true);
+  if (openGap_->periodUs > 0.0) missing = missingIn(gapUs, openGap_->periodUs, false);
+  return frameGap(openGap_->fromUs, toUs, missing, /*estimated=*/true);
 }
 
 // --- The connection
@@ -533,13 +515,13 @@ void StreamLink::endGap(std::int64_t nowUs,
   const bool estimated = !missing && !wasClosed;
   if (!missing && wasClosed) missing = 0;
   if (estimated && session_.periodUs > 0.0) {
-    missing = framesIn(nowUs - fromUs, session_.periodUs, frameReceived);
+    missing = missingIn(nowUs - fromUs, session_.periodUs, frameReceived);
     updateStatus([&](PortStatus& status) {
       status.lost += *missing;
       status.estimatedLost += *missing;
     });
   }
-  sink_->onEvent(gapEventOf(fromUs, nowUs, missing, estimated));
+  sink_->onEvent(frameGap(fromUs, nowUs, missing, estimated));
 }
 
 // Missing frames between two that came.
@@ -557,7 +539,7 @@ void StreamLink::reportLoss(bool atOnce) {
   if (!atOnce && session_.lossReportedUs && nowUs - *session_.lossReportedUs < kLossEveryUs) return;
   session_.lossReportedUs = nowUs;
   const std::uint64_t missing = std::exchange(session_.lossFrames, 0);
-  Event event = gapEventOf(session_.lossFromUs, session_.lossToUs, missing, false);
+  Event event = frameGap(session_.lossFromUs, session_.lossToUs, missing, false);
   event.text = counted(missing, "frame") + (missing == 1 ? " is missing" : " are missing");
   sink_->onEvent(std::move(event));
 }

@@ -311,6 +311,37 @@ ImportPlan planTaxelList(TableSource& source,
   return plan;
 }
 
+// The tables of samples that `palpate convert` wrote beside a list of active taxels, but for names
+// that `files` have: "X.csv.wrench.csv" of "X.csv".
+std::vector<SeriesFile> exportedBeside(const fs::path& list,
+                                       const TableOptions& options,
+                                       std::span<const SeriesFile> files) {
+  std::vector<SeriesFile> beside;
+  const std::string begin = list.filename().string() + ".";
+  constexpr std::string_view kEnd = ".csv";
+  const fs::path folder = list.has_parent_path() ? list.parent_path() : fs::path(".");
+  std::error_code failure;
+  for (fs::directory_iterator at(folder, failure), end; !failure && at != end;
+       at.increment(failure)) {
+    const std::string file = at->path().filename().string();
+    if (!file.starts_with(begin) || !file.ends_with(kEnd) ||
+        file.size() <= begin.size() + kEnd.size())
+      continue;
+    const std::string name = file.substr(begin.size(), file.size() - begin.size() - kEnd.size());
+    if (seriesName(name) != name || isHandSeries(name) ||
+        std::ranges::find(files, name, &SeriesFile::name) != files.end())
+      continue;
+    try {
+      if (exportedTimeOf(openTable(at->path(), options)->columns()))
+        beside.push_back({name, at->path(), std::nullopt});
+    } catch (const Error&) {
+      // No table: nothing that was exported.
+    }
+  }
+  std::ranges::sort(beside, {}, &SeriesFile::name);
+  return beside;
+}
+
 // A name that a series can have, and that no other one has.
 void requireName(const fs::path& source, const SeriesFile& file, const ImportPlan& plan) {
   const std::string valid = seriesName(file.name);
@@ -345,7 +376,11 @@ ImportPlan planImport(TableSource& source,
     ImportPlan plan = isTaxelList(source.columns())
                           ? planTaxelList(source, hand, mapping, options)
                           : planTable(source, hand, mapping, files, mostRows);
-    for (const SeriesFile& file : files) {
+    std::vector<SeriesFile> all(files.begin(), files.end());
+    if (plan.isTaxelList)
+      for (SeriesFile& file : exportedBeside(source.path(), options, files))
+        all.push_back(std::move(file));
+    for (const SeriesFile& file : all) {
       requireName(source.path(), file, plan);
       PlannedSeries series = planSeriesFile(file, hand, mapping, mostRows, plan);
       addOrigins(series.table->columns(), series);

@@ -73,6 +73,10 @@ std::optional<PlannedSeries> chooseSamples(Planning& p, PlannedSeries::Kind kind
 // `files` have are left to them. What holds no number in the first `mostRows` rows stays out.
 void chooseFurther(Planning& p, std::span<const SeriesFile> files, std::uint64_t mostRows);
 
+// The column of time_us in a table of samples that `palpate convert` writes beside a .csv
+// ("sample,time_ms,fz_N,..,time_us", then perhaps "device_time_us"); empty: it is none.
+std::optional<std::size_t> exportedTimeOf(const std::vector<TableColumn>& columns);
+
 // The series of another file, and its notes and doubts in `plan`. Throws FormatError, FileError.
 PlannedSeries planSeriesFile(const SeriesFile& wanted,
                              const HandDescription& hand,

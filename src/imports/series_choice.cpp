@@ -271,6 +271,16 @@ void chooseFurther(Planning& p, std::span<const SeriesFile> files, std::uint64_t
     }
 }
 
+std::optional<std::size_t> exportedTimeOf(const std::vector<TableColumn>& columns) {
+  constexpr std::size_t kFirstValue = 2;
+  if (columns.size() < kFirstValue + 2 || columns[0].name != "sample" ||
+      columns[1].name != "time_ms")
+    return std::nullopt;
+  const std::size_t last =
+      columns.size() - (columns.back().name == "device_time_us" ? std::size_t{2} : std::size_t{1});
+  return last > kFirstValue && columns[last].name == "time_us" ? std::optional(last) : std::nullopt;
+}
+
 PlannedSeries planSeriesFile(const SeriesFile& wanted,
                              const HandDescription& hand,
                              const ImportMapping& mapping,
@@ -287,7 +297,8 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   for (std::size_t c = 0; c < p.columns.size(); ++c)
     if (p.columns[c].isNumeric && p.columns[c].numRows == 1 && p.columns[c].shape.size() == 1)
       p.source.reverseAxes(c);
-  p.times.prepare();
+  const auto exported = wanted.rateHz ? std::nullopt : exportedTimeOf(p.columns);
+  if (!exported) p.times.prepare();
   // Its matrices may have the rows last.
   const auto time = std::find_if(p.columns.begin(), p.columns.end(), [](const auto& column) {
     return column.numRows && timeScore(column, PlannedSeries::Kind::kFurther) > 0;
@@ -302,7 +313,8 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   PlannedSeries times;
   times.kind = PlannedSeries::Kind::kFurther;
   std::vector<std::size_t> numbers;
-  for (std::size_t c = 0; c < p.columns.size(); ++c)
+  for (std::size_t c = 2; exported && c < *exported; ++c) numbers.push_back(c);
+  for (std::size_t c = 0; !exported && c < p.columns.size(); ++c)
     if (holdsNumbers(p.columns[c]) && p.columns[c].width() > 0 && !isAside(p, c) &&
         !saysOrigin(p.columns[c]) && !(isScalar(p.columns[c]) && isCounterOnly(p.columns[c])))
       numbers.push_back(c);
@@ -316,7 +328,12 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   // Where nothing is called a time, a first number that ascends is.
   if (!wanted.rateHz && !isNamed && (isScalar(first) || numbers.size() == 1))
     isFirstLeftOut = p.times.leaveOutFirst(times, numbers.front(), !isScalar(first));
-  p.times.find(times, "");
+  if (exported) {
+    times.time = exported;
+    times.timeUnit = TimeUnit::kMicroseconds;
+  } else {
+    p.times.find(times, "");
+  }
   if (!times.time && !wanted.rateHz) p.refuse(reason::kSeriesNoTimes, {wanted.name});
   const TableColumn& rows = p.columns[times.time.value_or(numbers.front())];
   std::erase_if(numbers, [&](std::size_t c) {
@@ -328,7 +345,9 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   if (width > kMaxColumns)
     p.refuse(reason::kSeriesTooWide,
              {wanted.name, std::to_string(width), std::to_string(kMaxColumns)});
-  const std::set<std::size_t> filled = withNumbers(p.source, numbers, mostRows);
+  const std::set<std::size_t> filled = exported
+                                           ? std::set<std::size_t>(numbers.begin(), numbers.end())
+                                           : withNumbers(p.source, numbers, mostRows);
   std::vector<SeriesNumber> chosen;
   for (const std::size_t c : numbers) {
     if (!filled.contains(c)) continue;
@@ -352,7 +371,7 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
           : "rows at equal intervals, " + numberText(wanted.rateHz.value_or(0.0)) + " Hz";
   series.description = {file + ": " + series.description.front() + "; " + when};
   std::vector<TableColumn> unused;
-  for (std::size_t c = 0; c < p.columns.size(); ++c)
+  for (std::size_t c = exported.value_or(0); c < p.columns.size(); ++c)
     if (std::find(series.columns.begin(), series.columns.end(), c) == series.columns.end() &&
         times.time != c && !p.times.isPart(c) && !p.times.hasSameTimes(c) &&
         !saysOrigin(p.columns[c]))

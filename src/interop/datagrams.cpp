@@ -75,6 +75,39 @@ void addValues(ObjectParts& parts, std::string_view member, std::size_t colon) {
   }
 }
 
+// Divides `member`, "series":{"wrist":{..},..}, into objects of the same keys: between series, and
+// within one that is too long for a part of its own.
+void addSeries(ObjectParts& parts, std::string_view member, std::size_t colon) {
+  const std::string begin = std::string(member.substr(0, colon + 1)) + "{";
+  std::string chunk;  // of whole series, or the beginning of one, without its end
+  const auto fits = [&](const std::string& text) { return parts.fits(begin + text + "}}"); };
+  const auto finish = [&](const char* end) {
+    if (!chunk.empty()) parts.add(begin + chunk + end);
+    chunk.clear();
+  };
+  for (const std::string_view series :
+       membersOf(member.substr(colon + 2, member.size() - colon - 3))) {
+    const std::string whole = (chunk.empty() ? "" : ",") + std::string(series);
+    if (fits(chunk + whole)) {
+      chunk += whole;
+      continue;
+    }
+    finish("}");
+    if (fits(std::string(series))) {
+      chunk = series;
+      continue;
+    }
+    const std::size_t open = series.find(":{") + 2;
+    const std::string name(series.substr(0, open));
+    for (const std::string_view column : membersOf(series.substr(open, series.size() - open - 1))) {
+      if (!chunk.empty() && !fits(chunk + "," + std::string(column))) finish("}}");
+      chunk += (chunk.empty() ? name : ",") + std::string(column);
+    }
+    finish("}}");
+  }
+  finish("}");
+}
+
 }  // namespace
 
 std::vector<std::string> signalDatagrams(std::string_view object, std::size_t maxBytes) {
@@ -92,6 +125,8 @@ std::vector<std::string> signalDatagrams(std::string_view object, std::size_t ma
       if (member.substr(colon + 1).starts_with('[') != arrays) continue;
       if (arrays && !parts.fits(member))
         addValues(parts, member, colon);
+      else if (member.starts_with("\"series\":") && !parts.fits(member))
+        addSeries(parts, member, colon);
       else
         parts.add(member);
     }

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kRecordingCatalogFormat = "palpate library";
-constexpr std::int64_t kRecordingCatalogVersion = 1;
+constexpr std::int64_t kRecordingCatalogVersion = 2;
 constexpr std::uintmax_t kLargestCache = 64u << 20;
 
 // Tells whether a recording and its sidecar are what they were: size, time of change and of status
@@ -84,7 +84,16 @@ Json toJson(const std::string& path, const Entry& entry) {
       .set("object", details.object)
       .set("run", details.run)
       .set("notes", details.notes)
-      .set("labels", std::move(labels));
+      .set("labels", std::move(labels))
+      .set("series", jsonList(details.series, [](const SeriesDetails& series) {
+             return Json::object()
+                 .set("name", series.name)
+                 .set("samples", series.samples)
+                 .set("rate_hz", series.rateHz)
+                 .set("columns", jsonList(series.columns, [](const Column& column) {
+                        return Json::object().set("name", column.name).set("unit", column.unit);
+                      }));
+           }));
 }
 
 // Throws Error.
@@ -111,6 +120,18 @@ std::pair<std::string, Entry> fromJson(const Json& json) {
   details.notes = json.at("notes").asString();
   const Json labels = json.at("labels");
   for (std::size_t i = 0; i < labels.size(); ++i) details.labels.push_back(labels.at(i).asString());
+  const Json series = json.at("series");
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    SeriesDetails& found = details.series.emplace_back();
+    const Json each = series.at(i);
+    found.name = each.at("name").asString();
+    found.samples = each.at("samples").asInteger();
+    found.rateHz = each.at("rate_hz").asDouble();
+    const Json columns = each.at("columns");
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      found.columns.push_back(
+          {columns.at(c).at("name").asString(), columns.at(c).at("unit").asString()});
+  }
   return {path, std::move(entry)};
 }
 

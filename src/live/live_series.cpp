@@ -24,11 +24,9 @@ void LiveSeries::setHistory(const SignalHistory* history) {
   history_ = history;
   originUs_.reset();
   newestUs_.reset();
-  timeS_.clear();
-  first_ = 0;
-  breaks_.clear();
+  frames_ = {};
   breakAfterUs_.reset();
-  for (Entry& entry : entries_) entry.values.clear();
+  for (Entry& entry : entries_) entry = {.choice = std::move(entry.choice)};
 }
 
 double LiveSeries::secondsOf(std::int64_t hostUs) const noexcept {
@@ -46,14 +44,7 @@ double LiveSeries::valueOf(Entry& entry, const SignalSample& sample) {
     }
     case SeriesChoice::Kind::kForce:
       return valueIn(sample.forcesN, choice.index);
-    case SeriesChoice::Kind::kColumn:
-      for (const FurtherSample& each : sample.further) {
-        if (each.series->name != choice.series) continue;
-        const auto& columns = each.series->columns;
-        for (std::size_t i = 0; i < columns.size(); ++i)
-          if (columns[i].name == choice.column) return valueIn(each.sample.values, i);
-      }
-      return kNoValue;
+    case SeriesChoice::Kind::kColumn:   // by takeColumn()
     case SeriesChoice::Kind::kFormula:  // only of recordings
       return kNoValue;
     case SeriesChoice::Kind::kTaxels:
@@ -89,25 +80,27 @@ void LiveSeries::setWanted(const std::vector<SeriesChoice>& wanted) {
     const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
       return entry.choice == choice;
     });
-    if (known != entries_.end() && known->values.size() == timeS_.size()) {
+    if (known != entries_.end() && known->values.size() == timesOf(*known).timeS.size()) {
       entries.push_back(std::move(*known));
       known->values.clear();
       continue;
     }
-    entries.push_back({.choice = choice, .layout = {}, .chosen = {}, .values = {}});
-    entries.back().values.assign(timeS_.size(), kNoValue);
+    entries.push_back({.choice = choice});
+    if (entries.back().isColumn()) continue;
+    entries.back().values.assign(frames_.timeS.size(), kNoValue);
     added.push_back(entries.size() - 1);
   }
   entries_ = std::move(entries);
+  for (Entry& entry : entries_) takeColumn(entry);
   if (added.empty() || !history_ || empty()) return;
-  std::size_t at = first_;
+  std::size_t at = frames_.first;
   for (const SharedSignalSample& sample :
        history_->after(std::numeric_limits<std::int64_t>::min())) {
     if (sample->hostUs > *newestUs_) break;
     const double timeS = secondsOf(sample->hostUs);
-    while (at < timeS_.size() && timeS_[at] < timeS) ++at;
-    if (at == timeS_.size()) break;
-    if (timeS_[at] != timeS) continue;
+    while (at < frames_.timeS.size() && frames_.timeS[at] < timeS) ++at;
+    if (at == frames_.timeS.size()) break;
+    if (frames_.timeS[at] != timeS) continue;
     for (const std::size_t i : added) entries_[i].values[at] = valueOf(entries_[i], *sample);
   }
 }
@@ -123,14 +116,33 @@ std::size_t LiveSeries::update() {
     if (!originUs_) originUs_ = sample->hostUs;
     const bool told = breakAfterUs_ && sample->hostUs > *breakAfterUs_;
     if (told) breakAfterUs_.reset();
-    if (!empty() && (sample->afterGap || missed || told)) breaks_.push_back(timeS_.size() - 1);
+    if (!empty() && (sample->afterGap || missed || told))
+      frames_.breaks.push_back(frames_.timeS.size() - 1);
     missed = false;
-    timeS_.push_back(secondsOf(sample->hostUs));
-    for (Entry& entry : entries_) entry.values.push_back(valueOf(entry, *sample));
+    frames_.timeS.push_back(secondsOf(sample->hostUs));
+    for (Entry& entry : entries_)
+      if (!entry.isColumn()) entry.values.push_back(valueOf(entry, *sample));
     newestUs_ = sample->hostUs;
   }
+  for (Entry& entry : entries_) takeColumn(entry);
   if (const auto oldestUs = history_->oldestUs()) forgetBefore(*oldestUs);
   return samples.size();
+}
+
+void LiveSeries::takeColumn(Entry& entry) {
+  if (!entry.isColumn() || !history_ || !originUs_) return;
+  const ColumnRows rows =
+      history_->column(entry.choice.series,
+                       entry.choice.column,
+                       entry.newestUs.value_or(std::numeric_limits<std::int64_t>::min()));
+  if (rows.hostUs.empty()) return;
+  Times& own = entry.own;
+  for (const std::size_t index : rows.afterGaps)
+    if (const std::size_t at = own.timeS.size() + index; at > 0) own.breaks.push_back(at - 1);
+  for (const std::int64_t hostUs : rows.hostUs) own.timeS.push_back(secondsOf(hostUs));
+  entry.values.insert(entry.values.end(), rows.values.begin(), rows.values.end());
+  entry.newestUs = rows.hostUs.back();
+  entry.gapS = static_cast<double>(rows.gapUs) / kUsPerS;
 }
 
 void LiveSeries::breakAfter(std::int64_t hostUs) {
@@ -138,23 +150,31 @@ void LiveSeries::breakAfter(std::int64_t hostUs) {
     breakAfterUs_ = hostUs;
     return;
   }
-  const auto index = indexAt(secondsOf(hostUs));
+  const auto index = frames_.indexAt(secondsOf(hostUs));
   if (!index) return;
-  const auto at = std::ranges::lower_bound(breaks_, *index);
-  if (at == breaks_.end() || *at != *index) breaks_.insert(at, *index);
+  const auto at = std::ranges::lower_bound(frames_.breaks, *index);
+  if (at == frames_.breaks.end() || *at != *index) frames_.breaks.insert(at, *index);
 }
 
 void LiveSeries::forgetBefore(std::int64_t hostUs) {
   const double oldestS = secondsOf(hostUs);
-  while (first_ < timeS_.size() && timeS_[first_] < oldestS) ++first_;
-  if (first_ < kLeastRemoved || 2 * first_ < timeS_.size()) return;
-  const auto removed = static_cast<std::ptrdiff_t>(first_);
-  timeS_.erase(timeS_.begin(), timeS_.begin() + removed);
-  for (Entry& entry : entries_)
-    entry.values.erase(entry.values.begin(), entry.values.begin() + removed);
-  std::erase_if(breaks_, [this](std::size_t index) { return index < first_; });
-  for (std::size_t& index : breaks_) index -= first_;
-  first_ = 0;
+  const std::size_t removed = frames_.forgetBefore(oldestS);
+  for (Entry& entry : entries_) {
+    const std::size_t count = entry.isColumn() ? entry.own.forgetBefore(oldestS) : removed;
+    entry.values.erase(entry.values.begin(),
+                       entry.values.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+}
+
+std::size_t LiveSeries::Times::forgetBefore(double oldestS) {
+  while (first < timeS.size() && timeS[first] < oldestS) ++first;
+  if (first < kLeastRemoved || 2 * first < timeS.size()) return 0;
+  const std::size_t removed = first;
+  timeS.erase(timeS.begin(), timeS.begin() + static_cast<std::ptrdiff_t>(removed));
+  std::erase_if(breaks, [removed](std::size_t index) { return index < removed; });
+  for (std::size_t& index : breaks) index -= removed;
+  first = 0;
+  return removed;
 }
 
 const LiveSeries::Entry* LiveSeries::find(const SeriesChoice& choice) const {
@@ -166,29 +186,38 @@ const LiveSeries::Entry* LiveSeries::find(const SeriesChoice& choice) const {
 std::vector<SeriesPoint> LiveSeries::points(const SeriesChoice& choice,
                                             const DecimationOptions& options) const {
   const Entry* entry = find(choice);
-  if (!entry || empty()) return {};
+  if (!entry || timesOf(*entry).empty()) return {};
+  const Times& times = timesOf(*entry);
   DecimationOptions all = options;
   std::vector<std::size_t> breaks;
-  for (const std::size_t index : breaks_)
-    if (index >= first_) breaks.push_back(index - first_);
+  for (const std::size_t index : times.breaks)
+    if (index >= times.first) breaks.push_back(index - times.first);
   all.breaks = breaks;
-  return minMaxDecimated(
-      std::span(timeS_).subspan(first_), std::span(entry->values).subspan(first_), all);
+  return minMaxDecimated(std::span(times.timeS).subspan(times.first),
+                         std::span(entry->values).subspan(times.first),
+                         all);
 }
 
-std::optional<std::size_t> LiveSeries::indexAt(double timeS) const {
+std::optional<std::size_t> LiveSeries::Times::indexAt(double atS) const {
   const auto after =
-      std::upper_bound(timeS_.begin() + static_cast<std::ptrdiff_t>(first_), timeS_.end(), timeS);
-  const auto index = static_cast<std::size_t>(after - timeS_.begin());
-  return index == first_ ? std::nullopt : std::optional(index - 1);
+      std::upper_bound(timeS.begin() + static_cast<std::ptrdiff_t>(first), timeS.end(), atS);
+  const auto index = static_cast<std::size_t>(after - timeS.begin());
+  return index == first ? std::nullopt : std::optional(index - 1);
+}
+
+bool LiveSeries::Times::breaksAt(std::size_t index) const {
+  return std::binary_search(breaks.begin(), breaks.end(), index);
 }
 
 std::optional<double> LiveSeries::valueAt(const SeriesChoice& choice, double timeS) const {
   const Entry* entry = find(choice);
-  const auto index = indexAt(timeS);
-  if (!entry || !index || timeS > newestS()) return std::nullopt;
-  if (timeS > timeS_[*index] && std::binary_search(breaks_.begin(), breaks_.end(), *index))
-    return std::nullopt;
+  if (!entry) return std::nullopt;
+  const Times& times = timesOf(*entry);
+  const auto index = times.indexAt(timeS);
+  if (!index || timeS > std::max(newestS(), times.timeS.back())) return std::nullopt;
+  if (timeS > times.timeS[*index] && times.breaksAt(*index)) return std::nullopt;
+  // Behind the newest sample of a column.
+  if (timeS > times.timeS.back() && timeS > times.timeS.back() + entry->gapS) return std::nullopt;
   const double value = entry->values[*index];
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
@@ -199,17 +228,17 @@ std::optional<double> LiveSeries::sampleTimeAt(double timeS) const {
 
 std::optional<double> LiveSeries::sampleTimeBeside(double timeS, std::ptrdiff_t samples) const {
   if (empty()) return std::nullopt;
-  const auto at = static_cast<std::ptrdiff_t>(indexAt(timeS).value_or(first_)) + samples;
-  return timeS_[static_cast<std::size_t>(std::clamp(
-      at, static_cast<std::ptrdiff_t>(first_), static_cast<std::ptrdiff_t>(timeS_.size()) - 1))];
+  const auto first = static_cast<std::ptrdiff_t>(frames_.first);
+  const auto at =
+      static_cast<std::ptrdiff_t>(frames_.indexAt(timeS).value_or(frames_.first)) + samples;
+  return frames_.timeS[static_cast<std::size_t>(
+      std::clamp(at, first, static_cast<std::ptrdiff_t>(frames_.timeS.size()) - 1))];
 }
 
 std::optional<TimeSpan> LiveSeries::gapAt(double timeS) const {
-  const auto index = indexAt(timeS);
-  if (!index || timeS <= timeS_[*index] ||
-      !std::binary_search(breaks_.begin(), breaks_.end(), *index))
-    return std::nullopt;
-  return TimeSpan{timeS_[*index], timeS_[*index + 1]};
+  const auto index = frames_.indexAt(timeS);
+  if (!index || timeS <= frames_.timeS[*index] || !frames_.breaksAt(*index)) return std::nullopt;
+  return TimeSpan{frames_.timeS[*index], frames_.timeS[*index + 1]};
 }
 
 std::optional<std::pair<double, double>> LiveSeries::extremes(const SeriesChoice& choice,
@@ -217,11 +246,11 @@ std::optional<std::pair<double, double>> LiveSeries::extremes(const SeriesChoice
                                                               double toS) const {
   const Entry* entry = find(choice);
   if (!entry) return std::nullopt;
-  const auto begin = timeS_.begin() + static_cast<std::ptrdiff_t>(first_);
-  const auto from =
-      static_cast<std::size_t>(std::lower_bound(begin, timeS_.end(), fromS) - timeS_.begin());
-  const auto to =
-      static_cast<std::size_t>(std::upper_bound(begin, timeS_.end(), toS) - timeS_.begin());
+  const Times& times = timesOf(*entry);
+  const auto begin = times.timeS.begin() + static_cast<std::ptrdiff_t>(times.first);
+  const auto indexOf = [&](auto at) { return static_cast<std::size_t>(at - times.timeS.begin()); };
+  const std::size_t from = indexOf(std::lower_bound(begin, times.timeS.end(), fromS));
+  const std::size_t to = indexOf(std::upper_bound(begin, times.timeS.end(), toS));
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   // Comparisons with NaN are false.
@@ -235,8 +264,8 @@ std::optional<std::pair<double, double>> LiveSeries::extremes(const SeriesChoice
 
 std::vector<TimeSpan> LiveSeries::gaps() const {
   std::vector<TimeSpan> spans;
-  for (const std::size_t index : breaks_)
-    if (index >= first_) spans.push_back({timeS_[index], timeS_[index + 1]});
+  for (const std::size_t index : frames_.breaks)
+    if (index >= frames_.first) spans.push_back({frames_.timeS[index], frames_.timeS[index + 1]});
   return spans;
 }
 

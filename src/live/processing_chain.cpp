@@ -131,20 +131,35 @@ void ProcessingChain::process(const CaptureItem& item) {
   } else if (const auto* sample = std::get_if<Sample>(&item)) {
     if (sample->series == kAngleSeries) angles_ = *sample;
     if (sample->series == kTemperatureSeries) temperatures_ = *sample;
-    if (sample->series >= kHandSeries) takeFurther(*sample);
+    if (sample->series >= kHandSeries) {
+      const FurtherSample& taken = takeFurther(*sample);
+      if (options_.onFurther) options_.onFurther(taken);
+    }
     for (const auto& stage : stages_) stage->onSample(*sample);
   } else {
-    for (const auto& stage : stages_) stage->onEvent(std::get<Event>(item));
+    const auto& event = std::get<Event>(item);
+    if (event.kind == "link" && !further_.empty()) forgetRemoved();
+    for (const auto& stage : stages_) stage->onEvent(event);
   }
 }
 
-void ProcessingChain::takeFurther(const Sample& sample) {
+// A series that was removed (CaptureSession::removeSeries) has no name any more.
+void ProcessingChain::forgetRemoved() {
+  if (!furtherSeries_) return;
+  const auto all = furtherSeries_();
+  std::erase_if(further_, [&](const FurtherSample& each) {
+    const std::size_t index = each.sample.series - kHandSeries;
+    return index < all.size() && all[index].name.empty();
+  });
+}
+
+const FurtherSample& ProcessingChain::takeFurther(const Sample& sample) {
   const auto at = std::ranges::lower_bound(
       further_, sample.series, {}, [](const FurtherSample& each) { return each.sample.series; });
   const bool known = at != further_.end() && at->sample.series == sample.series;
   if (known && at->series->columns.size() == sample.values.size()) {
     at->sample = sample;
-    return;
+    return *at;
   }
   const std::size_t index = sample.series - kHandSeries;
   const auto all = furtherSeries_ ? furtherSeries_() : std::vector<SeriesDescription>();
@@ -157,10 +172,8 @@ void ProcessingChain::takeFurther(const Sample& sample) {
       series.columns.push_back({std::to_string(i), {}});
   }
   FurtherSample taken{std::make_shared<const SeriesDescription>(std::move(series)), sample};
-  if (known)
-    *at = std::move(taken);
-  else
-    further_.insert(at, std::move(taken));
+  if (known) return *at = std::move(taken);
+  return *further_.insert(at, std::move(taken));
 }
 
 void ProcessingChain::processFrame(const SharedFrame& frame) {

@@ -44,11 +44,8 @@ std::size_t KeptTaxels::bytes() const noexcept {
 }
 
 std::size_t SignalSample::bytes() const noexcept {
-  std::size_t numFurther = 0;
-  for (const FurtherSample& each : further) numFurther += each.sample.values.size();
-  return sizeof(SignalSample) + further.size() * sizeof(FurtherSample) +
-         rows.size() * sizeof(CharacteristicSignals) + taxels.bytes() +
-         (anglesDeg.size() + temperatures.size() + forcesN.size() + numFurther) * sizeof(double);
+  return sizeof(SignalSample) + rows.size() * sizeof(CharacteristicSignals) + taxels.bytes() +
+         (anglesDeg.size() + temperatures.size() + forcesN.size()) * sizeof(double);
 }
 
 SignalHistory::SignalHistory(const SignalHistoryOptions& options) : options_(options) {
@@ -60,9 +57,86 @@ SignalHistory::SignalHistory(const SignalHistoryOptions& options) : options_(opt
     throw std::invalid_argument("SignalHistoryOptions: keepBytes must be at least 1");
 }
 
-std::int64_t SignalHistory::medianIntervalUs() const {
-  if (intervalsUs_.empty()) return 0;
-  return upperMedian(std::vector(intervalsUs_.begin(), intervalsUs_.end()));
+std::int64_t SignalHistory::Intervals::gapUs() const {
+  const std::int64_t medianUs =
+      newestUs.empty() ? 0 : upperMedian(std::vector(newestUs.begin(), newestUs.end()));
+  return gapThresholdUs(medianUs);
+}
+
+void SignalHistory::Intervals::add(std::int64_t us) {
+  constexpr std::size_t kIntervals = 15;
+  newestUs.push_back(us);
+  if (newestUs.size() > kIntervals) newestUs.pop_front();
+}
+
+std::size_t SignalHistory::Kept::bytes() const noexcept {
+  return hostUs.size() * (sizeof(std::int64_t) + 1) + values.size() * sizeof(double);
+}
+
+void SignalHistory::Kept::dropOldest() {
+  hostUs.pop_front();
+  afterGap.pop_front();
+  values.erase(values.begin(),
+               values.begin() + static_cast<std::ptrdiff_t>(series->columns.size()));
+}
+
+void SignalHistory::add(const FurtherSample& sample) {
+  const std::lock_guard lock(mutex_);
+  const auto known = std::ranges::find_if(
+      further_, [&](const Kept& each) { return each.series->name == sample.series->name; });
+  Kept& kept =
+      known == further_.end() ? further_.emplace_back(Kept{.series = sample.series}) : *known;
+  if (kept.series->columns != sample.series->columns) kept = Kept{.series = sample.series};
+  const std::int64_t hostUs = sample.sample.hostUs;
+  bool afterGap = false;
+  if (!kept.hostUs.empty()) {
+    const std::int64_t intervalUs = hostUs - kept.hostUs.back();
+    if (intervalUs <= 0) return;
+    afterGap = intervalUs > kept.intervals.gapUs();
+    kept.intervals.add(intervalUs);
+  }
+  kept.hostUs.push_back(hostUs);
+  kept.afterGap.push_back(afterGap);
+  kept.values.insert(kept.values.end(), sample.sample.values.begin(), sample.sample.values.end());
+  dropOldRows(hostUs);
+}
+
+void SignalHistory::dropOldRows(std::int64_t newestUs) {
+  const auto oldestUs = newestUs - static_cast<std::int64_t>(options_.keepS * kUsPerS);
+  std::size_t bytes = 0;
+  for (Kept& each : further_) {
+    while (!each.hostUs.empty() && each.hostUs.front() < oldestUs) each.dropOldest();
+    bytes += each.bytes();
+  }
+  while (bytes > options_.keepBytes) {
+    Kept& largest = *std::ranges::max_element(further_, {}, &Kept::bytes);
+    if (largest.hostUs.size() <= 1) return;
+    bytes -= largest.bytes();
+    largest.dropOldest();
+    bytes += largest.bytes();
+  }
+}
+
+ColumnRows SignalHistory::column(const std::string& series,
+                                 const std::string& column,
+                                 std::int64_t afterUs) const {
+  const std::lock_guard lock(mutex_);
+  ColumnRows rows;
+  const auto kept =
+      std::ranges::find_if(further_, [&](const Kept& each) { return each.series->name == series; });
+  if (kept == further_.end()) return rows;
+  const auto& columns = kept->series->columns;
+  const auto at = std::ranges::find(columns, column, &Column::name);
+  if (at == columns.end()) return rows;
+  rows.gapUs = kept->intervals.gapUs();
+  const auto first = std::ranges::upper_bound(kept->hostUs, afterUs) - kept->hostUs.begin();
+  for (auto i = static_cast<std::size_t>(first); i < kept->hostUs.size(); ++i) {
+    if (kept->afterGap[i]) rows.afterGaps.push_back(rows.hostUs.size());
+    rows.hostUs.push_back(kept->hostUs[i]);
+    rows.values.push_back(
+        kept->values[i * columns.size() + static_cast<std::size_t>(at - columns.begin())]);
+  }
+  return rows;
 }
 
 void SignalHistory::add(const LiveResults& results) {
@@ -75,7 +149,6 @@ void SignalHistory::add(const LiveResults& results) {
   sample->taxels = KeptTaxels(results.frame->allValues());
   if (results.angles) sample->anglesDeg = results.angles->values;
   if (results.temperatures) sample->temperatures = results.temperatures->values;
-  sample->further = results.further;
   if (results.pressure) {
     sample->forcesN.reserve(results.pressure->matrices.size() + 1);
     for (const MatrixPressure& matrix : results.pressure->matrices)
@@ -87,9 +160,8 @@ void SignalHistory::add(const LiveResults& results) {
   if (!samples_.empty()) {
     const std::int64_t intervalUs = sample->hostUs - samples_.back()->hostUs;
     if (intervalUs <= 0) return;
-    sample->afterGap = intervalUs > gapThresholdUs(medianIntervalUs());
-    intervalsUs_.push_back(intervalUs);
-    if (intervalsUs_.size() > kIntervals) intervalsUs_.pop_front();
+    sample->afterGap = intervalUs > intervals_.gapUs();
+    intervals_.add(intervalUs);
   }
   bytes_ += sample->bytes();
   samples_.push_back(std::move(sample));
@@ -102,13 +174,15 @@ void SignalHistory::add(const LiveResults& results) {
     bytes_ -= samples_.front()->bytes();
     samples_.pop_front();
   }
+  if (!further_.empty()) dropOldRows(samples_.back()->hostUs);
 }
 
 void SignalHistory::clear() {
   const std::lock_guard lock(mutex_);
   samples_.clear();
   bytes_ = 0;
-  intervalsUs_.clear();
+  intervals_ = {};
+  further_.clear();
 }
 
 std::vector<SharedSignalSample> SignalHistory::after(std::int64_t hostUs) const {
@@ -133,7 +207,9 @@ std::size_t SignalHistory::size() const {
 
 std::size_t SignalHistory::bytes() const {
   const std::lock_guard lock(mutex_);
-  return bytes_;
+  std::size_t bytes = bytes_;
+  for (const Kept& each : further_) bytes += each.bytes();
+  return bytes;
 }
 
 }  // namespace palpate

@@ -10,9 +10,12 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 
 #include "recording/format_reader.h"
 #include "recording/native/palpate_connection.h"
+#include "recording/native/palpate_rows.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -82,6 +85,24 @@ void readSpan(RecordingDetails& details, PalpateConnection& access) {
   details.durationUs = end - *details.startUs;
 }
 
+void readSeriesSpans(RecordingDetails& details, PalpateConnection& access) {
+  SqliteDatabase& database = access.database();
+  for (auto& [index, series] : readSeries(database).sound) {
+    if (index < kHandSeries) continue;
+    SqliteStatement span =
+        database.prepare("SELECT sum(n), min(t0_us), max(t1_us) FROM block WHERE stream=" +
+                         std::to_string(static_cast<int>(streamOfSeries(index))));
+    SeriesDetails& found = details.series.emplace_back();
+    found.name = std::move(series.name);
+    found.columns = std::move(series.columns);
+    if (!span.next()) continue;
+    found.samples = std::max<std::int64_t>(span.integer(0), 0);
+    const double us = static_cast<double>(span.integer(2)) - static_cast<double>(span.integer(1));
+    if (found.samples > 1 && us > 0.0)
+      found.rateHz = static_cast<double>(found.samples - 1) * kUsPerS / us;
+  }
+}
+
 // Those of an opened recording.
 void takeDetails(const Recording& recording, RecordingDetails& details) {
   const auto valueOf = [&](const char* key) {
@@ -93,6 +114,11 @@ void takeDetails(const Recording& recording, RecordingDetails& details) {
   details.run = bounded(valueOf("run"));
   addNote(details.notes, valueOf("notes"));
   const Profile& profile = recording.profile;
+  for (std::size_t i = kHandSeries; i < profile.series().size(); ++i)
+    details.series.push_back({profile.series()[i].name,
+                              static_cast<std::int64_t>(profile.numSamples(i)),
+                              profile.meanSampleRateHz(i),
+                              profile.series()[i].columns});
   details.numFrames = static_cast<std::int64_t>(profile.numFrames());
   if (profile.numFrames() == 0) return;
   details.startUs = profile.frameTimeUs(0);
@@ -138,6 +164,15 @@ void addPalpateDetails(RecordingDetails& details) {
   }
   addEvents(details, readEventRows(access.database()));
   readSpan(details, access);
+  readSeriesSpans(details, access);
+}
+
+std::string SeriesDetails::text() const {
+  std::string text = name + ": ";
+  for (const Column& column : columns)
+    text += (&column == &columns.front() ? "" : ", ") + column.name +
+            (column.unit.empty() ? "" : " [" + column.unit + "]");
+  return escapedLine(text + (rateHz > 0.0 ? ", " + fixedText(rateHz, 1) + " Hz" : ""));
 }
 
 const char* nameOf(State state) {

@@ -94,6 +94,19 @@ double gapFromS(const TimingReport& timing) {
   return gapThresholdS(timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0);
 }
 
+double gapOfTimesS(std::span<const double> timeS) {
+  if (timeS.size() < 2) return gapThresholdS(0.0);
+  std::vector<double> intervals(timeS.size() - 1);
+  for (std::size_t i = 0; i < intervals.size(); ++i) intervals[i] = timeS[i + 1] - timeS[i];
+  return gapThresholdS(upperMedian(std::move(intervals)));
+}
+
+std::optional<std::size_t> sampleAt(const Series& series, double timeS, double longestS) {
+  const auto after = std::ranges::upper_bound(series.timeS, timeS);
+  if (after == series.timeS.begin() || timeS - *(after - 1) > longestS) return std::nullopt;
+  return static_cast<std::size_t>(after - series.timeS.begin()) - 1;
+}
+
 CurveComparison compareCurves(const Series& a,
                               const Series& b,
                               double offsetS,

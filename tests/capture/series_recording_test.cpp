@@ -229,13 +229,65 @@ TEST(SeriesRecording, AnUnpluggedSourceIsAGapAndTheHandGoesOn) {
 
 TEST(SeriesRecording, NamesAreUnique) {
   Session bench({"wrist"});
-  EXPECT_THROW(bench.session->addSeries(bench.source("cell")), std::logic_error);  // started
-  bench.session->stop();
   for (const char* name : {"wrist", "angles", "temperatures", "tactile", "events"})
     EXPECT_THROW(bench.session->addSeries(bench.source(name)), std::invalid_argument) << name;
   EXPECT_THROW(bench.session->addSeries(nullptr), std::invalid_argument);
   bench.session->addSeries(bench.source("cell"));
   EXPECT_EQ(bench.session->furtherSeries().size(), 2u);
+}
+
+TEST(SeriesRecording, SensorsComeAndGoWhileNothingIsRecorded) {
+  const TemporaryFolder folder;
+  Session bench({"wrist"});
+  const auto before = bench.session->subscribe("a consumer");
+  bench.frame();
+  bench.session->addSeries(bench.source("cell"));  // it starts at once
+  bench.rows(1, 3);
+  EXPECT_EQ(bench.session->health().series.size(), 2u);
+  bench.session->removeSeries("wrist");
+  EXPECT_THROW(bench.session->removeSeries("wrist"), std::invalid_argument);
+  ASSERT_EQ(bench.session->seriesSources().size(), 1u);
+  EXPECT_EQ(bench.session->seriesSources()[0]->name(), "cell");
+  ASSERT_EQ(bench.session->furtherSeries().size(), 2u) << "indexes stay";
+  EXPECT_EQ(bench.session->furtherSeries()[0].name, "");
+  EXPECT_EQ(bench.session->furtherSeries()[1].name, "cell");
+  bench.session->addSeries(bench.source("wrist"));  // its name is free again
+  bench.record(folder / "a.palpate");
+  EXPECT_THROW(bench.session->addSeries(bench.source("other")), std::logic_error);
+  EXPECT_THROW(bench.session->removeSeries("cell"), std::logic_error);
+  bench.frame();
+  for (int i = 0; i < 5; ++i) {
+    bench.clock.pass(10'000);
+    bench.wires[2]->send("1,2\n");  // of the second "wrist"
+    ASSERT_TRUE(awaited([&] {
+      return bench.session->seriesSources()[1]->status().port.items == std::uint64_t(i) + 1;
+    }));
+    bench.frame();
+  }
+  const RecordingReport report = bench.stop();
+  EXPECT_TRUE(report.complete) << report.message;
+  const Profile profile = openRecording(folder / "a.palpate");
+  const auto wrist = profile.seriesNamed("wrist");
+  ASSERT_TRUE(wrist);
+  EXPECT_EQ(profile.numSamples(*wrist), 5u);
+}
+
+// What came before the recording, of a sensor that is gone, is no loss.
+TEST(SeriesRecording, ARemovedSensorLeavesNothingInTheRecording) {
+  const TemporaryFolder folder;
+  Session bench({"wrist"});
+  bench.rows(0, 5);
+  bench.session->removeSeries("wrist");
+  bench.record(folder / "a.palpate");
+  for (int i = 0; i < 3; ++i) {
+    bench.clock.pass(10'000);
+    bench.frame();
+  }
+  const RecordingReport report = bench.stop();
+  EXPECT_TRUE(report.complete) << report.message;
+  EXPECT_EQ(report.refused, 0);
+  EXPECT_TRUE(report.series.empty());
+  EXPECT_TRUE(openRecording(folder / "a.palpate").furtherSeries().empty());
 }
 
 // A writer that is killed leaves what was committed.

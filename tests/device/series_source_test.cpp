@@ -186,6 +186,21 @@ TEST(SeriesSource, OptionsAreChecked) {
                std::invalid_argument);
 }
 
+TEST(SeriesSource, APortMayHaveItsBaudRate) {
+  const auto text = [](std::string_view given) {
+    const SeriesPlace place = seriesPlaceOf(given);
+    return place.source + " " + std::to_string(place.baud);
+  };
+  EXPECT_EQ(text("serial:/dev/ttyUSB0@921600"), "/dev/ttyUSB0 921600");
+  EXPECT_EQ(text("/dev/ttyUSB0@9600"), "/dev/ttyUSB0 9600");
+  EXPECT_EQ(text("serial:/dev/ttyUSB0"), "/dev/ttyUSB0 115200");
+  EXPECT_EQ(text("/dev/serial/by-id/usb-a@b"), "/dev/serial/by-id/usb-a@b 115200");
+  EXPECT_EQ(text("tcp:host@9600"), "tcp:host@9600 115200");
+  EXPECT_EQ(text("-"), "- 115200");
+  EXPECT_THROW(seriesPlaceOf("/dev/ttyUSB0@49"), std::invalid_argument);
+  EXPECT_THROW(seriesPlaceOf("/dev/ttyUSB0@10000001"), std::invalid_argument);
+}
+
 TEST(SeriesSource, ReadsOverTcpAndAcceptsTheNextSender) {
   RowSink sink;
   SeriesSource source({.name = "wrist", .source = "listen:0"});

@@ -1,6 +1,8 @@
 #include <cmath>
 
 #include "palpate/model/hand_file.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/table_export.h"
 
 #include "imports/import_samples.h"
 
@@ -211,6 +213,56 @@ TEST(ImportSeries, TheProbeOfEfleshComesAlong) {
   EXPECT_EQ(profile.series().back().columns.size(), 4u);
   EXPECT_EQ(report.series[0].samples, profile.numSamples(kHandSeries));
   EXPECT_EQ(profile.sample(kHandSeries, 0).values, (std::vector<double>{315, -100, 288, 4.36}));
+}
+
+// What `palpate convert` writes to .csv comes back with its series, times and units.
+TEST(ImportSeries, AnExportedListFindsItsSeries) {
+  const TemporaryFolder folder;
+  const HandDescription hand = pad(1, 2);
+  ProfileBuilder builder(hand);
+  const std::size_t wrist =
+      builder.addSeries({"wrist", "", {{"fx", "N"}, {"mode", ""}}, "tcp:somewhere"});
+  TactileFrame frame(hand.layout);
+  for (int i = 0; i < 3; ++i) {
+    frame.hostUs = 1'700'000'000'000'123 + i * 10'000;
+    frame.values = {1.0F + static_cast<float>(i), 2.0F};
+    builder.addFrame(frame);
+    for (int k = 0; k < 2; ++k)
+      builder.addSample(wrist,
+                        frame.hostUs + k * 4'001,
+                        std::vector<double>{k == 1 ? std::nan("") : -1.5 * i, 7.0});
+  }
+  const Profile exported = builder.finish({});
+  writeCsv(exported, folder / "X.csv");
+  testing::writeFile(folder / "X.csv.notes.csv", "a,b\n1,2\n");  // something else
+  testing::writeFile(folder / "X.csv.Bad.csv", "sample,time_ms,fx_N,time_us\n0,1,2,1000\n");
+  const auto imported = [&](const std::vector<SeriesFile>& series) {
+    importRecording(folder / "X.csv",
+                    hand,
+                    {},
+                    folder / "out.palpate",
+                    {.series = series, .overwrite = Overwrite::kReplace});
+    return openRecording(folder / "out.palpate");
+  };
+  const Profile back = imported({});
+  ASSERT_EQ(back.series().size(), kHandSeries + 1);
+  EXPECT_EQ(back.series().back().name, "wrist");
+  EXPECT_EQ(back.series().back().columns, (std::vector<Column>{{"fx", "N"}, {"mode", ""}}));
+  ASSERT_EQ(back.numSamples(kHandSeries), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Sample before = exported.sample(wrist, i), now = back.sample(kHandSeries, i);
+    EXPECT_EQ(now.hostUs, before.hostUs);
+    EXPECT_EQ(std::isnan(now.values[0]), std::isnan(before.values[0]));
+    if (!std::isnan(now.values[0])) {
+      EXPECT_EQ(now.values[0], before.values[0]);
+    }
+    EXPECT_EQ(now.values[1], 7.0);
+  }
+  // A file that is named goes before.
+  testing::writeFile(folder / "other.csv", "time_us,f_N\n1700000000000123,1\n1700000000010123,2\n");
+  const Profile named = imported({{"wrist", folder / "other.csv", std::nullopt}});
+  ASSERT_EQ(named.series().size(), kHandSeries + 1);
+  EXPECT_EQ(named.numSamples(kHandSeries), 2u);
 }
 
 }  // namespace

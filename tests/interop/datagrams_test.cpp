@@ -106,6 +106,40 @@ TEST(Datagrams, ALongArrayIsDividedIntoItsValues) {
   EXPECT_EQ(all, whole);
 }
 
+// Series of 3, 64 and 2 columns: the second one alone is too long.
+TEST(Datagrams, LargeSeriesAreDividedBetweenTheirColumns) {
+  LiveResults results = largeResults(1, 2);
+  for (const auto& [name, count] :
+       {std::pair("wrist", 3), std::pair("skin", 64), std::pair("imu", 2)}) {
+    SeriesDescription series{name, "", {}, ""};
+    Sample sample{1, {}, kHandSeries + results.further.size()};
+    for (int i = 0; i < count; ++i) {
+      series.columns.push_back({"column \"" + std::to_string(i) + "\",:{", ""});
+      sample.values.push_back(-1.2345678901234567e-100 * (i + 1));
+    }
+    results.further.push_back(
+        {std::make_shared<const SeriesDescription>(std::move(series)), std::move(sample)});
+  }
+  const std::string text = wholeText(results);
+  const Parsed whole = Parsed::parse(text);
+  Parsed series = Parsed::object();
+  std::size_t numWithSeries = 0;
+  for (const std::string& part : signalDatagrams(text)) {
+    EXPECT_LE(part.size(), kMaxDatagramBytes);
+    const Parsed object = Parsed::parse(part);
+    EXPECT_EQ(object.at("sequence"), 7);
+    if (!object.contains("series")) continue;
+    ++numWithSeries;
+    for (const auto& [name, columns] : object.at("series").items())
+      for (const auto& [column, value] : columns.items()) {
+        EXPECT_FALSE(series[name].contains(column)) << column;
+        series[name][column] = value;
+      }
+  }
+  EXPECT_GT(numWithSeries, 2u);
+  EXPECT_EQ(series, whole.at("series"));
+}
+
 TEST(Datagrams, TaxelMessagesHoldWholeMatrices) {
   const LiveResults results = largeResults(40, 0);
   const auto parts = tactileDatagrams(*results.frame, 9);

@@ -236,17 +236,59 @@ TEST(LiveSeries, ColumnsOfFurtherSeriesAreFoundByName) {
   series.setWanted({fz, other});
   const auto wrist = std::make_shared<const SeriesDescription>(
       SeriesDescription{"wrist", "", {{"fx", "N"}, {"fz", "N"}}, ""});
+  const auto row = [&](double atS, double value) {
+    history.add(FurtherSample{wrist, {resultsAt(atS).frame->hostUs, {0.0, value}, kHandSeries}});
+  };
   for (int i = 0; i < 5; ++i) {
-    LiveResults results = resultsAt(0.1 * i);
     // The first frame is before the first sample.
-    if (i > 0) results.further = {{wrist, {results.frame->hostUs, {0.0, -1.0 * i}, kHandSeries}}};
-    history.add(results);
+    if (i > 0) row(0.1 * i, -1.0 * i);
+    history.add(resultsAt(0.1 * i));
   }
   series.update();
   EXPECT_EQ(series.valueAt(fz, 0.0), std::nullopt);
   EXPECT_EQ(series.valueAt(fz, 0.25), -2.0);
   EXPECT_EQ(series.extremes(fz, 0.0, 9.0), std::pair(-4.0, -1.0));
   EXPECT_EQ(series.valueAt(other, 0.25), std::nullopt);
+}
+
+// A frame every 100 ms, a row every 10 ms.
+TEST(LiveSeries, AFasterSeriesHasEveryRow) {
+  SignalHistory history({.keepS = 100.0});
+  LiveSeries series;
+  series.setHistory(&history);
+  const SeriesChoice fz{.kind = SeriesChoice::Kind::kColumn, .series = "wrist", .column = "fz"};
+  const SeriesChoice fx{.kind = SeriesChoice::Kind::kColumn, .series = "wrist", .column = "fx"};
+  series.setWanted({fz});
+  const auto wrist = std::make_shared<const SeriesDescription>(
+      SeriesDescription{"wrist", "", {{"fx", "N"}, {"fz", "N"}}, ""});
+  const auto row = [&](int i) {
+    history.add(FurtherSample{
+        wrist, {resultsAt(0.01 * i).frame->hostUs, {1.0 * i, -1.0 * i}, kHandSeries}});
+  };
+  for (int i = 0; i <= 100; ++i) {
+    row(i);
+    if (i % 10 == 0) {
+      history.add(resultsAt(0.01 * i));
+      series.update();
+    }
+  }
+  EXPECT_EQ(series.numSamples(), 11u);
+  EXPECT_EQ(series.valueAt(fz, 0.123), -12.0);
+  EXPECT_EQ(series.points(fz, {.from = 0.0, .to = 1.0, .columns = 1000}).size(), 101u);
+  series.setWanted({fx, fz});
+  EXPECT_EQ(series.valueAt(fx, 0.123), 12.0) << "chosen later";
+  EXPECT_EQ(series.valueAt(fz, 0.123), -12.0) << "kept";
+  // It is silent from 1 s on: its value holds for 1 s, then it is a gap.
+  for (int i = 11; i <= 40; ++i) history.add(resultsAt(0.1 * i));
+  series.update();
+  EXPECT_EQ(series.valueAt(fz, 1.5), -100.0);
+  EXPECT_EQ(series.valueAt(fz, 2.5), std::nullopt);
+  row(500);
+  history.add(resultsAt(5.0));
+  series.update();
+  EXPECT_EQ(series.valueAt(fz, 1.5), std::nullopt);
+  EXPECT_EQ(series.valueAt(fz, 5.0), -500.0);
+  EXPECT_EQ(series.gaps().size(), 0u) << "frames came all the time";
 }
 
 }  // namespace

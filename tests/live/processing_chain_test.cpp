@@ -259,5 +259,31 @@ TEST(ProcessingChain, ASeriesThatNobodyDescribesHasNumbersForNames) {
   EXPECT_EQ(deliver(2, {4.0, 5.0, 6.0}).sample.values, (std::vector{4.0, 5.0, 6.0}));
 }
 
+TEST(ProcessingChain, EverySampleIsToldAndARemovedSeriesIsForgotten) {
+  ScriptedSession scripted;
+  std::vector<SeriesDescription> described{testing::wristSeries()};
+  ChainOptions options;
+  options.furtherSeries = [&] { return described; };
+  std::vector<double> told;
+  options.onFurther = [&](const FurtherSample& sample) {
+    EXPECT_EQ(*sample.series, testing::wristSeries());
+    told.push_back(sample.sample.values[0]);
+  };
+  ProcessingChain chain(signalsOnly(), options);
+  chain.connect(*scripted.session);
+  const std::int64_t t = 1'400'000'000'000'000;
+  for (int i = 0; i < 5; ++i)
+    scripted.device->sink->onSample({t + i * 1000, {1.0 * i, 0.0, 0.0}, kHandSeries});
+  scripted.device->frame(0, t + 30'000);
+  chain.step();
+  EXPECT_EQ(told, (std::vector{0.0, 1.0, 2.0, 3.0, 4.0}));
+  EXPECT_EQ(chain.take()->further.size(), 1u);
+  described = {{}};
+  scripted.device->sink->onEvent({t + 31'000, t + 31'000, "link", {}, "removed", ""});
+  scripted.device->frame(1, t + 60'000);
+  chain.step();
+  EXPECT_TRUE(chain.take()->further.empty());
+}
+
 }  // namespace
 }  // namespace palpate::processing_chain_test

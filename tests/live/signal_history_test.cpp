@@ -124,22 +124,46 @@ TEST(SignalHistory, RefusesOptionsWithoutRoom) {
                std::invalid_argument);
 }
 
+FurtherSample furtherSample(std::int64_t hostUs, std::vector<Column> columns = {{"fz", "N"}}) {
+  const std::vector<double> values(columns.size(), static_cast<double>(hostUs));
+  return {std::make_shared<const SeriesDescription>(
+              SeriesDescription{"wrist", "", std::move(columns), ""}),
+          {hostUs, values, kHandSeries}};
+}
+
+TEST(SignalHistory, KeepsEveryRowOfAFurtherSeries) {
+  SignalHistory history({.keepS = 1.0});
+  for (std::int64_t us = 0; us < 3'000'000; us += 1000) history.add(furtherSample(us));
+  history.add(furtherSample(2'000'000));  // not later
+  const ColumnRows rows = history.column("wrist", "fz", 0);
+  ASSERT_EQ(rows.hostUs.size(), 1001u);
+  EXPECT_EQ(rows.hostUs.front(), 1'999'000);
+  EXPECT_EQ(rows.values.back(), 2'999'000.0);
+  EXPECT_TRUE(rows.afterGaps.empty());
+  EXPECT_EQ(rows.gapUs, 1'000'000);
+  EXPECT_EQ(history.column("wrist", "fz", 2'997'000).hostUs,
+            (std::vector<std::int64_t>{2'998'000, 2'999'000}));
+  EXPECT_TRUE(history.column("wrist", "fx", 0).hostUs.empty());
+  EXPECT_TRUE(history.column("ankle", "fz", 0).hostUs.empty());
+  history.add(furtherSample(3'500'000));
+  EXPECT_TRUE(history.column("wrist", "fz", 2'999'000).afterGaps.empty());
+  history.add(furtherSample(4'500'001));
+  EXPECT_EQ(history.column("wrist", "fz", 3'500'000).afterGaps, std::vector<std::size_t>{0});
+  // Other columns: those before are dropped.
+  history.add(furtherSample(4'600'000, {{"a", ""}, {"b", ""}}));
+  EXPECT_TRUE(history.column("wrist", "fz", 0).hostUs.empty());
+  EXPECT_EQ(history.column("wrist", "b", 0).values, std::vector<double>{4'600'000.0});
+  history.clear();
+  EXPECT_TRUE(history.column("wrist", "b", 0).hostUs.empty());
+}
+
 TEST(SignalHistory, FurtherSeriesCountAsMemory) {
-  const auto bytesWith = [](std::size_t columns) {
-    LiveResults results;
-    auto frame = std::make_shared<TactileFrame>(sdh2().layout);
-    frame->hostUs = 1;
-    results.frame = std::move(frame);
-    results.matrixSignals.resize(6);
-    if (columns > 0)
-      results.further = {
-          {std::make_shared<const SeriesDescription>(), {1, std::vector<double>(columns), 2}}};
-    SignalHistory history;
-    history.add(results);
-    return history.bytes();
-  };
-  EXPECT_EQ(bytesWith(64) - bytesWith(1), 63 * sizeof(double));
-  EXPECT_GE(bytesWith(1), bytesWith(0) + sizeof(double));
+  SignalHistory history({.keepBytes = 1700});
+  history.add(furtherSample(1));
+  EXPECT_EQ(history.bytes(), 2 * sizeof(double) + 1);
+  for (std::int64_t us = 2; us <= 1000; ++us) history.add(furtherSample(us));
+  EXPECT_EQ(history.bytes(), 1700u);
+  EXPECT_EQ(history.column("wrist", "fz", 0).hostUs.front(), 901);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/model/profile_builder.h"
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/recording.h"
 
@@ -66,6 +67,32 @@ TEST(RecordingDetails, ofAFinishedRecording) {
   EXPECT_EQ(details.sizeBytes, fs::file_size(path));
   EXPECT_GT(details.changedUs, kSampleStartUs);
   expectContent(details, 500);
+}
+
+// In Palpate's own format without its samples, in others by reading them.
+TEST(RecordingDetails, namesFurtherSeries) {
+  const TemporaryFolder folder;
+  ProfileBuilder builder(sdh2());
+  const std::size_t wrist = builder.addSeries({"wrist", "", {{"fx", "N"}, {"fy", ""}}, ""});
+  builder.addSeries({"empty", "", {{"a", ""}}, ""});
+  TactileFrame frame(sdh2().layout);
+  for (int i = 0; i < 3; ++i) {
+    frame.hostUs = kSampleStartUs + i * 10'000;
+    builder.addFrame(frame);
+  }
+  for (int i = 0; i < 2001; ++i)
+    builder.addSample(wrist, kSampleStartUs + i * 1000, std::vector<double>{1.0 * i, 0.0});
+  const Profile profile = builder.finish({});
+  for (const char* name : {"r.palpate", "r.mcap"}) {
+    saveRecording(profile, {}, folder / name);
+    const RecordingDetails details = readDetails(folder / name);
+    ASSERT_FALSE(details.series.empty()) << name;
+    EXPECT_EQ(details.series[0].name, "wrist");
+    EXPECT_EQ(details.series[0].samples, 2001);
+    EXPECT_NEAR(details.series[0].rateHz, 1000.0, 1e-6);
+    EXPECT_EQ(details.series[0].columns, (std::vector<Column>{{"fx", "N"}, {"fy", ""}}));
+    EXPECT_EQ(details.series[0].text(), "wrist: fx [N], fy, 1000.0 Hz");
+  }
 }
 
 TEST(RecordingDetails, framesArentRead) {

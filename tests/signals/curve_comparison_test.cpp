@@ -159,6 +159,22 @@ TEST(CurveComparison, GapsBeginWhereTimingSaysThem) {
   EXPECT_DOUBLE_EQ(gapFromS({}), 1.0);
 }
 
+TEST(CurveComparison, GapsOfASeriesAreThoseOfItsIntervals) {
+  EXPECT_EQ(gapOfTimesS(std::vector<double>{}), 1.0);
+  EXPECT_EQ(gapOfTimesS(std::vector<double>{3.0}), 1.0);
+  EXPECT_EQ(gapOfTimesS(std::vector<double>{0.0, 0.01, 0.02, 9.0}), 1.0);
+  EXPECT_EQ(gapOfTimesS(std::vector<double>{0.0, 2.0, 4.0, 6.0, 60.0}), 10.0);
+}
+
+TEST(CurveComparison, TheSampleAtATimeIsTheLastOneBeforeIt) {
+  const Series series{.timeS = {1.0, 1.5, 4.0}, .values = {1.0, 2.0, 3.0}};
+  EXPECT_EQ(sampleAt(series, 0.9, 1.0), std::nullopt);
+  EXPECT_EQ(sampleAt(series, 1.0, 1.0), 0u);
+  EXPECT_EQ(sampleAt(series, 2.5, 1.0), 1u);
+  EXPECT_EQ(sampleAt(series, 2.6, 1.0), std::nullopt);
+  EXPECT_EQ(sampleAt(series, 4.5, 1.0), 2u);
+}
+
 // Two grasps of the same object are more alike from their contacts on than from where recording
 // happened to begin.
 TEST(CurveComparisonOfRealGrasps, ContactsAlignBetterThanStarts) {

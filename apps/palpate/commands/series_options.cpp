@@ -33,12 +33,13 @@ std::int64_t lostOf(const RecordingReport& report, const RecordedSeries& series)
 }  // namespace
 
 std::vector<OptionSpec> seriesOptions() {
-  return {{"series",
-           "NAME=SOURCE",
-           "also rows of numbers of another sensor, SOURCE as for --stream; repeatable"},
-          {"series-columns",
-           "NAME=COLUMNS",
-           "what its numbers are, as 'time_ms,fx[N],fy[N]', where no header says it"}};
+  return {
+      {"series",
+       "NAME=SOURCE",
+       "also rows of numbers of another sensor, SOURCE as for --stream, or PORT@BAUD; repeatable"},
+      {"series-columns",
+       "NAME=COLUMNS",
+       "what its numbers are, as 'time_ms,fx[N],fy[N]', where no header says it"}};
 }
 
 void addSeriesSources(const CommandLine& given, CaptureSession& session) {
@@ -49,10 +50,14 @@ void addSeriesSources(const CommandLine& given, CaptureSession& session) {
   bool takesInput = given.text("stream") == "-";
   for (const std::string& text : given.texts("series")) {
     SeriesSourceOptions options;
-    std::tie(options.name, options.source) = seriesValue("series", text);
-    if (options.source == "-" && std::exchange(takesInput, true))
+    std::string place;
+    std::tie(options.name, place) = seriesValue("series", text);
+    if (place == "-" && std::exchange(takesInput, true))
       throw UsageError("standard input (-) can be the source of one thing only");
     try {
+      SeriesPlace from = seriesPlaceOf(place);
+      options.source = std::move(from.source);
+      options.baud = from.baud;
       if (const auto at = columns.extract(options.name)) options.columns = columnsOf(at.mapped());
       auto source = std::make_unique<SeriesSource>(std::move(options));
       if (source->isOpenToOthers())

@@ -106,7 +106,7 @@ class CaptureQueue {
   CaptureQueue(const CaptureQueue&) = delete;
   CaptureQueue& operator=(const CaptureQueue&) = delete;
 
-  // The names of all series, for gaps. Before the first put().
+  // The names of all series, for gaps. Safe from any thread.
   void nameSeries(std::vector<std::string> names);
   // Returns false when the item was lost (and counted) or the queue is closed.
   bool put(CaptureItem item);

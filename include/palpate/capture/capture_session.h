@@ -53,15 +53,18 @@ class CaptureSession : private DeviceSink {
   Device& device() noexcept { return *device_; }
   const Device& device() const noexcept { return *device_; }
 
-  // Adds a series that comes from elsewhere, beside those of the device; before start(). It is
-  // recorded, can't stop anything, and what happens to it does not concern the hand. Throws
-  // std::invalid_argument (none, a name that is taken, too many), std::logic_error (started).
+  // Adds a series that comes from elsewhere, beside those of the device. It is recorded, can't stop
+  // anything, and what happens to it does not concern the hand. Throws std::invalid_argument (none,
+  // a name that is taken, too many; removed ones count), std::logic_error (a recording is running).
   void addSeries(std::unique_ptr<SeriesSource> source);
-  const std::vector<std::unique_ptr<SeriesSource>>& seriesSources() const noexcept {
-    return sources_;
-  }
+  // Ends a series of addSeries() within 2 s; its index is not used again. Throws
+  // std::invalid_argument (there is none of this name), std::logic_error (a recording is running).
+  void removeSeries(const std::string& name);
+  // Those of addSeries(), without the removed ones. Safe from any thread.
+  std::vector<std::shared_ptr<SeriesSource>> seriesSources() const;
   // The series beside those of the hand, in the order of their indexes from kHandSeries on; without
-  // columns where these are not known yet.
+  // columns where these are not known yet, without a name where one was removed. Safe from any
+  // thread.
   std::vector<SeriesDescription> furtherSeries() const;
 
   // Starts device and recorder; no effect when started. Resets all stored data and counters of an
@@ -106,8 +109,8 @@ class CaptureSession : private DeviceSink {
   PreflightCheck checkPreflight(const std::filesystem::path& folder) const;
   PreflightCheck checkPreflight(const FolderState& folder) const;
 
-  // Adds a consumer with its own queue, after addSeries(); it ends when the pointer is released.
-  // `consumer` is named in gaps.
+  // Adds a consumer with its own queue; it ends when the pointer is released. `consumer` is named
+  // in gaps.
   std::shared_ptr<CaptureQueue> subscribe(std::string consumer,
                                           const CaptureQueueOptions& options = {});
 
@@ -147,12 +150,16 @@ class CaptureSession : private DeviceSink {
   LinkInputs inputs() const;
   std::map<std::string, std::int64_t> counters() const;
   std::vector<std::string> seriesNames() const;
+  void requireNoRecording() const;
+  void nameSeries();
+  void startSeries(std::size_t place);
 
   const CaptureOptions options_;
   const Clock& clock_;
   std::unique_ptr<Device> device_;
   FurtherSink furtherSink_{*this};
-  std::vector<std::unique_ptr<SeriesSource>> sources_;
+  mutable std::mutex sourcesMutex_;
+  std::vector<std::shared_ptr<SeriesSource>> sources_;  // null: removed; requires sourcesMutex_
   Recorder recorder_;
   LinkMonitor meter_;
   const bool scansItself_;

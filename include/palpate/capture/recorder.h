@@ -219,7 +219,7 @@ class Recorder {
   // std::logic_error while run() is active.
   void step();
 
-  // The names of all series, for gaps. Before the first push().
+  // The names of all series, for gaps. Safe from any thread.
   void nameSeries(std::vector<std::string> names);
   // Adds an item; never waits (unless feed.blockWhenFull). Returns false when it was lost (and
   // counted).

@@ -32,6 +32,14 @@ struct SeriesSourceOptions {
   void validate() const;
 };
 
+// The port and the baud rate of "serial:/dev/ttyUSB0@921600", with or without "serial:" and "@BAUD"
+// (115200); another source as it is. Throws std::invalid_argument (a baud rate out of range).
+struct SeriesPlace {
+  std::string source;
+  int baud = 115'200;
+};
+SeriesPlace seriesPlaceOf(std::string_view text);
+
 // The columns of "fx[N],fy (N),mode". Throws std::invalid_argument (as validate() of a series).
 std::vector<Column> columnsOf(std::string_view text);
 

@@ -17,12 +17,12 @@ constexpr std::size_t kMaxDatagramBytes = 1400;
 
 // Divides the object of signal_json.h. Each part is a whole JSON object: "t" and "sequence", and
 // some of the other keys, each with its whole value: first the arrays, then the others in their
-// order. Only an array that does not
-// fit into one datagram is divided: its values are then keys of their own, "angles_deg[0]",
-// "angles_deg[1]", .. (the names that PlotJuggler gives to values of an array); null has no key.
-// An object that fits is returned as it is. `object` must be one of appendSignalJson(). A key
-// that is no array is never divided, and makes a part of its own where it is longer than
-// `maxBytes`; those of a frame are at most about 900 bytes long.
+// order. Only two are divided where they do not fit into one datagram. The values of an array are
+// then keys of their own, "angles_deg[0]", "angles_deg[1]", .. (the names that PlotJuggler gives to
+// values of an array); null has no key. "series" comes in several objects, each with some of the
+// series, or some columns of one. An object that fits is returned as it is. `object` must be one of
+// appendSignalJson(). Any other key makes a part of its own where it is longer than `maxBytes`;
+// those of a frame are at most about 900 bytes long.
 std::vector<std::string> signalDatagrams(std::string_view object,
                                          std::size_t maxBytes = kMaxDatagramBytes);
 

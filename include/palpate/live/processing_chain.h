@@ -39,6 +39,9 @@ struct ChainOptions {
   std::function<std::vector<SeriesDescription>()> furtherSeries;
   // Called with the results of every frame, in order, on the processing thread. May be empty.
   std::function<void(const LiveResults&)> onResults;
+  // Called with every sample of the series beside those of the hand, in order of time among the
+  // frames, on the processing thread. May be empty.
+  std::function<void(const FurtherSample&)> onFurther;
   // Called with every event found by a stage, on the processing thread. May be empty.
   std::function<void(const Event&)> onEvent;
 };
@@ -86,7 +89,8 @@ class ProcessingChain {
  private:
   void reset();
   void process(const CaptureItem& item);
-  void takeFurther(const Sample& sample);
+  const FurtherSample& takeFurther(const Sample& sample);
+  void forgetRemoved();
   void processFrame(const SharedFrame& frame);
   std::size_t processWaiting();
 

@@ -1,6 +1,6 @@
 // The last minutes of a live source, for a rolling chart: characteristic signals, taxels, joint
-// angles, temperatures, further series and forces of every frame. Filled by live processing, read
-// by the display.
+// angles, temperatures and forces of every frame, and every sample of further series. Filled by
+// live processing, read by the display.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <palpate/live/live_results.h>
@@ -44,8 +45,6 @@ struct SignalSample {
   KeptTaxels taxels;                 // values of the frame (TactileFrame::allValues)
   std::vector<double> anglesDeg;     // the last ones at or before the frame; empty: none
   std::vector<double> temperatures;  // [deg C], likewise
-  // Likewise of further series: of a faster one than the frames only these samples are kept.
-  std::vector<FurtherSample> further;
   // Force on each matrix, then on the whole hand [N]; empty: no calibration is applied.
   std::vector<double> forcesN;
 
@@ -54,11 +53,21 @@ struct SignalSample {
 };
 using SharedSignalSample = std::shared_ptr<const SignalSample>;
 
+// One column of a further series.
+struct ColumnRows {
+  std::vector<std::int64_t> hostUs;    // ascending [us since 1970]
+  std::vector<double> values;          // one per stamp; NaN: not known
+  std::vector<std::size_t> afterGaps;  // indices of rows as SignalSample::afterGap
+  std::int64_t gapUs = 0;              // the longest interval that is no gap at present
+};
+
 // The oldest samples are dropped as soon as one of the limits is exceeded.
 struct SignalHistoryOptions {
-  double keepS = 600.0;                  // [s], > 0
-  std::size_t keepSamples = 30000;       // >= 1
-  std::size_t keepBytes = 64ULL << 20U;  // about 1.3 kB per sample of an SDH-2, >= 1
+  double keepS = 600.0;             // [s], > 0
+  std::size_t keepSamples = 30000;  // >= 1
+  // Of the frames, and as much again of all further series; about 1.3 kB per sample of an SDH-2, 9
+  // bytes and 8 per column of a further one; >= 1.
+  std::size_t keepBytes = 64ULL << 20U;
 };
 
 // Every function may be called from any thread.
@@ -70,9 +79,16 @@ class SignalHistory {
   const SignalHistoryOptions& options() const noexcept { return options_; }
   // Adds the results of SignalsStage. A frame that isn't later than the last one is ignored.
   void add(const LiveResults& results);
+  // Adds a sample of a further series. One that isn't later than the last of its series is ignored;
+  // where the columns are others than before, those before are dropped.
+  void add(const FurtherSample& sample);
   void clear();
   // Samples later than a stamp, oldest first.
   std::vector<SharedSignalSample> after(std::int64_t hostUs) const;
+  // Rows of a further series later than a stamp; none where there is no such series or column.
+  ColumnRows column(const std::string& series,
+                    const std::string& column,
+                    std::int64_t afterUs) const;
   // Stamp of the oldest sample; empty: there is none.
   std::optional<std::int64_t> oldestUs() const;
   std::size_t size() const;
@@ -80,14 +96,29 @@ class SignalHistory {
   std::size_t bytes() const;
 
  private:
-  std::int64_t medianIntervalUs() const;
+  // The newest intervals between stamps.
+  struct Intervals {
+    std::int64_t gapUs() const;  // the longest that is no gap
+    void add(std::int64_t us);
+    std::deque<std::int64_t> newestUs = {};
+  };
+  struct Kept {
+    std::shared_ptr<const SeriesDescription> series;
+    std::deque<std::int64_t> hostUs = {};
+    std::deque<bool> afterGap = {};
+    std::deque<double> values = {};  // row after row
+    Intervals intervals = {};
+    std::size_t bytes() const noexcept;
+    void dropOldest();
+  };
+  void dropOldRows(std::int64_t newestUs);
 
-  static constexpr std::size_t kIntervals = 15;
   const SignalHistoryOptions options_;
   mutable std::mutex mutex_;
   std::deque<SharedSignalSample> samples_;
   std::size_t bytes_ = 0;
-  std::deque<std::int64_t> intervalsUs_;  // newest intervals [us]
+  Intervals intervals_;
+  std::vector<Kept> further_;
 };
 
 }  // namespace palpate

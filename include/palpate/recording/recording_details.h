@@ -11,8 +11,20 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/model/series.h>
 
 namespace palpate {
+
+// A series beside those of the hand.
+struct SeriesDetails {
+  std::string name;
+  std::int64_t samples = 0;
+  double rateHz = 0.0;  // mean; 0: fewer than two samples
+  std::vector<Column> columns;
+  // "wrench: fx [N], fy [N], 100 Hz".
+  std::string text() const;
+  bool operator==(const SeriesDetails&) const = default;
+};
 
 struct RecordingDetails {
   enum class State {
@@ -39,6 +51,7 @@ struct RecordingDetails {
   std::string notes;  // those, and every event "note", a line each
   // The texts of the events "label" and "segment", each once, in order of time.
   std::vector<std::string> labels;
+  std::vector<SeriesDetails> series;  // beside those of the hand
   bool operator==(const RecordingDetails&) const = default;
 };
 

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include <palpate/signals/alignment.h>
 #include <palpate/signals/profile_series.h>
@@ -48,5 +49,9 @@ CurveComparison compareCurves(const Series& a,
                               const std::optional<TimeSpan>& within = {});
 // Longest interval that is no gap (model/timing.h): max(1 s, 5 median intervals).
 double gapFromS(const TimingReport& timing);
+// The same of the times of a series, ascending [s].
+double gapOfTimesS(std::span<const double> timeS);
+// The last sample at or before a time [s]; empty: there is none within `longestS`.
+std::optional<std::size_t> sampleAt(const Series& series, double timeS, double longestS);
 
 }  // namespace palpate

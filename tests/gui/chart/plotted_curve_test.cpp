@@ -5,6 +5,7 @@
 #include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 
+#include "gui/chart/chart_style.h"
 #include "testing/testing.h"
 #include "testing/wrist_profile.h"
 
@@ -88,6 +89,24 @@ TEST(PlottedCurve, AColumnIsNamedWithItsSeriesAndItsUnit) {
   EXPECT_EQ(readingOf(plain, 2.5), "2.5");
   EXPECT_EQ(columnCurve({"imu", "", {{"x", ""}, {"roll", "deg"}}, ""}, 1, 0).unit, "°")
       << "on the axis of the joint angles";
+}
+
+TEST(PlottedCurve, ColumnsDifferInColourOrDashes) {
+  SeriesDescription series{"skin", "", {}, ""};
+  for (int i = 0; i < 24; ++i) series.columns.push_back({std::to_string(i), ""});
+  std::vector<QPen> pens;
+  for (std::size_t i = 0; i < series.columns.size(); ++i) {
+    const QPen pen = columnCurve(series, i, i).pen;
+    for (const QPen& other : pens)
+      EXPECT_FALSE(other.color() == pen.color() && other.dashPattern() == pen.dashPattern()) << i;
+    pens.push_back(pen);
+    // One period fills the line of the legend.
+    const QPen inLegend = legendPen(pen, 18.0);
+    double lengthPx = 0.0;
+    for (const qreal dash : inLegend.dashPattern()) lengthPx += dash * inLegend.widthF();
+    EXPECT_NEAR(lengthPx, 18.0, 1e-9);
+  }
+  EXPECT_EQ(legendPen(QPen(Qt::red, 2.0, Qt::DashLine), 18.0), QPen(Qt::red, 2.0, Qt::DashLine));
 }
 
 }  // namespace

@@ -450,12 +450,14 @@ TEST_F(ComparePanelTest, ColumnsOfFurtherSeriesAreComparedByName) {
   EXPECT_FALSE(find<QComboBox>("compareSignal")->isEnabled());
   const auto& curves = compare().chart().curves();
   ASSERT_TRUE(curves.curveA && curves.curveB);
-  ASSERT_EQ(curves.curveA->values.size(), 60u);
-  EXPECT_TRUE(std::isnan(curves.curveA->values[0])) << "before its first sample";
-  EXPECT_EQ(curves.curveA->values[20], 19.5) << "the last sample at or before the frame";
-  EXPECT_EQ(curves.curveB->values[20], 19.5);
+  ASSERT_EQ(curves.curveA->values.size(), 40u) << "its own samples";
+  EXPECT_NEAR(curves.curveA->timeS[20], 0.03 + 20 * 0.05, 1e-9);
+  EXPECT_EQ(curves.curveA->values[20], 20.5);
+  EXPECT_EQ(curves.curveB->values[20], 20.5);
   EXPECT_TRUE(compare().figures().contains(" N at ")) << compare().figures().toStdString();
   EXPECT_EQ(compare().curveTable().header[2], "a wrist fx [N]");
+  EXPECT_EQ(compare().curveTable().header[1], "sample_a");
+  EXPECT_EQ(compare().curveTable().numRows, 40u);
   choose("compareMatrix", "wrist fz");
   EXPECT_LT(compare().chart().yAxis->range().lower, -78.0) << "it has negative values";
   choose("compareMatrix", "all matrices");

@@ -261,5 +261,34 @@ TEST_F(ImportDialogTest, EscapeClosesIt) {
   EXPECT_EQ(dialog_->result(), QDialog::Rejected);
 }
 
+TEST_F(ImportDialogTest, FurtherFilesBecomeSeries) {
+  testing::writeFile(folder_ / "Wrist Force.csv", "time_ms,fx_N,fz_N\n0,1,2\n50,3,4\n100,5,6\n");
+  showPad();
+  ask_.files = {path("Wrist Force.csv")};
+  find<QPushButton>("importAddSeries")->click();
+  awaitPreview();
+  auto* table = find<QTableWidget>("importSeries");
+  ASSERT_EQ(table->rowCount(), 1);
+  EXPECT_EQ(table->item(0, 0)->text(), "wrist_force");
+  ASSERT_EQ(dialog_->request().series.size(), 1u);
+  EXPECT_EQ(dialog_->request().series[0].file, folder_ / "Wrist Force.csv");
+  EXPECT_TRUE(find<QLabel>("importChoices")->text().contains("series wrist_force: 2 columns"));
+  EXPECT_EQ(dialog_->problem(), "");
+  table->item(0, 0)->setText("Wrist");
+  awaitPreview();
+  EXPECT_TRUE(dialog_->problem().contains("\"wrist\"")) << dialog_->problem().toStdString();
+  table->item(0, 0)->setText("wrist");
+  table->item(0, 1)->setText("fast");
+  awaitPreview();
+  EXPECT_TRUE(dialog_->problem().contains("rate")) << dialog_->problem().toStdString();
+  table->item(0, 1)->setText("20");
+  awaitPreview();
+  EXPECT_EQ(dialog_->problem(), "");
+  EXPECT_EQ(dialog_->request().series[0].rateHz, 20.0);
+  table->selectRow(0);
+  find<QPushButton>("importRemoveSeries")->click();
+  EXPECT_TRUE(dialog_->request().series.empty());
+}
+
 }  // namespace
 }  // namespace palpate::gui::import_dialog_test

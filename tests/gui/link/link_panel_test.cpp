@@ -116,5 +116,15 @@ TEST(LinkPanel, SoundCanBeSwitchedOff) {
   EXPECT_TRUE(muted[0][0].toBool());
 }
 
+TEST(LinkPanel, ASensorHasItsStateAndWhatCantBeRead) {
+  SeriesSource sensor({.name = "wrist", .source = "udp:0.0.0.0:0"});
+  const std::vector<Fact> facts = factsOf(sensor);
+  EXPECT_EQ(fact(facts, "wrist").value, "closed · udp:0.0.0.0:0");
+  EXPECT_TRUE(fact(facts, "wrist").warning);
+  EXPECT_EQ(facts.back().name, "wrist: senders") << "any machine can send";
+  std::vector<Fact> all = factsOf(goodHealth());
+  EXPECT_TRUE(std::ranges::none_of(all, [](const Fact& each) { return each.name == "wrist"; }));
+}
+
 }  // namespace
 }  // namespace palpate::gui::link_panel_test

@@ -197,7 +197,7 @@ double paintLegend(QPainter& painter,
       paintLegendPoint(
           painter, *entry.points, look, QPointF(x + kChartPictureLine / 2, top + row / 2));
     } else {
-      QPen pen = entry.pen;
+      QPen pen = legendPen(entry.pen, kChartPictureLine);
       if (look.forPrint) pen.setColor(inkOf(pen.color()));
       painter.setPen(pen);
       painter.drawLine(QPointF(x, top + row / 2), QPointF(x + kChartPictureLine, top + row / 2));

@@ -1,6 +1,7 @@
 #include "gui/chart/chart_style.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "gui/chart/plot.h"
 
@@ -92,6 +93,15 @@ void styleChart(QCustomPlot& plot) {
   plot.setBackground(QBrush(colors.window));
   styleAxis(*plot.xAxis, colors, plot.font());
   styleAxis(*plot.yAxis, colors, plot.font());
+}
+
+QPen legendPen(QPen pen, double length) {
+  if (pen.style() != Qt::CustomDashLine) return pen;
+  QList<qreal> dashes = pen.dashPattern();
+  const double whole = std::accumulate(dashes.begin(), dashes.end(), 0.0) * pen.widthF();
+  for (qreal& each : dashes) each *= length / whole;
+  pen.setDashPattern(dashes);
+  return pen;
 }
 
 QPen curvePen(std::size_t matrix, bool whole) {

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPlottedCurveWidth = 1.4;
 constexpr double kForceCurveWidth = 2.0;
+constexpr std::size_t kMatrixColors = 6;
 using PlottedCurveKind = SeriesChoice::Kind;
 
 bool slides(const HandDescription& hand, std::size_t axis) {
@@ -161,8 +162,10 @@ std::vector<SeriesDescription> furtherSeriesOf(const Profile& profile) {
 PlottedCurve columnCurve(const SeriesDescription& series, std::size_t column, std::size_t place) {
   const Column& of = series.columns.at(column);
   const QString unit = unitOf(of), name = QString::fromStdString(series.name);
+  const QList<QList<qreal>> patterns = {
+      {8, 2, 2, 2, 2, 2}, {8, 2, 5, 2}, {6, 2, 2, 2, 2, 2, 2, 2}, {8, 3, 8, 3, 2, 3}};
   QPen pen(matrixColor(place + 4), kPlottedCurveWidth);
-  pen.setDashPattern({8, 2, 2, 2, 2, 2});
+  pen.setDashPattern(patterns[place / kMatrixColors % static_cast<std::size_t>(patterns.size())]);
   return {{.kind = PlottedCurveKind::kColumn, .series = series.name, .column = of.name},
           nameOf(series, of),
           unit,
@@ -224,7 +227,6 @@ PlottedCurve formulaCurve(const SeriesChoice& choice,
 }
 
 void distinguish(PlottedCurve& formula, std::size_t place, const std::vector<PlottedCurve>& shown) {
-  constexpr std::size_t kMatrixColors = 6;
   // Lengths of lines and gaps, in widths of the pen; the first is a solid line.
   const QList<QList<qreal>> patterns = {{}, {10, 2}, {10, 2, 2, 2}, {10, 2, 2, 2, 2, 2}, {3, 1}};
   for (const QList<qreal>& pattern : patterns)

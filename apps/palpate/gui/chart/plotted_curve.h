@@ -60,7 +60,8 @@ PlottedCurve angleCurve(const HandDescription& hand,
 PlottedCurve temperatureCurve(const HandDescription& hand,
                               std::size_t sensor,
                               const DisplayUnits& units = {});
-// A column of a further series. `place`: index among all such columns, which decides the colour.
+// A column of a further series. `place`: index among all such columns, which decides colour and
+// dashes: no two of 24 columns have both, and no other curve has one of these dashes.
 PlottedCurve columnCurve(const SeriesDescription& series, std::size_t column, std::size_t place);
 // A column of a computed series: "force on finger 0 distal", "sphere diameter of the whole hand".
 PlottedCurve computedCurve(const HandDescription& hand,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <palpate/signals/curve_comparison.h>
 #include <palpate/signals/min_max_decimation.h>
 
 #include "gui/appearance/difference_map.h"
@@ -37,6 +38,14 @@ QPen overlaidPen(std::size_t recording) {
                                   : matrixColor(recording);
   color.setAlpha(kOverlaidOpacity);
   return QPen(color, kOverlaidWidth);
+}
+
+// The samples before gaps, of a curve with times of its own.
+std::vector<std::size_t> gapsOf(const Series& series, double longestS) {
+  std::vector<std::size_t> gaps;
+  for (std::size_t i = 0; i + 1 < series.timeS.size(); ++i)
+    if (series.timeS[i + 1] - series.timeS[i] > longestS) gaps.push_back(i);
+  return gaps;
 }
 
 std::vector<std::size_t> gapFramesOf(const std::shared_ptr<const TimedProfile>& timed) {
@@ -184,9 +193,7 @@ void CompareChart::fillOverlaid() {
     const AlignedCurve& curve = curves_.overlaid.curves[index].curve;
     const double shiftS = curves_.overlaid.zeroS - curve.zeroS;
     const auto& timeS = curve.series->timeS;
-    std::vector<std::size_t> gaps;
-    for (std::size_t i = 0; i + 1 < timeS.size(); ++i)
-      if (timeS[i + 1] - timeS[i] > curve.longestS) gaps.push_back(i);
+    const std::vector<std::size_t> gaps = gapsOf(*curve.series, curve.longestS);
     const DecimationOptions options{.from = std::max(range.lower - shiftS, curve.fromS),
                                     .to = std::min(range.upper - shiftS, curve.toS),
                                     .columns = static_cast<std::size_t>(std::max(1, width())),
@@ -246,8 +253,13 @@ void CompareChart::refill() {
                                       : QCPScatterStyle(QCPScatterStyle::ssNone));
     graph(index)->data()->set(samples, true);
   };
-  fill(0, curves_.curveA, gapFramesOf(curves_.a), 0.0);
-  fill(1, curves_.curveB, gapFramesOf(curves_.b), curves_.offsetS);
+  const auto gaps = [this](const std::shared_ptr<const Series>& series,
+                           const std::shared_ptr<const TimedProfile>& timed) {
+    return curves_.column && series ? gapsOf(*series, gapOfTimesS(series->timeS))
+                                    : gapFramesOf(timed);
+  };
+  fill(0, curves_.curveA, gaps(curves_.curveA, curves_.a), 0.0);
+  fill(1, curves_.curveB, gaps(curves_.curveB, curves_.b), curves_.offsetS);
   fillOverlaid();
   replot(QCustomPlot::rpQueuedReplot);
 }
@@ -345,13 +357,16 @@ QString CompareChart::valuesAt(double seconds) const {
                         const std::shared_ptr<const Series>& series,
                         double at) {
     text += "\n" + QString(name) + "  ";
+    if (curves_.column) {
+      const auto sample = series ? sampleAt(*series, at, gapOfTimesS(series->timeS)) : std::nullopt;
+      const bool isKnown = sample && std::isfinite(series->values[*sample]);
+      return text += isKnown ? unit.text(series->values[*sample], 1) : QString("–"), void();
+    }
     const auto frame = timed.frameAt(at);
     if (!frame || !series || *frame >= series->values.size()) return text += "no frame", void();
     const double value = series->values[*frame];
-    text += (std::isfinite(value) ? unit.text(value, 1)
-             : curves_.column     ? QString("–")
-                                  : QString("damaged")) +
-            " · frame " + QString::number(*frame);
+    text += (std::isfinite(value) ? unit.text(value, 1) : QString("damaged")) + " · frame " +
+            QString::number(*frame);
   };
   line("A", *curves_.a, curves_.curveA, seconds);
   line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);

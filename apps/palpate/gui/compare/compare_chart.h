@@ -28,7 +28,7 @@ struct CompareCurves {
   std::shared_ptr<const Series> curveA = {}, curveB = {};
   double offsetS = 0.0;
   PlottedSignal signal = PlottedSignal::kMean;
-  // What is compared instead of the signal: a column of a further series, at the frames.
+  // What is compared instead of the signal: a column of a further series, at its own times.
   std::optional<PlottedCurve> column = {};
   // Unit of A's values.
   QString handUnit = "counts";

@@ -294,10 +294,7 @@ void ComparePanel::fillMatrices() {
     for (const SeriesDescription& series : furtherSeriesOf(a_->profile))
       for (std::size_t i = 0; i < series.columns.size(); ++i) {
         PlottedCurve column = columnCurve(series, i, columns_.size());
-        // At the frames, as all that is compared: value at or before each.
-        const std::string name = palpate::nameOf(column.choice, a_->profile.layout());
-        if (signalNamed(name, a_->profile) != column.choice) continue;
-        column.choice = {.kind = SeriesChoice::Kind::kFormula, .formula = name};
+        if (!hasSeries(a_->profile, column.choice)) continue;
         columns_.push_back(column);
         matrix_->addItem(column.name);
       }
@@ -833,7 +830,8 @@ TextTable ComparePanel::averageTable() const {
   return gui::averageTable(answer_.overlaid, baseUnit());
 }
 
-// One row for each frame of A, with B's frame at the same moment if there is one.
+// One row for each frame of A, with B's frame at the same moment if there is one; of a column one
+// for each sample of A, with B's last one at or before that moment.
 TextTable ComparePanel::curveTable() const {
   TextTable table{.header = {"time_s", "frame_a", "a", "frame_b", "b"}};
   if (!answer_.curveA || !answer_.a || !answer_.b) return table;
@@ -843,11 +841,20 @@ TextTable ComparePanel::curveTable() const {
   table.header[2] += unit;
   table.header[4] += unit;
   table.numRows = answer_.curveA->timeS.size();
-  table.row = [answer = answer_](std::size_t i) {
+  if (column()) {
+    table.header[1] = "sample_a";
+    table.header[3] = "sample_b";
+  }
+  std::optional<double> longestS;  // of a column
+  if (column() && answer_.curveB) longestS = gapOfTimesS(answer_.curveB->timeS);
+  table.row = [answer = answer_, longestS, isColumn = column() != nullptr](std::size_t i) {
     const double at = answer.curveA->timeS[i];
     std::vector<std::string> cells = {
         numberText(at), std::to_string(i), numberText(answer.curveA->values[i])};
-    const auto beside = answer.b->frameAt(at - answer.offsetS);
+    const double inB = at - answer.offsetS;
+    const auto beside = !isColumn  ? answer.b->frameAt(inB)
+                        : longestS ? sampleAt(*answer.curveB, inB, *longestS)
+                                   : std::nullopt;
     cells.push_back(beside ? std::to_string(*beside) : std::string());
     cells.push_back(beside && answer.curveB && *beside < answer.curveB->values.size()
                         ? numberText(answer.curveB->values[*beside])

@@ -45,6 +45,12 @@ SeriesChoice choiceFor(const CompareQuestion& question, const OpenedRecording& r
   return choice;
 }
 
+// The longest interval of a curve that is no gap: of the frames, or of the samples of a column.
+double longestOf(const CompareQuestion& question, const Series& series, const TimedProfile& timed) {
+  return question.choice.kind == SeriesChoice::Kind::kColumn ? gapOfTimesS(series.timeS)
+                                                             : gapFromS(timed.timing);
+}
+
 // What the two chosen grasps have in common; empty: no grasps are compared.
 std::optional<TimeSpan> graspSpanOf(const CompareQuestion& question, const CompareAnswer& answer) {
   if (answer.alignment != Alignment::kGrasp || answer.graspsA.empty() || answer.graspsB.empty())
@@ -230,12 +236,12 @@ ComparedCurves CompareKept::overlaid(const CompareQuestion& question,
     const QString name = fileNameOf(*recording);
     if (!series || series->timeS.empty()) {
       without.append(name + (series ? " has no frames"
-                             : question.choice.kind == SeriesChoice::Kind::kFormula
+                             : question.choice.kind == SeriesChoice::Kind::kColumn
                                  ? " has no such series"
                                  : " has no such matrix"));
       continue;
     }
-    const double longestS = gapFromS(timedOne->timing);
+    const double longestS = longestOf(question, *series, *timedOne);
     if (ofGrasps) {
       std::vector<TimeSpan> spans;
       for (const GraspFrames& grasp : grasps(each, progress))
@@ -274,7 +280,7 @@ ComparedCurves CompareKept::overlaid(const CompareQuestion& question,
     compared.curves.push_back({"B",
                                {.series = answer.curveB,
                                 .zeroS = compared.zeroS - answer.offsetS,
-                                .longestS = gapFromS(answer.b->timing)},
+                                .longestS = longestOf(question, *answer.curveB, *answer.b)},
                                1,
                                false});
   if (ofGrasps) compared.span = drawnSpanOf(compared);
@@ -344,7 +350,8 @@ CompareAnswer CompareKept::answerTo(const CompareQuestion& question,
       answer.figures = compareCurves(*answer.curveA,
                                      *answer.curveB,
                                      offsetS,
-                                     {gapFromS(answer.a->timing), gapFromS(answer.b->timing)},
+                                     {longestOf(question, *answer.curveA, *answer.a),
+                                      longestOf(question, *answer.curveB, *answer.b)},
                                      within);
     if (question.overlay != CompareOverlay::kPair || question.band != CompareBand::kNone)
       answer.overlaid = overlaid(question, answer, part(0.0));

@@ -14,6 +14,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
 #include "gui/connect/connect_dialog.h"
+#include "gui/connect/sensor_dialog.h"
 #include "gui/desktop/ask.h"
 
 namespace palpate::gui {
@@ -21,6 +22,8 @@ namespace palpate::gui {
 ConnectActions::ConnectActions(ActionRegistry& book) {
   connectHand = book.make("connectHand", "Hand", "&Connect…", {key("Ctrl+K")});
   tryEmulated = book.make("tryEmulated", "Hand", "Try the &emulated hand");
+  addSensor = book.make("addSensor", "Hand", "Add a sensor…");
+  addSensor->setToolTip("Record the rows of another sensor beside the hand");
   disconnectHand = book.make("disconnectHand", "Hand", "&Disconnect");
   live = book.make("live", "Hand", "Show &live", {key("F6")}, true);
   live->setToolTip("Show the connected hand (F6)");
@@ -54,6 +57,7 @@ ConnectFeature::ConnectFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window), actions_(windowState.actions) {
   addQuestions();
   connectActions();
+  connectSensors();
   LiveController& live = windowState.live;
   connect(&live, &LiveController::sourceOpened, this, [&windowState, &live] {
     saveConnection(live.source()->connection, windowState.settings);
@@ -99,6 +103,20 @@ void ConnectFeature::addQuestions() {
                          window());
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.connection();
+  };
+  windowState.prompts.sensor = [this]() -> std::optional<std::pair<Sensor, std::shared_ptr<void>>> {
+    PortScan scan;
+    QStringList taken = sensorNames();
+    taken << "angles"
+          << "temperatures"
+          << "tactile"
+          << "events";
+    Sensor proposal{.name = "sensor"};
+    for (int i = 2; taken.contains(proposal.name); ++i)
+      proposal.name = "sensor_" + QString::number(i);
+    SensorDialog dialog(proposal, taken, scan, window());
+    if (dialog.exec() != QDialog::Accepted) return std::nullopt;
+    return std::pair(dialog.sensor(), dialog.takePreview());
   };
   windowState.prompts.endRecording = [this](UserPrompts::Ending ending) {
     return mayEndRecording(ending);
@@ -211,6 +229,58 @@ void ConnectFeature::connectActions() {
                                 [&windowState] { return windowState.displayed.isLive(); });
 }
 
+void ConnectFeature::connectSensors() {
+  WindowState& windowState = state();
+  LiveController& live = windowState.live;
+  // A replay has times of its own, to which no sensor fits.
+  const auto takesSensors = [&live] {
+    return live.source() && live.connection().kind != Connection::Kind::kReplay;
+  };
+  windowState.actionEnabler.add(
+      {actions_.addSensor}, takesSensors, "No hand is connected, or a recording is replayed");
+  on(actions_.addSensor, [this, &windowState] {
+    if (auto wanted = windowState.prompts.sensor())
+      addSensor(wanted->first, std::move(wanted->second));
+  });
+  connect(&live, &LiveController::sourceReady, this, [this, &windowState, takesSensors] {
+    if (!takesSensors()) return;
+    for (const Sensor& sensor : rememberedSensors(windowState.settings)) addSensor(sensor);
+  });
+  connect(&live, &LiveController::sensorsFailed, this, [&windowState](const QString& message) {
+    windowState.messages.fail(message);
+  });
+}
+
+void ConnectFeature::addSensor(const Sensor& sensor, std::shared_ptr<void> preview) {
+  state().live.changeSensors(
+      [sensor, held = std::make_shared<std::shared_ptr<void>>(std::move(preview))](
+          CaptureSession& session) {
+        held->reset();  // the port must be free
+        session.addSeries(std::make_unique<SeriesSource>(optionsOf(sensor)));
+      },
+      [this, sensor] {
+        rememberSensor(sensor, state().settings);
+        state().messages.flash("The sensor " + sensor.name + " was added: see the dock Link");
+      });
+}
+
+void ConnectFeature::removeSensor(const QString& name) {
+  state().live.changeSensors(
+      [series = name.toStdString()](CaptureSession& session) { session.removeSeries(series); },
+      [this, name] {
+        forgetSensor(name, state().settings);
+        state().messages.flash("The sensor " + name + " was removed");
+      });
+}
+
+QStringList ConnectFeature::sensorNames() const {
+  QStringList names;
+  if (const LiveSource* source = state().live.source())
+    for (const auto& each : source->session->seriesSources())
+      names << QString::fromStdString(each->name());
+  return names;
+}
+
 // Fills the menu: the last connection first, then every scene, then the entries that open the
 // dialog.
 void ConnectFeature::fillMenu() {
@@ -250,6 +320,14 @@ void ConnectFeature::fillMenu() {
   if (windowState.actions.at("openDemo")->isEnabled())
     replay(pathText(windowState.demoRecording()));
   if (replays->isEmpty()) replays->addAction("no recent recording")->setEnabled(false);
+  menu->addSeparator();
+  menu->addAction(actions_.addSensor);
+  if (const QStringList names = sensorNames(); !names.isEmpty()) {
+    QMenu* remove = menu->addMenu("Remove a sensor");
+    for (const QString& name : names)
+      connect(
+          remove->addAction(name), &QAction::triggered, this, [this, name] { removeSensor(name); });
+  }
   menu->addSeparator();
   menu->addAction(actions_.disconnectHand);
 }

@@ -20,6 +20,7 @@ struct ConnectActions {
 
   QAction* connectHand = nullptr;
   QAction* tryEmulated = nullptr;
+  QAction* addSensor = nullptr;
   QAction* disconnectHand = nullptr;
   // Checked while the connection is shown instead of a recording.
   QAction* live = nullptr;
@@ -37,6 +38,11 @@ class ConnectFeature : public Feature {
   void fillMenu();
   // The status of the connected hand while it moves or holds.
   std::optional<GraspStatus> movingHand() const;
+  void connectSensors();
+  void addSensor(const Sensor& sensor, std::shared_ptr<void> preview = {});
+  void removeSensor(const QString& name);
+  // Of the connected session.
+  QStringList sensorNames() const;
   void disconnectHand();
   bool mayEndRecording(UserPrompts::Ending ending);
   bool moveRecording();

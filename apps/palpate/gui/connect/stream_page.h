@@ -4,7 +4,6 @@
 
 #include <QHash>
 #include <QWidget>
-#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -12,20 +11,17 @@
 
 #include "gui/appearance/theme.h"
 #include "gui/connect/port_scan.h"
+#include "gui/connect/source_field.h"
 #include "gui/source/connection.h"
 #include "gui/source/file_reading.h"
 
 class QComboBox;
 class QFormLayout;
 class QLabel;
-class QLineEdit;
-class QSpinBox;
-class QStackedWidget;
 
 namespace palpate::gui {
 
 class Ask;
-class PortField;
 class StateMark;
 
 class StreamPage : public QWidget {
@@ -44,15 +40,12 @@ class StreamPage : public QWidget {
   // A problem that problemOf() cannot detect, in one line: a source or a hand that can't be used.
   // Empty when there is none.
   QString problem() const;
-  // Lists the serial ports. None is opened: what is sent to an unknown device may disturb it.
-  void look();
+  void look() { source_->look(); }
 
  signals:
   void changed();
 
  private:
-  // In the order of the choices and of their fields.
-  enum Place { kSerial, kConnect, kListen, kUdp };
   // What is known about a hand of the list.
   struct Choice {
     // Empty when the hand can't be used.
@@ -63,39 +56,22 @@ class StreamPage : public QWidget {
     bool beingRead = false;
   };
 
-  QWidget* makePlace();
   QWidget* makeHand(Ask& ask);
   void makeForm();
-  Place place() const;
-  QString source() const;
-  void setSource(const QString& source);
   int handIndex(const QString& nameOrFolder);
   void read(const QString& nameOrFolder);
-  QString sourceProblem() const;
   void refresh();
 
   std::vector<std::filesystem::path> folders_;
-  PortScan& scan_;
   QHash<QString, Choice> hands_;
   std::map<QString, std::unique_ptr<FileReading>> readings_;
   QFormLayout* form_;
-  QComboBox* place_;
-  QStackedWidget* fields_;
-  PortField* port_;
-  QLineEdit* host_;
-  QSpinBox* hostPort_;
-  // By Place; null for places where no sender is awaited.
-  std::array<QLineEdit*, 4> addresses_ = {};
-  std::array<QSpinBox*, 4> ports_ = {};
-  StateMark* placeMark_;
-  QLabel* placeText_;
+  SourceField* source_;
   QComboBox* hand_;
   StateMark* handMark_;
   QLabel* handText_;
   QComboBox* format_;
   QComboBox* time_;
-  QComboBox* baud_;
-  QWidget* baudRow_;
 };
 
 }  // namespace palpate::gui

@@ -22,6 +22,7 @@
 #include "gui/desktop/ask.h"
 #include "gui/import/import_fields.h"
 #include "gui/widgets/make.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -175,7 +176,94 @@ QWidget* ImportDialog::makeFile() {
   rate_->setKeyboardTracking(false);
   auto* time = inRow({{time_, 2}, {timeUnit_, 1}, {rate_, 1}});
   form->addRow(makeTitle("&Time", time_), time);
+  form->addRow("Series", makeSeries());
   return side;
+}
+
+// Other tables that come along, each with the times of its own rows.
+QWidget* ImportDialog::makeSeries() {
+  series_ = named(new QTableWidget(0, 3),
+                  "importSeries",
+                  "Other tables, each a series of the recording with the times of its own rows",
+                  "Files as series");
+  series_->setHorizontalHeaderLabels({"name", "rate [Hz]", "file"});
+  series_->horizontalHeader()->setStretchLastSection(true);
+  series_->verticalHeader()->hide();
+  series_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  series_->setTabKeyNavigation(false);
+  fitToText(*series_, [this] {
+    constexpr int kLines = 4;  // the names of the columns, and three series
+    series_->setFixedHeight(kLines * 2 * series_->fontMetrics().lineSpacing());
+  });
+  auto* add = makeButton(nullptr, "importAddSeries", "Add a file as series…");
+  connect(add, &QPushButton::clicked, this, [this] {
+    const QString chosen = ask_.file("Choose a table that becomes a series",
+                                     loadImportRequest(settings_).data,
+                                     "Tables (*.csv *.tsv *.txt *.log *.dat *.npy *.npz *.h5 "
+                                     "*.hdf5 *.mat);;All files (*)");
+    if (!chosen.isEmpty()) addSeries(chosen);
+  });
+  removeSeries_ = makeButton(nullptr, "importRemoveSeries", "Remove");
+  removeSeries_->setEnabled(false);
+  connect(removeSeries_, &QPushButton::clicked, this, [this] {
+    series_->removeRow(series_->currentRow());
+    look();
+  });
+  connect(series_, &QTableWidget::itemSelectionChanged, this, [this] {
+    removeSeries_->setEnabled(series_->currentRow() >= 0);
+  });
+  connect(series_, &QTableWidget::itemChanged, this, [this] { look(); });
+  return makeBox(inColumn({series_, inRow({add, removeSeries_, Stretch{}})}, Space::kNarrow));
+}
+
+void ImportDialog::addSeries(const QString& file) {
+  const std::string proposed = seriesName(QFileInfo(file).completeBaseName().toStdString());
+  QString name = QString::fromStdString(proposed);
+  for (int i = 2; std::ranges::count(series(), name.toStdString(), &SeriesFile::name) > 0; ++i)
+    name = QString::fromStdString(proposed) + "_" + QString::number(i);
+  filling_ = true;
+  const int row = series_->rowCount();
+  series_->insertRow(row);
+  series_->setItem(row, 0, new QTableWidgetItem(name));
+  auto* rate = new QTableWidgetItem;
+  rate->setToolTip("Rows per second from the first frame on, if the file has no times");
+  series_->setItem(row, 1, rate);
+  auto* path = new QTableWidgetItem(QFileInfo(file).fileName());
+  path->setData(Qt::UserRole, file);
+  path->setToolTip(file);
+  path->setFlags(path->flags() & ~Qt::ItemIsEditable);
+  series_->setItem(row, 2, path);
+  filling_ = false;
+  look();
+}
+
+std::vector<SeriesFile> ImportDialog::series() const {
+  std::vector<SeriesFile> files;
+  for (int row = 0; row < series_->rowCount(); ++row) {
+    SeriesFile file{series_->item(row, 0)->text().trimmed().toStdString(),
+                    series_->item(row, 2)->data(Qt::UserRole).toString().toStdString(),
+                    std::nullopt};
+    const QString rate = series_->item(row, 1)->text().trimmed();
+    if (!rate.isEmpty()) file.rateHz = parseDouble(rate.toStdString()).value_or(0.0);
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+QString ImportDialog::seriesProblem() const {
+  const std::vector<SeriesFile> files = series();
+  for (const SeriesFile& each : files) {
+    const QString name = QString::fromStdString(each.name);
+    if (const std::string valid = seriesName(each.name); valid != each.name)
+      return "the series \"" + name + "\" needs a name of small letters, digits and _: \"" +
+             QString::fromStdString(valid) + "\"";
+    if (std::ranges::count(files, each.name, &SeriesFile::name) > 1)
+      return "two series have the name " + name + ": give each its own";
+    constexpr double kLowestRateHz = 1e-6;
+    if (each.rateHz && !(*each.rateHz >= kLowestRateHz && *each.rateHz <= kHighestImportRateHz))
+      return "the rate of the series " + name + " must be a number from 1e-6 to 1e6 Hz, or empty";
+  }
+  return {};
 }
 
 QWidget* ImportDialog::makePreview() {
@@ -306,6 +394,7 @@ ImportRequest ImportDialog::request() const {
   request.mapping.time.rateHz.reset();
   if (rate_->value() > 0.0) request.mapping.time.rateHz = rate_->value();
   fields_->readInto(request.mapping);
+  if (seriesProblem().isEmpty()) request.series = series();
   request.out = out();
   request.strict = strict_->isChecked();
   request.replace = replace_->isChecked();
@@ -338,7 +427,11 @@ void ImportDialog::take(const ImportLook& look) {
     for (const std::string& line : preview.choices) lines << QString::fromStdString(line);
     if (!preview.time.empty()) lines << "time: " + QString::fromStdString(preview.time);
     for (const std::string& note : preview.notes) lines << QString::fromStdString(note);
-    if (preview.problem.empty()) lines << sampleText(preview);
+    if (preview.problem.empty()) {
+      lines << sampleText(preview);
+      for (const ImportedSeries& series : preview.sample.series)
+        lines << QString::fromStdString(series.text());
+    }
     choices = inWindowWords(lines.join("\n"));
     if (preview.problem.empty())
       warnings = inWindowWords(QString::fromStdString(preview.sample.lossText()));
@@ -379,6 +472,7 @@ void ImportDialog::showColumns(const ImportPreview& preview) {
 
 QString ImportDialog::problem() const {
   if (const QString wrong = fields_->problem(); !wrong.isEmpty()) return wrong;
+  if (const QString wrong = seriesProblem(); !wrong.isEmpty()) return wrong;
   if (busy()) return "reading the file";
   if (!looked_.problem.isEmpty()) return looked_.problem;
   const QString out = this->out();

@@ -49,12 +49,17 @@ class ImportDialog : public QDialog {
 
  private:
   QWidget* makeFile();
+  QWidget* makeSeries();
   QWidget* makePreview();
   QWidget* makeFoot();
   void connectFields();
   void showMapping(const ImportMapping& mapping);
   void usePreset();
   void listPresets(const QString& chosen);
+  void addSeries(const QString& file);
+  std::vector<SeriesFile> series() const;
+  // What is wrong with the table of series; empty: nothing.
+  QString seriesProblem() const;
   // Beside the table, unless a name was typed already.
   void takeRateOfMapping();
   void proposeOut();
@@ -83,6 +88,8 @@ class ImportDialog : public QDialog {
   QLineEdit* time_ = nullptr;
   QComboBox* timeUnit_ = nullptr;
   QDoubleSpinBox* rate_ = nullptr;
+  QTableWidget* series_ = nullptr;  // name, rate, file
+  QPushButton* removeSeries_ = nullptr;
   QString dataBefore_;
   ImportFields* fields_ = nullptr;
   QLabel* form_ = nullptr;

@@ -29,7 +29,8 @@ ImportLook lookAtImport(const ImportRequest& request, const std::vector<fs::path
       look.problem = "choose a file";
       return look;
     }
-    look.preview = previewImport(request.data.toStdString(), *look.hand, request.mapping);
+    look.preview =
+        previewImport(request.data.toStdString(), *look.hand, request.mapping, request.series);
     look.problem = QString::fromStdString(look.preview->problem);
   } catch (const std::exception& error) {
     look.problem = QString::fromUtf8(error.what());
@@ -44,7 +45,8 @@ ImportReport runImport(const ImportRequest& request,
                          findHand(request.hand.toStdString(), folders),
                          request.mapping,
                          request.out.toStdString(),
-                         {.strict = request.strict,
+                         {.series = request.series,
+                          .strict = request.strict,
                           .overwrite = request.replace ? Overwrite::kReplace : Overwrite::kRefuse},
                          progress);
 }

@@ -19,6 +19,8 @@ struct ImportRequest {
   // Name of a known hand, or its folder.
   QString hand;
   ImportMapping mapping;
+  // Other tables that become series of the recording.
+  std::vector<SeriesFile> series = {};
   QString out;
   bool strict = false;
   bool replace = false;

@@ -209,6 +209,8 @@ QString LibraryModel::tip(const RecordingDetails& details) const {
   if (details.state != LibraryModelState::kFinished)
     lines.append(libraryModelWide(nameOf(details.state)));
   if (!details.message.empty()) lines.append(libraryModelWide(details.message));
+  for (const SeriesDetails& series : details.series)
+    lines.append("series " + libraryModelWide(series.text()));
   if (!details.labels.empty()) lines.append("labels: " + joined(details.labels));
   if (!details.notes.empty()) lines.append(libraryModelWide(details.notes));
   // HTML makes the tool tip wrap; the text is escaped.

@@ -143,7 +143,10 @@ void LinkFeature::look() {
                               systemClock().monotonicUs(),
                               handAlarm(*source));
   const StreamDevice* stream = source->streamDevice();
-  panel_->showHealth(health, live.preflight(), stream ? factsOf(*stream) : std::vector<Fact>());
+  std::vector<Fact> facts = stream ? factsOf(*stream) : std::vector<Fact>();
+  for (const auto& sensor : source->session->seriesSources())
+    for (Fact& fact : factsOf(*sensor)) facts.push_back(std::move(fact));
+  panel_->showHealth(health, live.preflight(), facts);
   if (stream && !noticeLogged_ && !stream->notice().empty()) {
     noticeLogged_ = true;
     panel_->log(QString::fromStdString(stream->notice()));

@@ -131,6 +131,26 @@ std::vector<Fact> factsOf(const StreamDevice& stream) {
   return facts;
 }
 
+std::vector<Fact> factsOf(const SeriesSource& sensor) {
+  const SeriesStatus status = sensor.status();
+  const PortStatus& port = status.port;
+  const QString name = QString::fromStdString(sensor.name());
+  QString state = portText(port);
+  if (status.rateHz > 0.0) state += ", " + figure(status.rateHz, 1) + " rows/s";
+  if (port.lost > 0) state += ", " + numberOf(port.lost, "row") + " lost";
+  std::vector<Fact> facts{{name, state, port.state != PortState::kStreaming}};
+  if (port.state != PortState::kStreaming && !port.message.empty())
+    facts.push_back({name + ": why", QString::fromStdString(escapedLine(port.message)), true});
+  if (port.suspect > 0)
+    facts.push_back({name + ": refused",
+                     numberOf(port.suspect, "line") +
+                         ", the last: " + QString::fromStdString(escapedLine(sensor.lastFault())),
+                     true});
+  if (sensor.isOpenToOthers())
+    facts.push_back({name + ": senders", QString::fromStdString(sensor.notice()), true});
+  return facts;
+}
+
 LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   check_ = makeLines(this, "preflight");
   check_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -202,8 +222,8 @@ void LinkPanel::showHealth(const LinkHealth& health,
     known.diskHours = check->diskHours;
   }
   std::vector<Fact> facts = factsOf(known);
-  // Below the state of the port.
-  facts.insert(facts.begin() + 1, stream.begin(), stream.end());
+  // Below the state of the ports.
+  facts.insert(facts.begin() + (known.device.motion ? 2 : 1), stream.begin(), stream.end());
   if (facts.size() != facts_->facts().size()) {
     facts_->setFacts(std::move(facts));
   } else {

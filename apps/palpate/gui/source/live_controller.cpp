@@ -307,6 +307,34 @@ void LiveController::stopRecording() {
   });
 }
 
+void LiveController::changeSensors(std::function<void(CaptureSession&)> change,
+                                   std::function<void()> done) {
+  if (!source_) return;
+  inWorker([this,
+            change = std::move(change),
+            done = std::move(done),
+            source = source_,
+            generation = generation_] {
+    QString error;
+    try {
+      change(*source->session);
+    } catch (const std::exception& failure) {
+      error = QString::fromUtf8(failure.what()).simplified();
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, error, generation, done] {
+          if (generation != generation_) return;
+          refreshHealth();
+          if (error.isEmpty())
+            done();
+          else
+            emit sensorsFailed(error);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
 void LiveController::mark(const QString& text, std::optional<int> digit) {
   if (source_) source_->session->mark(text.toStdString(), digit);
 }

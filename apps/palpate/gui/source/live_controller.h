@@ -71,6 +71,10 @@ class LiveController : public QObject {
   // end() after it comes after it in the worker, too.
   void continueRecordingIn(const std::filesystem::path& folder);
   void mark(const QString& text, std::optional<int> digit);
+  // Adds or removes series of the connected session, in the worker, since it may wait for a port.
+  // `done` follows, or sensorsFailed() with what `change` throws; neither when the connection has
+  // ended meanwhile.
+  void changeSensors(std::function<void(CaptureSession&)> change, std::function<void()> done);
   // Folder of future recordings; the preflight check examines it.
   void setFolder(const std::filesystem::path& folder) { folder_ = folder; }
   const std::optional<PreflightCheck>& preflight() const noexcept { return beforeRun_; }
@@ -93,6 +97,7 @@ class LiveController : public QObject {
   // Nothing is connected, and nothing is being opened.
   void ended();
   void failed(const QString& message);
+  void sensorsFailed(const QString& message);
   void frameReceived(const palpate::TactileFrame& frame);
   void resultsReceived(const palpate::LiveResults& results);
   void staleChanged(bool stale);

@@ -151,6 +151,9 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
     stream->send(results);
     foxglove->send(results);
   };
+  options.onFurther = [history = source->history.get()](const FurtherSample& sample) {
+    history->add(sample);
+  };
   options.onEvent = [session = source->session.get(),
                      foxglove = source->foxglove.get()](const Event& event) {
     session->note(event);

@@ -63,10 +63,11 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
       "and coherence are of the selected range; without one, of the visible part.");
   view_->setFocusPolicy(Qt::TabFocus);
   for (const SpectrumView each : kAllSpectrumViews) view_->addItem(nameOf(each));
-  signal_ = named(new QComboBox(this),
-                  "spectrumSignal",
-                  "Of which signal: the chosen taxels, or a curve by a formula",
-                  "Of which signal");
+  signal_ =
+      named(new QComboBox(this),
+            "spectrumSignal",
+            "Of which signal: the chosen taxels, a curve by a formula, or a column of a series",
+            "Of which signal");
   signal_->setFocusPolicy(Qt::TabFocus);
   signal_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   signal_->setMinimumContentsLength(12);

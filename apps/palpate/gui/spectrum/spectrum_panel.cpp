@@ -5,8 +5,10 @@
 #include <limits>
 
 #include <palpate/core/number_text.h>
+#include <palpate/signals/signal_name.h>
 
 #include "gui/appearance/settings_table.h"
+#include "gui/chart/plotted_curve.h"
 #include "gui/spectrum/spectrum_line_page.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
@@ -123,6 +125,7 @@ void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   worker_.abandon();
   name_.clear();
   linePage_->setRecording(recording_);
+  listSignals();
   header_->setName({});
   if (live)
     say("Spectra need a recording. Record the connected hand (Ctrl+R), and open the recording.");
@@ -143,11 +146,28 @@ void SpectrumPanel::setTaxels(const TaxelSelection& taxels) {
 
 void SpectrumPanel::setFormulas(const std::vector<FormulaCurve>& formulas) {
   formulas_ = formulas;
-  QStringList names;
-  for (const FormulaCurve& each : formulas_) names.append(each.name);
-  header_->setFormulas(names);
+  listSignals();
   linePage_->setFormulas(formulas_);
   ask();
+}
+
+// A column is the formula of its name, which the worker reads at the times of its series. A name
+// that means something else, or that a formula has, is left out.
+void SpectrumPanel::listSignals() {
+  signals_ = formulas_;
+  if (recording_)
+    for (const SeriesDescription& series : furtherSeriesOf(recording_->profile))
+      for (std::size_t i = 0; i < series.columns.size(); ++i) {
+        const PlottedCurve column = columnCurve(series, i, 0);
+        const std::string name = palpate::nameOf(column.choice, recording_->profile.layout());
+        const bool isTaken =
+            std::ranges::find(signals_, column.name, &FormulaCurve::name) != signals_.end();
+        if (!isTaken && signalNamed(name, recording_->profile) == column.choice)
+          signals_.push_back({column.name, QString::fromStdString(name), column.unit});
+      }
+  QStringList names;
+  for (const FormulaCurve& each : signals_) names.append(each.name);
+  header_->setFormulas(names);
 }
 
 void SpectrumPanel::setVisibleRange(double fromS, double toS) {
@@ -185,7 +205,7 @@ void SpectrumPanel::ask() {
   SpectrumQuestion question{.recording = recording_, .fromS = fromS_, .toS = toS_};
   // Taxels of another sensor were chosen before this recording was opened, and are ignored.
   if (TaxelSelection(recording_->profile.layout()).sameSensor(taxels_)) question.taxels = taxels_;
-  for (const FormulaCurve& each : formulas_)
+  for (const FormulaCurve& each : signals_)
     if (each.name == header_->formula()) question.formula = each;
   question.options.spectrum.window = header_->setting().window;
   question.options.spectrum.overlap = header_->setting().overlap;

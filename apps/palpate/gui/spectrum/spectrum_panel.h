@@ -34,7 +34,7 @@ class SpectrumPanel : public QWidget {
   void setSource(const OpenedRecordingPtr& recording, bool live);
   // Sets the chosen taxels; empty when none is chosen.
   void setTaxels(const TaxelSelection& taxels);
-  // The curves by formulas, which can be chosen as signals.
+  // The curves by formulas, which can be chosen as signals, beside the columns of further series.
   void setFormulas(const std::vector<FormulaCurve>& formulas);
   void setVisibleRange(double fromS, double toS);
   // The selected range, which the mean and the coherence are of; nothing: the visible part.
@@ -67,6 +67,7 @@ class SpectrumPanel : public QWidget {
 
  private:
   void ask();
+  void listSignals();
   void take(const SpectrumAnswer& answer);
   // Shows a mean spectrum or a coherence.
   void takeLine(const SpectrumAnswer& answer);
@@ -79,6 +80,7 @@ class SpectrumPanel : public QWidget {
   bool live_ = false;
   TaxelSelection taxels_;
   std::vector<FormulaCurve> formulas_;
+  std::vector<FormulaCurve> signals_;  // those, then the columns by their names
   double fromS_ = 0.0;
   double toS_ = 0.0;
   std::optional<TimeSpan> span_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gui/chart/chart_style.h"
 #include "gui/widgets/make.h"
 
 namespace palpate::gui {
@@ -114,7 +115,7 @@ void Legend::paintEvent(QPaintEvent*) {
     QPen pen = entry.pen;
     pen.setWidthF(3.0);
     pen.setCapStyle(Qt::FlatCap);
-    painter.setPen(pen);
+    painter.setPen(legendPen(pen, kTimelineHeaderStroke));
     painter.drawLine(x, y + line / 2, x + kTimelineHeaderStroke, y + line / 2);
     x += kTimelineHeaderStroke + kAfterStroke;
     painter.setPen(colorsOf().text);
