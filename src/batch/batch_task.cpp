@@ -187,8 +187,9 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
             requireMatrix(item.source, profile.layout(), table.matrix);
             requireBelowHalfRate(table.smooth, profile, item.source);
             TableFile out(item.target, overwrite);
-            out.write(std::string(kSignalColumns) + "\n");
-            if (table.unitsRow) out.write(signalUnits(profile.hand()) + "\n");
+            const bool components = profile.givesReadings();
+            out.write(signalColumns(components) + "\n");
+            if (table.unitsRow) out.write(signalUnits(profile.hand(), components) + "\n");
             writeSignalRows(
                 profile,
                 table.matrix,

@@ -2,10 +2,12 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "palpate/signals/characteristic_signals.h"
+#include "palpate/signals/signal_rows.h"
 #include "palpate/slip/sensor_slip_detector.h"
 
 namespace palpate {
@@ -42,20 +44,13 @@ class FrameSeries : public ExportedSeries {
   std::size_t index_ = 0;
 };
 
-const std::string& unitOf(SignalKind kind, const HandDescription& hand) {
-  static const std::string taxels = "taxels";
-  static const std::string area = "mm^2";
-  if (kind == SignalKind::kActive) return taxels;
-  return kind == SignalKind::kArea ? area : hand.unit;
-}
-
 class SignalsSeries final : public FrameSeries {
  public:
   explicit SignalsSeries(const Profile& profile) : FrameSeries(profile, "signals") {
     const std::size_t numMatrices = profile.layout().numMatrices();
     for (std::size_t m = 0; m <= numMatrices; ++m) {
       const std::string group = m < numMatrices ? "m" + std::to_string(m) : "whole";
-      for (const SignalKind kind : kAllSignalKinds)
+      for (const SignalKind kind : kindsOf(m))
         columns_.push_back(
             {group + "/" + std::string(signalName(kind)), unitOf(kind, profile.hand())});
     }
@@ -65,8 +60,12 @@ class SignalsSeries final : public FrameSeries {
   void fill(const TactileFrame& frame, std::span<double> values) override {
     allSignals(frame, rows_);
     std::size_t at = 0;
-    for (const CharacteristicSignals& row : rows_)
-      for (const SignalKind kind : kAllSignalKinds) values[at++] = valueOf(row, kind);
+    for (std::size_t m = 0; m < rows_.size(); ++m)
+      for (const SignalKind kind : kindsOf(m)) values[at++] = valueOf(rows_[m], kind);
+  }
+  // The whole hand has no components.
+  std::span<const SignalKind> kindsOf(std::size_t m) const {
+    return signalKinds(profile_.givesReadings() && m < profile_.layout().numMatrices());
   }
 
   std::vector<CharacteristicSignals> rows_;

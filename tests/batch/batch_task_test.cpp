@@ -121,7 +121,7 @@ TEST_F(BatchTasks, WithoutAGraspNothingIsMade) {
 
 TEST_F(BatchTasks, SignalsAreTheRowsOfTheRecording) {
   const Profile profile = openRecording(item_.source);
-  std::string rows = std::string(kSignalColumns) + "\n";
+  std::string rows = signalColumns(false) + "\n";
   writeSignalRows(profile, 1, {}, "\n", [&](const std::string& lines) { rows += lines; });
   EXPECT_TRUE(made(signalsTask({.matrix = 1}), "s.csv") == rows);
   EXPECT_NE(refusalOf(signalsTask({.matrix = 6})).find("has no matrix 6, only 0..5"),
@@ -138,7 +138,8 @@ TEST_F(BatchTasks, UnitsStandInTheSecondRow) {
     return text.substr(begin, text.find('\n', begin) - begin);
   };
   const Profile profile = openRecording(item_.source);
-  EXPECT_EQ(secondRow(made(signalsTask({.unitsRow = true}), "u.csv")), signalUnits(profile.hand()));
+  EXPECT_EQ(secondRow(made(signalsTask({.unitsRow = true}), "u.csv")),
+            signalUnits(profile.hand(), false));
   EXPECT_EQ(secondRow(made(slipTask({.unitsRow = true}), "v.csv")), kSlipUnits);
   EXPECT_EQ(secondRow(made(slipTask({.segments = true, .unitsRow = true}), "w.csv")),
             kSlipSegmentUnits);

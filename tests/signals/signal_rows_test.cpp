@@ -34,7 +34,7 @@ std::string rowsOf(std::optional<std::size_t> matrix, const Recipe& smooth = {})
 }
 
 TEST(SignalRows, HaveTheColumnsOfTheHeader) {
-  EXPECT_EQ(std::string(kSignalColumns),
+  EXPECT_EQ(signalColumns(false),
             "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2");
   // All taxels of matrix 0 exist; the Gaussian spreads 16 over nine of them: 16 / 9. A taxel is
   // 3.4 mm x 3.4 mm: 11.56 mm2.
@@ -66,11 +66,46 @@ TEST(SignalRows, CanBeCancelled) {
 TEST(SignalRows, HaveAUnitForEachColumn) {
   HandDescription hand;
   hand.unit = "kPa";
-  EXPECT_EQ(signalUnits(hand), ",ms,,kPa,kPa,kPa,kPa,kPa,taxels,mm^2");
-  const std::string columns = kSignalColumns;
-  const std::string units = signalUnits(hand);
+  EXPECT_EQ(signalUnits(hand, false), ",ms,,kPa,kPa,kPa,kPa,kPa,taxels,mm^2");
+  const std::string columns = signalColumns(false);
+  const std::string units = signalUnits(hand, false);
   EXPECT_EQ(std::count(units.begin(), units.end(), ','),
             std::count(columns.begin(), columns.end(), ','));
+}
+
+// Two taxels, x, y, z each, over a baseline of 1 everywhere: 3, -2, 60 and 1, 0, -4.
+Profile threeAxes() {
+  MatrixLayout matrix = MatrixLayout::full(1, 2, 2.0);
+  matrix.touch = {.components = 3, .isSigned = true, .threshold = 2.0F};
+  ProfileBuilder builder(std::make_shared<SensorLayout>(std::vector{matrix}));
+  builder.addFrame(1'000'000, {4.0F, -1.0F, 61.0F, 2.0F, 1.0F, -3.0F});
+  const Baseline rest{.rest = std::vector<float>(6, 1.0F), .noise = {}};
+  return builder.finish({}).withBaselines({{0, std::make_shared<const Baseline>(rest)}});
+}
+
+TEST(SignalRows, OfReadingsHaveTheSumsOfTheComponents) {
+  EXPECT_EQ(signalColumns(true), signalColumns(false) + ",x,y,z,norm");
+  HandDescription hand;
+  hand.unit = "kPa";
+  EXPECT_EQ(signalUnits(hand, true), signalUnits(hand, false) + ",kPa,kPa,kPa,kPa");
+  EXPECT_EQ(unitOf(SignalKind::kActive, hand), "taxels");
+  EXPECT_EQ(unitOf(SignalKind::kNorm, hand), "kPa");
+  ASSERT_EQ(signalColumnKinds(true).size(), 11U);
+  EXPECT_EQ(signalColumnKinds(true)[2], SignalKind::kMinimum);
+  std::string rows;
+  const auto sink = [&](const std::string& lines) { rows += lines; };
+  writeSignalRows(threeAxes(), {}, {}, "\n", sink);
+  // The magnitudes of z are 60 and 4; x = 3 + 1, y = -2, z = 60 - 4, and sqrt(16 + 4 + 3136).
+  EXPECT_NE(rows.find(",4,60,64,2,8,4,-2,56,56.17"), std::string::npos) << rows;
+  // Signs stay where the signals are filtered; one frame is its own filtered value.
+  rows.clear();
+  writeSignalRows(threeAxes(), {}, parseRecipe(std::vector<std::string>{"kalman"}), "\n", sink);
+  EXPECT_NE(rows.find(",4,-2,56,56.17"), std::string::npos) << rows;
+  // A filtered frame has no readings any more.
+  rows.clear();
+  const std::vector<std::string> median = {"median"};
+  writeSignalRows(filteredProfile(threeAxes(), parseRecipe(median)), {}, {}, "\n", sink);
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), ','), 9) << rows;
 }
 
 }  // namespace

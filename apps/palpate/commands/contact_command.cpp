@@ -345,7 +345,7 @@ int contactCommand(const Arguments& words) {
           if (!headerWritten)
             out.write((units = line) + (recordings.several ? ",\n" : "\n"));
           else if (line != units)
-            throw Error(file.string() + ": " + kOtherUnits);
+            throw Error(file.string() + ": " + kOtherHead);
         }
         headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";

@@ -164,7 +164,7 @@ class TooMuchText {};
 struct TextAhead {
   bool done = false;  // otherwise the work is done when its turn comes
   std::vector<std::string> notes = {};
-  std::string units = {};
+  std::string head = {};
   std::string text = {};
   std::string damage = {};
   std::exception_ptr failure = {};
@@ -191,13 +191,13 @@ int writeTexts(const RecordingList& list,
   ListRun run(list, quiet);
   StandardOutput out;
   bool begun = false;
-  std::string units;  // of the first recording
+  std::string head;  // of the first recording
   const auto read = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
     return (reading == Reading::kWhole ? readRecording : readableRecording)(
         file, {threads, topics}, partOf(progress, 0.0, 0.5));
   };
-  const auto unitsOf = [&](const Recording& recording) {
-    return frame.units ? frame.units(recording.profile) : std::string();
+  const auto headOf = [&](const Recording& recording) {
+    return frame.head ? frame.head(recording.profile) : std::string();
   };
   // The report on a single readable recording has its warnings.
   const auto notesOf = [&](const fs::path& file, const Recording& recording) {
@@ -205,10 +205,10 @@ int writeTexts(const RecordingList& list,
     return reported ? std::vector<std::string>()
                     : notedWarnings(file, recording.profile, list.several);
   };
-  const auto begin = [&](const fs::path& file, const std::string& itsUnits) {
-    if (begun && itsUnits != units) throw Error(file.string() + ": " + kOtherUnits);
-    out.write(begun ? frame.between : frame.begin + itsUnits);
-    units = itsUnits;
+  const auto begin = [&](const fs::path& file, const std::string& itsHead) {
+    if (begun && itsHead != head) throw Error(file.string() + ": " + kOtherHead);
+    out.write(begun ? frame.between : frame.begin + itsHead);
+    head = itsHead;
     begun = true;
   };
 
@@ -218,7 +218,7 @@ int writeTexts(const RecordingList& list,
     run.leaveTheTerminal();
     bool first = true;
     const auto write = [&](const std::string& text) {
-      if (std::exchange(first, false)) begin(file, unitsOf(recording));
+      if (std::exchange(first, false)) begin(file, headOf(recording));
       out.write(text);
     };
     work(file, recording, write, partOf(progress, 0.5, 1.0));
@@ -232,7 +232,7 @@ int writeTexts(const RecordingList& list,
     try {
       const Recording recording = read(file, progress, threads);
       result.notes = notesOf(file, recording);
-      result.units = unitsOf(recording);
+      result.head = headOf(recording);
       const auto write = [&](const std::string& text) {
         if (result.text.size() + text.size() > kMostTextAhead) throw TooMuchText();
         result.text += text;
@@ -265,7 +265,7 @@ int writeTexts(const RecordingList& list,
       for (const std::string& note : result.notes) run.note(note);
       run.leaveTheTerminal();
       if (!result.failure || !result.text.empty()) {
-        begin(file, result.units);
+        begin(file, result.head);
         out.write(result.text);
       }
     }

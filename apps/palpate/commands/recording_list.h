@@ -48,16 +48,16 @@ using TextSink = std::function<void(const std::string& text)>;
 // These are called from several threads at once, each with another file.
 using OpenedText = std::function<void(
     const std::filesystem::path& file, const Recording&, const TextSink& write, const Progress&)>;
-// Why a recording can't stand in a table whose row of units is that of an earlier one.
-inline constexpr const char* kOtherUnits =
-    "its values have another unit than those of the recordings before; give it a table of its own";
+// Why a recording can't stand in a table whose head is that of an earlier one.
+inline constexpr const char* kOtherHead =
+    "its columns or units differ from those of the recordings before; give it a table of its own";
 // What stands between the texts of the recordings.
 struct TextFrame {
   std::string begin = {};    // once, in front of the first recording that is done or wrote text
   std::string between = {};  // in front of every further one
-  // The row with the units behind `begin`; may be empty: none. A recording that has other units
-  // than the first one fails.
-  std::function<std::string(const Profile&)> units = {};
+  // Rows of names or units behind `begin`; may be empty: none. A recording that has others than the
+  // first one fails.
+  std::function<std::string(const Profile&)> head = {};
 };
 
 // The line that says what a recording lost when it was read (lostText()); empty: nothing.
