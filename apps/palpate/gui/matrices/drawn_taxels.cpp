@@ -7,6 +7,11 @@
 
 namespace palpate::gui {
 
+bool hasSign(const SensorLayout& layout) {
+  return std::ranges::any_of(layout.matrices(),
+                             [](const MatrixLayout& matrix) { return matrix.touch.isSigned; });
+}
+
 bool hasShear(const SensorLayout& layout) {
   return std::ranges::any_of(layout.matrices(), [](const MatrixLayout& matrix) {
     return matrix.touch.components == 3;
@@ -14,9 +19,7 @@ bool hasShear(const SensorLayout& layout) {
 }
 
 bool isDrawnSigned(const TactileFrame& frame, TaxelView view) {
-  return view == TaxelView::kNormal && !frame.readings.empty() &&
-         std::ranges::any_of(frame.layout->matrices(),
-                             [](const MatrixLayout& matrix) { return matrix.touch.isSigned; });
+  return view == TaxelView::kNormal && !frame.readings.empty() && hasSign(*frame.layout);
 }
 
 MatrixValues drawnValues(const TactileFrame& frame, std::size_t matrix, TaxelView view) {

@@ -10,7 +10,8 @@
 
 namespace palpate::gui {
 
-// Whether a matrix has three components, of which arrows are drawn.
+// Whether a matrix has readings with a sign; three components, of which arrows are drawn.
+bool hasSign(const SensorLayout& layout);
 bool hasShear(const SensorLayout& layout);
 // Whether values have a sign in this view: the frame has readings, and a matrix of it has a sign.
 bool isDrawnSigned(const TactileFrame& frame, TaxelView view);
