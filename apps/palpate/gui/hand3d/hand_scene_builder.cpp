@@ -187,21 +187,29 @@ constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr int kLeastRank = 2;
 constexpr int kWholeRank = 6;
 
-void addHead(
-    HandScene& scene, const Vector3d& tip, const Vector3d& along, float widthPx, QRgb color) {
+void addHead(HandScene& scene,
+             const Vector3d& tip,
+             const Vector3d& along,
+             float widthPx,
+             QRgb color,
+             double headMm = kHeadMm) {
   const Vector3d side = along.unitOrthogonal(), other = along.cross(side);
   for (const Vector3d& way : {side, Vector3d(-side), other, Vector3d(-other)})
     scene.lines.push_back({tip.cast<float>(),
-                           (tip - kHeadMm * along + 0.45 * kHeadMm * way).cast<float>(),
+                           (tip - headMm * along + 0.45 * headMm * way).cast<float>(),
                            widthPx,
                            color});
 }
 
-void addArrow(
-    HandScene& scene, const Vector3d& from, const Vector3d& way, float widthPx, QRgb color) {
+void addArrow(HandScene& scene,
+              const Vector3d& from,
+              const Vector3d& way,
+              float widthPx,
+              QRgb color,
+              double headMm = kHeadMm) {
   const Vector3d tip = from + way;
   scene.lines.push_back({from.cast<float>(), tip.cast<float>(), widthPx, color});
-  addHead(scene, tip, way.normalized(), widthPx, color);
+  addHead(scene, tip, way.normalized(), widthPx, color, headMm);
 }
 
 // Adds an arc for a rotation about an axis through `centre`, as long as the angle.
@@ -675,7 +683,8 @@ void HandSceneBuilder::addShear(HandScene& scene, const HandLook& look) const {
              (patch.centreMm + kShearLiftMm * patch.normal).cast<double>(),
              way.cast<double>(),
              kShearPx,
-             color);
+             color,
+             std::min(0.4 * matrix.pitchMm, 0.4 * std::hypot(shear.x(), shear.y())));
   });
 }
 

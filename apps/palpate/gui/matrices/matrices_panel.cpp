@@ -245,8 +245,8 @@ ValueRange MatricesPanel::rangeNow() const {
     case RangeMode::kRecording:
       maximum =
           std::max(maximum, recording_ ? recording_->maximumNow().value_or(0.0) : largestLive_);
-      if (recording_ && settings_.taxels == TaxelView::kMagnitude)
-        maximum = std::max(maximum, largestMagnitude_);
+      if (settings_.taxels == TaxelView::kMagnitude)
+        maximum = std::max({maximum, largestMagnitude_, largestShown()});
       break;
   }
   // Filters produce fractions; the scale needs whole steps of the last decimal.

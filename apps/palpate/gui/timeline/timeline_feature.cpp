@@ -161,8 +161,6 @@ void TimelineFeature::connectSubject() {
   ViewAppearance& look = state().appearance;
   followUnits(signalTree_);
   connect(&look, &ViewAppearance::changed, this, [this, &look] {
-    header_->setSignal(look.view().signal);
-    checkChoice(actions_.signalsPlotted, kAllPlottedSignals, look.view().signal);
     showCurves();
   });
   const auto useSignal = [&look](PlottedSignal signal) {
@@ -469,7 +467,7 @@ void TimelineFeature::askForFormula(const QString& name) {
     return state().messages.flash("a formula needs a recording with frames");
   const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
   std::vector<FormulaSignal> from = formulaSignals(
-      recording->profile, state().appearance.view().signal, state().selection.taxels());
+      recording->profile, plottedSignal(), state().selection.taxels());
   // What is plotted comes first.
   const std::vector<PlottedCurve> shown = curves();
   std::stable_partition(from.begin(), from.end(), [&](const FormulaSignal& each) {
@@ -496,6 +494,20 @@ void TimelineFeature::askForFormula(const QString& name) {
   dialog->open();
 }
 
+PlottedSignal TimelineFeature::plottedSignal() const {
+  return plottable(state().appearance.view().signal, state().displayed.givesReadings());
+}
+
+void TimelineFeature::showSignal() {
+  const bool components = state().displayed.givesReadings();
+  header_->setComponents(components);
+  header_->setSignal(plottedSignal());
+  const QList<QAction*> actions = actions_.signalsPlotted->actions();
+  for (qsizetype i = static_cast<qsizetype>(kAllSignalKinds.size()); i < actions.size(); ++i)
+    actions[i]->setVisible(components);
+  checkChoice(actions_.signalsPlotted, kAllPlottedSignals, plottedSignal());
+}
+
 std::vector<PlottedCurve> TimelineFeature::curves() const {
   std::vector<PlottedCurve> curves;
   const HandDescription* hand = state().displayed.hand();
@@ -503,8 +515,9 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   const DisplayUnits& units = state().appearance.view().units;
   const std::vector<bool>& plotted = state().selection.plotted();
   for (std::size_t row = 0; row < plotted.size(); ++row)
-    if (plotted[row])
-      curves.push_back(matrixCurve(*hand, row, state().appearance.view().signal, units));
+    // The whole hand has no components.
+    if (plotted[row] && (row < hand->layout->numMatrices() || !isComponent(plottedSignal())))
+      curves.push_back(matrixCurve(*hand, row, plottedSignal(), units));
   const bool live = state().displayed.isLive();
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording && !live) return curves;
@@ -554,6 +567,7 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
 }
 
 void TimelineFeature::showCurves() {
+  showSignal();
   const bool live = state().displayed.isLive();
   const std::vector<PlottedCurve> now = curves();
   header_->setCurves(now);
@@ -693,9 +707,8 @@ std::vector<ExportedView> TimelineFeature::views() {
   view.widget = charts_;
   view.minHeightShare = kChartHeight;
   view.isThere = [&windowState] { return windowState.currentFrame.hasFrame(); };
-  view.fileName = [&windowState] {
-    return windowState.recordingStem() + "_" +
-           nameOf(windowState.appearance.view().signal).replace(' ', '_');
+  view.fileName = [this, &windowState] {
+    return windowState.recordingStem() + "_" + nameOf(plottedSignal()).replace(' ', '_');
   };
   view.paint = [this, &windowState](QPainter& painter, const PictureLook& look) {
     ChartPictureOptions options;
