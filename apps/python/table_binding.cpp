@@ -122,7 +122,8 @@ py::object toXarray(const py::dict& table, const std::string& unit) {
       throw py::value_error("'" + name + "' has " + std::to_string(array.ndim()) +
                             " dimensions, a table has up to 3");
     py::dict attributes;
-    if (const std::string of = unitOf(name, unit, hasComponents(table)); !of.empty()) attributes[kUnits] = of;
+    if (const std::string of = unitOf(name, unit, hasComponents(table)); !of.empty())
+      attributes[kUnits] = of;
     variables[key] = py::make_tuple(dims, array, attributes);
   }
   if (time) coordinates["time"] = py::make_tuple(row, millisecondInstants(arrays[time]));

@@ -13,7 +13,10 @@ namespace palpate {
 class SignalFilter::Impl final : public FrameSink {
  public:
   Impl(const Recipe& recipe, std::size_t numMatrices, Emit emit, bool withComponents)
-      : kinds_(signalKinds(withComponents)), rows_(numMatrices), emit_(std::move(emit)), chain_(recipe, *this) {
+      : kinds_(signalKinds(withComponents)),
+        rows_(numMatrices),
+        emit_(std::move(emit)),
+        chain_(recipe, *this) {
     for (const FilterStep& step : recipe.steps)
       if (step.enabled && step.kind().domain != FilterDomain::kTemporal)
         throw std::invalid_argument(
@@ -32,8 +35,7 @@ class SignalFilter::Impl final : public FrameSink {
     frame.hostUs = hostUs;
     for (std::size_t m = 0; m < rows.size(); ++m)
       for (std::size_t k = 0; k < kinds_.size(); ++k)
-        frame.values[m * kinds_.size() + k] =
-            static_cast<float>(valueOf(rows[m], kinds_[k]));
+        frame.values[m * kinds_.size() + k] = static_cast<float>(valueOf(rows[m], kinds_[k]));
     chain_.push(frame);
   }
   void take(TactileFrame& frame) override {

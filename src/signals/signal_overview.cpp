@@ -19,7 +19,7 @@ constexpr double kMostBucketsOfAll = 8'388'608.0;
 }  // namespace
 
 SignalOverview::SignalOverview(const Profile& profile, double bucketS)
-    : profile_(profile), 
+    : profile_(profile),
       numRows_(profile.layout().numMatrices() + 1),
       kinds_(signalKinds(profile.givesReadings())) {
   if (profile.numFrames() == 0)

@@ -71,7 +71,8 @@ const std::string& unitOf(SignalKind kind, const HandDescription& hand) {
 
 std::string signalUnits(const HandDescription& hand, bool withComponents) {
   std::vector<std::string> units = {"", "ms", ""};
-  for (const SignalKind kind : signalColumnKinds(withComponents)) units.push_back(unitOf(kind, hand));
+  for (const SignalKind kind : signalColumnKinds(withComponents))
+    units.push_back(unitOf(kind, hand));
   std::string line = csvLine(units);
   line.pop_back();
   return line;

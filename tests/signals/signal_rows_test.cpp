@@ -8,6 +8,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/filter/filtered_profile.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 
@@ -78,7 +79,8 @@ Profile threeAxes() {
   MatrixLayout matrix = MatrixLayout::full(1, 2, 2.0);
   matrix.touch = {.components = 3, .isSigned = true, .threshold = 2.0F};
   ProfileBuilder builder(std::make_shared<SensorLayout>(std::vector{matrix}));
-  builder.addFrame(1'000'000, {4.0F, -1.0F, 61.0F, 2.0F, 1.0F, -3.0F});
+  const std::vector<float> readings = {4.0F, -1.0F, 61.0F, 2.0F, 1.0F, -3.0F};
+  builder.addReadings(1'000'000, readings);
   const Baseline rest{.rest = std::vector<float>(6, 1.0F), .noise = {}};
   return builder.finish({}).withBaselines({{0, std::make_shared<const Baseline>(rest)}});
 }

@@ -18,7 +18,8 @@
 
 namespace palpate {
 
-// Values by SignalKind; components are 0 where they aren't filtered. A filtered number of active taxels can be a fraction.
+// Values by SignalKind; components are 0 where they aren't filtered. A filtered number of active
+// taxels can be a fraction.
 using SignalValues = std::array<double, static_cast<std::size_t>(SignalKind::kNorm) + 1>;
 
 // Filters the characteristic signals of frames.

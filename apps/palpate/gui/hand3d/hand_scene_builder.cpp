@@ -387,9 +387,9 @@ void HandSceneBuilder::addTaxels(HandScene& scene, const HandLook& look) const {
       ofReadings.push_back(drawnValues(*handState_.frame, m, look.view));
   eachTaxel(layout, look, [&](std::size_t place, std::size_t m, int y, int x) {
     const TaxelPatch& patch = places[place];
-    const float value = !ofReadings.empty()  ? ofReadings[m](y, x)
-                        : handState_.frame ? handState_.frame->allValues()[place]
-                                           : 0.0F;
+    const float value = !ofReadings.empty() ? ofReadings[m](y, x)
+                        : handState_.frame  ? handState_.frame->allValues()[place]
+                                            : 0.0F;
     const float size = look.isSigned ? std::abs(value) : value;
     const bool active = handState_.frame && isSeen(handState_.frame->values[place], size, least);
     const bool scanned = layout.matrix(m).enabled(y, x);
@@ -417,8 +417,8 @@ void HandSceneBuilder::addTaxels(HandScene& scene, const HandLook& look) const {
             active ? Vector3f(Vector3f::Zero()) : patch.normal,
             color);
     if (!bars || !active) return;
-    const double share = std::clamp(
-        (static_cast<double>(size) - std::min(0.0, lowest)) / span, 0.0, 1.0);
+    const double share =
+        std::clamp((static_cast<double>(size) - std::min(0.0, lowest)) / span, 0.0, 1.0);
     addBar(scene, patch, kTallestBarMm * static_cast<float>(share), color);
   });
 }
@@ -677,8 +677,8 @@ void HandSceneBuilder::addShear(HandScene& scene, const HandLook& look) const {
     const TaxelPatch& patch = places[place];
     const QPointF shear = scale * matrix.pitchMm * shearAt(*handState_.frame, {m, y, x});
     if (std::hypot(shear.x(), shear.y()) < kShortestShearMm) return;
-    const Vector3f way = static_cast<float>(shear.x()) * patch.alongX +
-                         static_cast<float>(shear.y()) * patch.alongY;
+    const Vector3f way =
+        static_cast<float>(shear.x()) * patch.alongX + static_cast<float>(shear.y()) * patch.alongY;
     addArrow(scene,
              (patch.centreMm + kShearLiftMm * patch.normal).cast<double>(),
              way.cast<double>(),

@@ -13,9 +13,8 @@ bool hasSign(const SensorLayout& layout) {
 }
 
 bool hasShear(const SensorLayout& layout) {
-  return std::ranges::any_of(layout.matrices(), [](const MatrixLayout& matrix) {
-    return matrix.touch.components == 3;
-  });
+  return std::ranges::any_of(
+      layout.matrices(), [](const MatrixLayout& matrix) { return matrix.touch.components == 3; });
 }
 
 bool isDrawnSigned(const TactileFrame& frame, TaxelView view) {
@@ -40,8 +39,8 @@ double largestDrawn(const TactileFrame& frame, TaxelView view) {
   double largest = 0.0;
   if (frame.readings.empty()) return largest;
   for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m)
-    largest = std::max(
-        largest, static_cast<double>(drawnValues(frame, m, view).cwiseAbs().maxCoeff()));
+    largest =
+        std::max(largest, static_cast<double>(drawnValues(frame, m, view).cwiseAbs().maxCoeff()));
   return largest;
 }
 

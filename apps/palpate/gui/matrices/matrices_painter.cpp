@@ -21,8 +21,8 @@ constexpr double kGridLine = 1.0;        // [px] between squares
 constexpr double kValuesFrom = 11.0;     // [px] below this side numbers can't be read
 constexpr double kSmallestFontPx = 5.0;  // of values [px]
 constexpr double kLargestFontPx = 15.0;
-constexpr double kShortestArrow = 1.5;   // of shear that is drawn [px]
-constexpr double kArrowHead = 5.0;       // [px]
+constexpr double kShortestArrow = 1.5;  // of shear that is drawn [px]
+constexpr double kArrowHead = 5.0;      // [px]
 
 QRectF squareOf(const QRectF& taxel) {
   if (taxel.width() < kGridFrom) return taxel;
@@ -290,9 +290,9 @@ void paintMatrixValues(QPainter& painter,
       !options.difference && (options.isSigned || options.taxels == TaxelView::kMagnitude);
   const MatrixValues drawn =
       ofReadings ? drawnValues(frame, matrix, options.taxels) : MatrixValues();
-  const ConstMatrixMap values =
-      drawn.size() > 0 ? ConstMatrixMap(drawn.data(), drawn.rows(), drawn.cols())
-                       : frame.allValues(matrix);
+  const ConstMatrixMap values = drawn.size() > 0
+                                    ? ConstMatrixMap(drawn.data(), drawn.rows(), drawn.cols())
+                                    : frame.allValues(matrix);
   const ConstMatrixMap contact = frame.matrix(matrix);
   const ColorTable& table = tableOf(options);
   const double side = geometry.taxelSide(matrix);

@@ -160,9 +160,7 @@ void TimelineFeature::connectSubject() {
           });
   ViewAppearance& look = state().appearance;
   followUnits(signalTree_);
-  connect(&look, &ViewAppearance::changed, this, [this, &look] {
-    showCurves();
-  });
+  connect(&look, &ViewAppearance::changed, this, [this, &look] { showCurves(); });
   const auto useSignal = [&look](PlottedSignal signal) {
     look.change([&](ViewSettings& view) { view.signal = signal; });
   };
@@ -466,8 +464,8 @@ void TimelineFeature::askForFormula(const QString& name) {
   if (!recording || recording->profile.numFrames() == 0)
     return state().messages.flash("a formula needs a recording with frames");
   const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
-  std::vector<FormulaSignal> from = formulaSignals(
-      recording->profile, plottedSignal(), state().selection.taxels());
+  std::vector<FormulaSignal> from =
+      formulaSignals(recording->profile, plottedSignal(), state().selection.taxels());
   // What is plotted comes first.
   const std::vector<PlottedCurve> shown = curves();
   std::stable_partition(from.begin(), from.end(), [&](const FormulaSignal& each) {
