@@ -208,7 +208,7 @@ double valueOf(const CharacteristicSignals& values, SignalKind which) {
     case SignalKind::kZ:
       return values.force[2];
     case SignalKind::kNorm:
-      return std::hypot(values.force[0], values.force[1], values.force[2]);
+      return Eigen::Map<const Eigen::Vector3d>(values.force.data()).norm();
     case SignalKind::kMean:
       break;
   }

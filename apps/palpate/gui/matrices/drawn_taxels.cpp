@@ -29,8 +29,9 @@ MatrixValues drawnValues(const TactileFrame& frame, std::size_t matrix, TaxelVie
     for (int x = 0; x < layout.columns; ++x) {
       if (!layout.enabled(y, x)) continue;
       const std::array<float, 3> force = forceAt(frame, {matrix, y, x});
-      drawn(y, x) =
-          view == TaxelView::kNormal ? force[2] : std::hypot(force[0], force[1], force[2]);
+      drawn(y, x) = view == TaxelView::kNormal
+                        ? force[2]
+                        : Eigen::Map<const Eigen::Vector3f>(force.data()).norm();
     }
   return drawn;
 }
