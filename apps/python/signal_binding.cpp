@@ -10,6 +10,7 @@
 #include "palpate/signals/coherence.h"
 #include "palpate/signals/first_contact.h"
 #include "palpate/signals/formula.h"
+#include "palpate/signals/signal_rows.h"
 #include "palpate/signals/spectrum.h"
 #include "palpate/signals/strongest_taxel.h"
 #include "palpate/signals/welch.h"
@@ -21,15 +22,6 @@
 namespace palpate::python {
 namespace py = pybind11;
 namespace {
-
-// The columns in the order that `palpate signals` prints.
-constexpr SignalKind kColumns[] = {SignalKind::kMean,
-                                   SignalKind::kFilteredMean,
-                                   SignalKind::kMinimum,
-                                   SignalKind::kMaximum,
-                                   SignalKind::kSum,
-                                   SignalKind::kActive,
-                                   SignalKind::kArea};
 
 // The signals of each frame: one element for each matrix, then one for the whole hand.
 std::vector<std::vector<CharacteristicSignals>> signalRowsOf(const Profile& profile,
@@ -72,8 +64,11 @@ py::dict signals(const Profile& profile, const py::object& matrix) {
   py::dict table;
   table["time_ms"] = column<std::int64_t>(
       rows.size(), [&](std::size_t i) { return profile.frameTimeUs(i) / kUsPerMs; });
-  for (const SignalKind kind : kColumns)
-    table[py::str(std::string(signalName(kind)))] = columnOf(rows, numMatrices, place, kind);
+  for (const auto& each : signalColumns(profile.hand().unit, profile.givesReadings())) {
+    const SignalKind kind = signalKindNamed(each.column.name).value();
+    if (place == numMatrices && isComponent(kind)) continue;  // the whole hand has none
+    table[py::str(each.column.name)] = columnOf(rows, numMatrices, place, kind);
+  }
   return table;
 }
 
@@ -241,7 +236,9 @@ void bindSignals(py::module_& module) {
              "Characteristic signals per frame: dict time_ms (T,), mean, filtered_mean (eq. 3.2 of "
              "the study), min, max, sum [counts], active (number of taxels > 0), area_mm2 [mm^2]: "
              "(T, matrices); of one matrix, or 'hand' (all taxels of the whole hand), (T,). 0 "
-             "where nothing is touched.");
+             "where nothing is touched. Where the sensor sends readings also x, y, z [counts], "
+             "sums over the taxels of what is over the baseline, and norm, the length of the "
+             "three; not of the whole hand.");
   module.def("spectrum",
              &spectrum,
              py::arg("time_s"),

@@ -35,8 +35,13 @@ py::object millisecondInstants(const py::object& timeMs) {
   return instants(timeMs.attr("astype")("int64") * py::int_(1000));
 }
 
+// Whether it has the components of what presses, and not places, as x and y.
+bool hasComponents(const py::dict& table) { return table.contains("norm"); }
+
 // The unit of a column, by its name; empty: it has none.
-std::string unitOf(const std::string& name, const std::string& taxelUnit) {
+std::string unitOf(const std::string& name, const std::string& taxelUnit, bool components) {
+  for (const char* component : {"x", "y", "z", "norm"})
+    if (components && name == component) return taxelUnit;
   for (const char* counts : {"mean", "filtered_mean", "min", "max", "sum"})
     if (name == counts) return taxelUnit;
   for (const char* taxels : {"x", "y", "dx", "dy", "ref_dx", "ref_dy", "path_taxels"})
@@ -72,7 +77,7 @@ py::object toPandas(const py::dict& table, const std::string& unit) {
   const py::dict columns = flat(arrays);
   py::object frame = pandas.attr("DataFrame")(columns);
   for (const auto& [key, value] : arrays) {
-    const std::string of = unitOf(py::str(key), unit);
+    const std::string of = unitOf(py::str(key), unit, hasComponents(table));
     if (of.empty()) continue;
     py::dict one;
     one[key] = value;
@@ -117,7 +122,8 @@ py::object toXarray(const py::dict& table, const std::string& unit) {
       throw py::value_error("'" + name + "' has " + std::to_string(array.ndim()) +
                             " dimensions, a table has up to 3");
     py::dict attributes;
-    if (const std::string of = unitOf(name, unit); !of.empty()) attributes[kUnits] = of;
+    if (const std::string of = unitOf(name, unit, hasComponents(table)); !of.empty())
+      attributes[kUnits] = of;
     variables[key] = py::make_tuple(dims, array, attributes);
   }
   if (time) coordinates["time"] = py::make_tuple(row, millisecondInstants(arrays[time]));

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -51,10 +52,10 @@ Column groupColumn(std::size_t matrix, std::size_t numMatrices, const ResultColu
 class SignalsSeries final : public FrameSeries {
  public:
   explicit SignalsSeries(const Profile& profile) : FrameSeries(profile, "signals") {
-    const std::vector<ColumnOf<SignalValues>> ofMatrix = signalColumns(profile.hand().unit);
+    const std::vector<ColumnOf<SignalValues>> ofMatrix = signalColumns(profile.hand().unit, true);
     const std::size_t numMatrices = profile.layout().numMatrices();
     for (std::size_t m = 0; m <= numMatrices; ++m)
-      for (const SignalKind kind : kAllSignalKinds)
+      for (const SignalKind kind : kindsOf(m))
         columns_.push_back(groupColumn(m, numMatrices, columnNamed(ofMatrix, signalName(kind)).column));
   }
 
@@ -62,8 +63,12 @@ class SignalsSeries final : public FrameSeries {
   void fill(const TactileFrame& frame, std::span<double> values) override {
     allSignals(frame, rows_);
     std::size_t at = 0;
-    for (const CharacteristicSignals& row : rows_)
-      for (const SignalKind kind : kAllSignalKinds) values[at++] = valueOf(row, kind);
+    for (std::size_t m = 0; m < rows_.size(); ++m)
+      for (const SignalKind kind : kindsOf(m)) values[at++] = valueOf(rows_[m], kind);
+  }
+  // The whole hand has no components.
+  std::span<const SignalKind> kindsOf(std::size_t m) const {
+    return signalKinds(profile_.givesReadings() && m < profile_.layout().numMatrices());
   }
 
   std::vector<CharacteristicSignals> rows_;

@@ -3,6 +3,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "palpate/signals/characteristic_signals.h"
+
 namespace palpate {
 namespace {
 
@@ -62,8 +64,12 @@ Json signalKeys() {
   return keys;
 }
 
-Json matrixKeys() {
+Json matrixKeys(const HandDescription& hand) {
   Json keys = signalKeys();
+  if (hand.layout->decidesTouch())
+    for (const SignalKind kind : signalKinds(true).subspan(kAllSignalKinds.size()))
+      keys.set(std::string(signalName(kind)),
+               schemaNumber(hand.unit + ", of the readings over the baseline"));
   keys.set("pressure_kpa", schemaNumber("kPa"));
   keys.set("force_n", schemaNumber("N"));
   keys.set("force_sd_n", schemaNumber("N, standard deviation"));
@@ -182,7 +188,7 @@ std::string foxgloveSignalsSchema(const HandDescription& hand) {
   keys.set("device_ms", schemaWhole("ms, the controller's clock"));
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
     keys.set("m" + std::to_string(m),
-             schemaOf("object", hand.matrixName(m)).set("properties", matrixKeys()));
+             schemaOf("object", hand.matrixName(m)).set("properties", matrixKeys(hand)));
   keys.set("whole",
            schemaOf("object", "all matrices together")
                .set("properties", signalKeys().set("force_n", schemaNumber("N"))));

@@ -19,7 +19,7 @@ std::string escaped(const std::string& name) {
   return key;
 }
 
-void addSignals(JsonLine& json, const CharacteristicSignals& signals) {
+void addSignals(JsonLine& json, const CharacteristicSignals& signals, bool withComponents) {
   json.number("mean", signals.mean);
   json.number("filtered_mean", signals.filteredMean);
   json.number("min", signals.minimum);
@@ -27,6 +27,8 @@ void addSignals(JsonLine& json, const CharacteristicSignals& signals) {
   json.number("sum", signals.sum);
   json.integer("active", signals.active);
   json.number("area_mm2", signals.areaMm2);
+  for (const SignalKind kind : signalKinds(withComponents).subspan(kAllSignalKinds.size()))
+    json.number(signalName(kind), valueOf(signals, kind));
 }
 
 void addSlip(JsonLine& json, const SlipDetection& slip) {
@@ -52,7 +54,7 @@ void addSlip(JsonLine& json, const SlipDetection& slip) {
 
 void addMatrix(JsonLine& json, const LiveResults& results, std::size_t matrix) {
   json.begin("m" + std::to_string(matrix));
-  addSignals(json, results.matrixSignals[matrix]);
+  addSignals(json, results.matrixSignals[matrix], !results.frame->readings.empty());
   if (results.pressure && matrix < results.pressure->matrices.size()) {
     const MatrixPressure& pressure = results.pressure->matrices[matrix];
     json.number("pressure_kpa", pressure.kpa);
@@ -95,7 +97,7 @@ void appendSignalJson(std::string& out,
   for (std::size_t m = 0; m < results.matrixSignals.size(); ++m) addMatrix(json, results, m);
   if (!results.matrixSignals.empty()) {
     json.begin("whole");
-    addSignals(json, results.wholeSignals);
+    addSignals(json, results.wholeSignals, false);
     if (results.pressure && results.pressure->areaKnown)
       json.number("force_n", results.pressure->forceN);
     json.end();

@@ -1,7 +1,9 @@
 #include "palpate/signals/characteristic_signals.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,6 +13,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
 #include "palpate/filter/gaussian.h"
+#include "palpate/model/touch.h"
 
 namespace palpate {
 namespace {
@@ -68,7 +71,8 @@ struct SignalTaxels {
             active.maximum,
             active.sum,
             active.count,
-            areaMm2};
+            areaMm2,
+            {}};
   }
 };
 
@@ -100,7 +104,49 @@ SignalTaxels taxelsOf(const TactileFrame& frame, std::size_t matrix) {
   return taxelsOf(values, averaged, layout);
 }
 
+std::array<double, 3> forceNotKnown() {
+  constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+  return {kNotKnown, kNotKnown, kNotKnown};
+}
+
+std::array<double, 3> forceOn(const TactileFrame& frame, std::size_t matrix) {
+  if (!frame.layout->decidesTouch()) return {};
+  if (frame.readings.empty()) return forceNotKnown();
+  std::array<double, 3> sum = {};
+  const MatrixLayout& layout = frame.layout->matrix(matrix);
+  for (int y = 0; y < layout.rows; ++y)
+    for (int x = 0; x < layout.columns; ++x) {
+      if (!layout.enabled(y, x)) continue;
+      const std::array<float, 3> force = forceAt(frame, {matrix, y, x});
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<double>(force[i]);
+    }
+  return sum;
+}
+
+CharacteristicSignals signalsOf(const SignalTaxels& taxels,
+                                const TactileFrame& frame,
+                                std::size_t matrix) {
+  CharacteristicSignals signals = taxels.signals();
+  signals.force = forceOn(frame, matrix);
+  return signals;
+}
+
+CharacteristicSignals signalsOfWhole(const SignalTaxels& taxels, const TactileFrame& frame) {
+  CharacteristicSignals signals = taxels.signals();
+  if (frame.layout->decidesTouch()) signals.force = forceNotKnown();
+  return signals;
+}
+
 }  // namespace
+
+std::span<const SignalKind> signalKinds(bool withComponents) noexcept {
+  static constexpr auto kKinds = [] {
+    std::array<SignalKind, static_cast<std::size_t>(SignalKind::kNorm) + 1> kinds{};
+    for (std::size_t i = 0; i < kinds.size(); ++i) kinds[i] = static_cast<SignalKind>(i);
+    return kinds;
+  }();
+  return std::span(kKinds).first(withComponents ? kKinds.size() : kAllSignalKinds.size());
+}
 
 CharacteristicSignals characteristicSignals(const Eigen::Ref<const MatrixValues>& values,
                                             const MatrixLayout& layout) {
@@ -108,7 +154,7 @@ CharacteristicSignals characteristicSignals(const Eigen::Ref<const MatrixValues>
 }
 
 CharacteristicSignals characteristicSignals(const TactileFrame& frame, std::size_t matrix) {
-  return taxelsOf(frame, matrix).signals();
+  return signalsOf(taxelsOf(frame, matrix), frame, matrix);
 }
 
 std::vector<CharacteristicSignals> characteristicSignals(const TactileFrame& frame) {
@@ -121,7 +167,7 @@ std::vector<CharacteristicSignals> characteristicSignals(const TactileFrame& fra
 CharacteristicSignals wholeFrameSignals(const TactileFrame& frame) {
   SignalTaxels whole;
   for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) whole.add(taxelsOf(frame, m));
-  return whole.signals();
+  return signalsOfWhole(whole, frame);
 }
 
 bool isSaturated(std::span<const CharacteristicSignals> rows, const HandDescription& hand) {
@@ -136,10 +182,10 @@ void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& r
   SignalTaxels whole;
   for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
     const SignalTaxels taxels = taxelsOf(frame, m);
-    rows.push_back(taxels.signals());
+    rows.push_back(signalsOf(taxels, frame, m));
     whole.add(taxels);
   }
-  rows.push_back(whole.signals());
+  rows.push_back(signalsOfWhole(whole, frame));
 }
 
 double valueOf(const CharacteristicSignals& values, SignalKind which) {
@@ -156,6 +202,14 @@ double valueOf(const CharacteristicSignals& values, SignalKind which) {
       return values.active;
     case SignalKind::kArea:
       return values.areaMm2;
+    case SignalKind::kX:
+      return values.force[0];
+    case SignalKind::kY:
+      return values.force[1];
+    case SignalKind::kZ:
+      return values.force[2];
+    case SignalKind::kNorm:
+      return Eigen::Map<const Eigen::Vector3d>(values.force.data()).norm();
     case SignalKind::kMean:
       break;
   }
@@ -176,6 +230,14 @@ std::string_view signalName(SignalKind kind) {
       return "active";
     case SignalKind::kArea:
       return "area_mm2";
+    case SignalKind::kX:
+      return "x";
+    case SignalKind::kY:
+      return "y";
+    case SignalKind::kZ:
+      return "z";
+    case SignalKind::kNorm:
+      return "norm";
     case SignalKind::kMean:
       break;
   }
@@ -183,7 +245,7 @@ std::string_view signalName(SignalKind kind) {
 }
 
 std::optional<SignalKind> signalKindNamed(std::string_view name) {
-  for (const SignalKind kind : kAllSignalKinds)
+  for (const SignalKind kind : signalKinds(true))
     if (name == signalName(kind)) return kind;
   return std::nullopt;
 }

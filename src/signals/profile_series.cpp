@@ -238,6 +238,8 @@ bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
     default:
       break;
   }
+  if (isComponent(choice.signal))
+    return profile.givesReadings() && choice.index < profile.layout().numMatrices();
   return choice.index <= profile.layout().numMatrices();
 }
 

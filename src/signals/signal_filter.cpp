@@ -12,15 +12,18 @@ namespace palpate {
 // Filters a frame that holds one matrix per matrix of the sensor, with one "taxel" per signal.
 class SignalFilter::Impl final : public FrameSink {
  public:
-  Impl(const Recipe& recipe, std::size_t numMatrices, Emit emit)
-      : rows_(numMatrices), emit_(std::move(emit)), chain_(recipe, *this) {
+  Impl(const Recipe& recipe, std::size_t numMatrices, Emit emit, bool withComponents)
+      : kinds_(signalKinds(withComponents)),
+        rows_(numMatrices),
+        emit_(std::move(emit)),
+        chain_(recipe, *this) {
     for (const FilterStep& step : recipe.steps)
       if (step.enabled && step.kind().domain != FilterDomain::kTemporal)
         throw std::invalid_argument(
             step.name +
             ": looks at neighbours, and a signal has none; filters over time "
             "smooth signals");
-    const MatrixLayout row = MatrixLayout::full(1, static_cast<int>(kAllSignalKinds.size()), 1.0);
+    const MatrixLayout row = MatrixLayout::full(1, static_cast<int>(kinds_.size()), 1.0);
     layout_ = std::make_shared<const SensorLayout>(std::vector<MatrixLayout>(numMatrices, row));
   }
 
@@ -31,28 +34,31 @@ class SignalFilter::Impl final : public FrameSink {
     TactileFrame frame(layout_);
     frame.hostUs = hostUs;
     for (std::size_t m = 0; m < rows.size(); ++m)
-      for (std::size_t k = 0; k < kAllSignalKinds.size(); ++k)
-        frame.values[m * kAllSignalKinds.size() + k] =
-            static_cast<float>(valueOf(rows[m], kAllSignalKinds[k]));
+      for (std::size_t k = 0; k < kinds_.size(); ++k)
+        frame.values[m * kinds_.size() + k] = static_cast<float>(valueOf(rows[m], kinds_[k]));
     chain_.push(frame);
   }
   void take(TactileFrame& frame) override {
     for (std::size_t m = 0; m < rows_.size(); ++m)
-      for (std::size_t k = 0; k < kAllSignalKinds.size(); ++k)
-        rows_[m][k] = static_cast<double>(frame.allValues()[m * kAllSignalKinds.size() + k]);
+      for (std::size_t k = 0; k < kinds_.size(); ++k)
+        rows_[m][k] = static_cast<double>(frame.allValues()[m * kinds_.size() + k]);
     emit_(frame.hostUs, rows_);
   }
   FilterChain& chain() noexcept { return chain_; }
 
  private:
+  const std::span<const SignalKind> kinds_;
   std::shared_ptr<const SensorLayout> layout_;
   std::vector<SignalValues> rows_;
   const Emit emit_;
   FilterChain chain_;
 };
 
-SignalFilter::SignalFilter(const Recipe& recipe, std::size_t numMatrices, Emit emit)
-    : impl_(std::make_unique<Impl>(recipe, numMatrices, std::move(emit))) {}
+SignalFilter::SignalFilter(const Recipe& recipe,
+                           std::size_t numMatrices,
+                           Emit emit,
+                           bool withComponents)
+    : impl_(std::make_unique<Impl>(recipe, numMatrices, std::move(emit), withComponents)) {}
 SignalFilter::~SignalFilter() = default;
 
 void SignalFilter::push(std::int64_t hostUs, std::span<const CharacteristicSignals> rows) {

@@ -32,6 +32,7 @@ std::optional<SignalName> signalAt(bool hand,
   if (!hand && !matrix) return std::nullopt;
   SignalName name{.index = matrix};
   if (const auto signal = signalKindNamed(rest)) {
+    if (hand && isComponent(*signal)) return std::nullopt;
     name.signal = *signal;
     return name;
   }
@@ -97,7 +98,9 @@ std::optional<SeriesChoice> signalNamed(std::string_view name, const SensorLayou
 }
 
 std::optional<SeriesChoice> signalNamed(std::string_view name, const Profile& profile) {
-  if (auto ofHand = signalNamed(name, profile.layout())) return ofHand;
+  if (auto ofHand = signalNamed(name, profile.layout());
+      ofHand && (!isComponent(ofHand->signal) || profile.givesReadings()))
+    return ofHand;
   for (std::size_t s = kHandSeries; s < profile.series().size(); ++s) {
     const SeriesDescription& series = profile.series()[s];
     if (!name.starts_with(series.name)) continue;

@@ -19,11 +19,13 @@ constexpr double kMostBucketsOfAll = 8'388'608.0;
 }  // namespace
 
 SignalOverview::SignalOverview(const Profile& profile, double bucketS)
-    : profile_(profile), numRows_(profile.layout().numMatrices() + 1) {
+    : profile_(profile),
+      numRows_(profile.layout().numMatrices() + 1),
+      kinds_(signalKinds(profile.givesReadings())) {
   if (profile.numFrames() == 0)
     throw std::invalid_argument("SignalOverview: the profile has no frames");
   const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
-  const std::size_t count = numRows_ * kAllSignalKinds.size();
+  const std::size_t count = numRows_ * kinds_.size();
   if (!(bucketS > 0.0))
     throw std::invalid_argument("SignalOverview: buckets of " + std::to_string(bucketS) + " s");
   const double most = kMostBucketsOfAll / static_cast<double>(count);
@@ -49,7 +51,7 @@ void SignalOverview::compute(const Progress& progress) {
     allSignals(frame, rows);
     auto series = series_.begin();
     for (const CharacteristicSignals& row : rows)
-      for (const SignalKind kind : kAllSignalKinds) (*series++)->add(timeS, valueOf(row, kind));
+      for (const SignalKind kind : kinds_) (*series++)->add(timeS, valueOf(row, kind));
     maximum_ = std::max(maximum_, rows.back().maximum);
     if (isSaturated(rows, profile_.hand())) ++saturatedFrames_;
   }
@@ -60,7 +62,9 @@ void SignalOverview::compute(const Progress& progress) {
 
 const BucketSeries& SignalOverview::of(std::size_t row, SignalKind kind) const {
   if (row >= numRows_) throw std::out_of_range("SignalOverview: no row " + std::to_string(row));
-  return *series_[row * kAllSignalKinds.size() + static_cast<std::size_t>(kind)];
+  if (static_cast<std::size_t>(kind) >= kinds_.size())
+    throw std::out_of_range("SignalOverview: no signal " + std::string(signalName(kind)));
+  return *series_[row * kinds_.size() + static_cast<std::size_t>(kind)];
 }
 
 }  // namespace palpate

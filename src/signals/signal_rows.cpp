@@ -1,6 +1,5 @@
 #include "palpate/signals/signal_rows.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "palpate/model/matrix_rows.h"
@@ -24,7 +23,7 @@ class SignalRun {
         filter_(options.smooth, profile.layout().numMatrices(), [this](auto timeUs, auto signals) {
           for (std::size_t m = first_; m < last_; ++m) add(timeUs, m, signals[m]);
           ++written_;
-        }) {}
+        }, profile.givesReadings()) {}
 
   // Appends what the next frame gives; false after the last one.
   bool next(std::vector<Row>& rows) {
@@ -41,10 +40,9 @@ class SignalRun {
       return true;
     }
     for (std::size_t m = first_; m < last_; ++m) {
-      SignalValues row;
-      std::transform(kAllSignalKinds.begin(), kAllSignalKinds.end(), row.begin(), [&](auto kind) {
-        return valueOf(signals[m], kind);
-      });
+      SignalValues row{};
+      for (const SignalKind kind : signalKinds(profile_.givesReadings()))
+        row[static_cast<std::size_t>(kind)] = valueOf(signals[m], kind);
       add(values_.hostUs, m, row);
     }
     ++written_;
@@ -66,21 +64,19 @@ class SignalRun {
   std::size_t frame_ = 0, written_ = 0;
 };
 
-// One signal of kAllSignalKinds.
 ColumnOf<SignalValues> signal(SignalKind kind, const std::string& unit, const char* meaning) {
-  const auto at = static_cast<std::size_t>(
-      std::find(kAllSignalKinds.begin(), kAllSignalKinds.end(), kind) - kAllSignalKinds.begin());
   return {{std::string(signalName(kind)),
            kind == SignalKind::kActive ? CellKind::kInteger : CellKind::kNumber,
            unit,
            meaning},
-          [at](const SignalValues& row) { return Cell(row[at]); }};
+          [at = static_cast<std::size_t>(kind)](const SignalValues& row) { return Cell(row[at]); }};
 }
 
 }  // namespace
 
-std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit) {
-  return {signal(SignalKind::kMean, unit, "mean of the touched taxels"),
+std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit, bool withComponents) {
+  std::vector<ColumnOf<SignalValues>> columns = {
+          signal(SignalKind::kMean, unit, "mean of the touched taxels"),
           signal(SignalKind::kFilteredMean,
                  unit,
                  "mean of the touched taxels of the matrix after a 3 x 3 Gaussian filter"),
@@ -89,6 +85,14 @@ std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit) {
           signal(SignalKind::kSum, unit, "sum"),
           signal(SignalKind::kActive, "taxels", "touched taxels"),
           signal(SignalKind::kArea, "mm^2", "their area")};
+  if (!withComponents) return columns;
+  const char* const meaning = "sum of the readings over the baseline, along the surface";
+  columns.push_back(signal(SignalKind::kX, unit, meaning));
+  columns.push_back(signal(SignalKind::kY, unit, meaning));
+  columns.push_back(
+      signal(SignalKind::kZ, unit, "sum of the readings over the baseline, into the surface"));
+  columns.push_back(signal(SignalKind::kNorm, unit, "length of x, y, z"));
+  return columns;
 }
 
 std::unique_ptr<ResultTable> signalTable(const Profile& profile,
@@ -97,7 +101,7 @@ std::unique_ptr<ResultTable> signalTable(const Profile& profile,
   if (options.smooth.dependsOnRate()) options.smooth.validateForRate(timingOf(profile).rateHz);
   return std::make_unique<RowTable<Row>>(
       "signals",
-      matrixRowColumns(signalColumns(profile.hand().unit)),
+      matrixRowColumns(signalColumns(profile.hand().unit, profile.givesReadings())),
       [run = std::make_shared<SignalRun>(profile, options, progress)](std::vector<Row>& rows) {
         return run->next(rows);
       });

@@ -572,11 +572,11 @@ TEST(UnitsRow, ARecordingWithAnotherUnitFails) {
   save("b.palpate");
   const auto result = palpate({"signals", folder.path(), "--units-row"});
   EXPECT_EQ(result.exitCode, 3) << result.err;
-  EXPECT_NE(result.err.find("b.palpate: its values have another unit"), std::string::npos)
+  EXPECT_NE(result.err.find("b.palpate: its columns or units differ"), std::string::npos)
       << result.err;
   EXPECT_EQ(result.out.find("b.palpate"), std::string::npos);
   const auto contact = palpate({"contact", folder.path(), "--matrices", "--units-row"});
-  EXPECT_NE(contact.err.find("b.palpate: its values have another unit"), std::string::npos)
+  EXPECT_NE(contact.err.find("b.palpate: its columns or units differ"), std::string::npos)
       << contact.err;
   EXPECT_EQ(palpate({"signals", folder.path()}).exitCode, 0);
   EXPECT_EQ(palpate({"signals", folder / "b.palpate", "--units-row"}).exitCode, 0);

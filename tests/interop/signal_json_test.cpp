@@ -131,6 +131,19 @@ TEST(SignalJson, SaysSlipForceAndTheHand) {
   EXPECT_EQ(json.at("link").at("frames_on_disk").asInteger(), 76);
 }
 
+TEST(SignalJson, ComponentsStandOfReadingsOnly) {
+  LiveResults results = sampleResults();
+  EXPECT_FALSE(parsed(results).at("m1").contains("z"));
+  TactileFrame frame = *results.frame;
+  frame.readings = {1.0F};
+  results.frame = std::make_shared<const TactileFrame>(frame);
+  results.matrixSignals.at(1).force = {3.0, -4.0, 12.0};
+  const Json json = parsed(results);
+  EXPECT_EQ(json.at("m1").at("y").asDouble(), -4.0);
+  EXPECT_EQ(json.at("m1").at("norm").asDouble(), 13.0);
+  EXPECT_FALSE(json.at("whole").contains("z"));
+}
+
 TEST(SignalJson, FurtherSeriesStandByTheirNames) {
   LiveResults results = sampleResults();
   EXPECT_FALSE(parsed(results).contains("series"));

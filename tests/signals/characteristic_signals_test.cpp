@@ -168,6 +168,45 @@ TEST(CharacteristicSignals, AllInOneAreTheSameNumbers) {
       EXPECT_EQ(valueOf(rows[i], kind), valueOf(expected[i], kind)) << "row " << i;
 }
 
+TEST(CharacteristicSignals, OfReadingsHaveTheSumsOfTheirComponents) {
+  MatrixLayout matrix = MatrixLayout::full(1, 3, 2.0);
+  matrix.touch = {.components = 3, .isSigned = true, .threshold = 5.0F};
+  matrix.dynamicMask[2] = 0;
+  TactileFrame frame(std::make_shared<SensorLayout>(std::vector{matrix, matrix}));
+  // Taxels that aren't touched count, those that aren't scanned don't.
+  frame.readings = {3, -2, 60, 0, 0, 1, 9, 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  const auto rest = std::make_shared<Baseline>();
+  rest->rest = std::vector<float>(18, 0.0F);
+  rest->rest[4] = 2.0F;  // y of the second taxel
+  decideTouch(frame, rest);
+  std::vector<CharacteristicSignals> rows;
+  allSignals(frame, rows);
+  const std::array<double, 3> expected = {3.0, -4.0, 61.0};
+  EXPECT_EQ(rows.at(0).force, expected);
+  EXPECT_EQ(characteristicSignals(frame, 0).force, expected);
+  EXPECT_EQ(valueOf(rows[0], SignalKind::kX), 3.0);
+  EXPECT_EQ(valueOf(rows[0], SignalKind::kY), -4.0);
+  EXPECT_EQ(valueOf(rows[0], SignalKind::kZ), 61.0);
+  EXPECT_DOUBLE_EQ(valueOf(rows[0], SignalKind::kNorm), std::sqrt(9.0 + 16.0 + 3721.0));
+  EXPECT_EQ(valueOf(rows[1], SignalKind::kNorm), 0.0);
+  EXPECT_TRUE(std::isnan(rows.at(2).force[2])) << "each matrix has axes of its own";
+  frame.readings.clear();  // as filters do
+  EXPECT_TRUE(std::isnan(characteristicSignals(frame, 0).force[2]));
+  EXPECT_EQ(characteristicSignals(TactileFrame(sdh2().layout), 0).force[2], 0.0);
+}
+
+TEST(SignalKinds, ComponentsAreThoseOfReadingsOnly) {
+  ASSERT_EQ(signalKinds(false).size(), kAllSignalKinds.size());
+  EXPECT_TRUE(std::ranges::equal(signalKinds(false), kAllSignalKinds));
+  ASSERT_EQ(signalKinds(true).size(), 11U);
+  for (std::size_t i = 0; i < 11; ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(signalKinds(true)[i]), i);
+    EXPECT_EQ(isComponent(signalKinds(true)[i]), i >= 7);
+    EXPECT_EQ(signalKindNamed(signalName(signalKinds(true)[i])), signalKinds(true)[i]);
+  }
+  EXPECT_EQ(signalName(SignalKind::kNorm), "norm");
+}
+
 // docs/commands.md: the columns of palpate signals.
 TEST(SignalNames, AreThoseOfTheTables) {
   std::set<std::string_view> names;

@@ -8,6 +8,9 @@
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/signals/formula.h"
+#include "palpate/signals/signal_name.h"
+#include "palpate/signals/signal_overview.h"
 
 #include "testing/damaged_profile.h"
 #include "testing/testing.h"
@@ -51,6 +54,32 @@ TEST(ProfileSeries, OfAMatrixIsItsSignal) {
   EXPECT_DOUBLE_EQ(series.values[4], 50.0);
   const Series whole = readSeries(profile, {Kind::kMatrix, 6, SignalKind::kSum}, 0.0, 9.0);
   EXPECT_DOUBLE_EQ(whole.values[4], 66.0);
+}
+
+TEST(ProfileSeries, ComponentsAreThoseOfMatricesWithReadings) {
+  MatrixLayout matrix = MatrixLayout::full(1, 1, 2.0);
+  matrix.touch = {.components = 3, .isSigned = true};
+  ProfileBuilder builder(std::make_shared<SensorLayout>(std::vector{matrix}));
+  const std::vector<float> readings = {3.0F, -4.0F, -12.0F};
+  builder.addReadings(kStartUs, readings);
+  const Profile profile = builder.finish({});
+  for (const auto& [name, value] :
+       {std::pair("m0_x", 3.0), {"m0_y", -4.0}, {"m0_z", -12.0}, {"m0_norm", 13.0}}) {
+    const auto choice = signalNamed(name, profile);
+    ASSERT_TRUE(choice) << name;
+    EXPECT_EQ(nameOf(*choice, profile.layout()), name);
+    EXPECT_EQ(readSeries(profile, *choice, 0.0, 1.0).values, std::vector<double>{value}) << name;
+    EXPECT_FALSE(signalNamed(name, small())) << "an SDH-2 has none";
+  }
+  EXPECT_FALSE(signalNamed("hand_x", profile)) << "each matrix has axes of its own";
+  EXPECT_FALSE(hasSeries(profile, {.index = 1, .signal = SignalKind::kX}));
+  EXPECT_FALSE(hasSeries(small(), {.index = 0, .signal = SignalKind::kX}));
+  EXPECT_EQ(formulaSeries(profile, Formula("m0_x - m0_y"), 0.0, 1.0).values,
+            std::vector<double>{7.0});
+  SignalOverview overview(profile);
+  overview.compute();
+  EXPECT_EQ(overview.of(0, SignalKind::kNorm).maximum(0), 13.0F);
+  EXPECT_THROW((void)SignalOverview(small()).of(0, SignalKind::kX), std::out_of_range);
 }
 
 TEST(ProfileSeries, OfTaxelsIsTheirMean) {

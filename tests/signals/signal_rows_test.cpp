@@ -8,6 +8,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/filter/filtered_profile.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 
@@ -73,6 +74,41 @@ TEST(SignalRows, HaveAUnitForEachColumn) {
             std::string::npos);
   EXPECT_EQ(columnNamed(signalColumns("kPa"), "max").column.unit, "kPa");
   EXPECT_EQ(columnNamed(signalColumns("kPa"), "active").column.unit, "taxels");
+}
+
+// Two taxels, x, y, z each, over a baseline of 1 everywhere: 3, -2, 60 and 1, 0, -4.
+Profile threeAxes() {
+  MatrixLayout matrix = MatrixLayout::full(1, 2, 2.0);
+  matrix.touch = {.components = 3, .isSigned = true, .threshold = 2.0F};
+  ProfileBuilder builder(std::make_shared<SensorLayout>(std::vector{matrix}));
+  const std::vector<float> readings = {4.0F, -1.0F, 61.0F, 2.0F, 1.0F, -3.0F};
+  builder.addReadings(1'000'000, readings);
+  const Baseline rest{.rest = std::vector<float>(6, 1.0F), .noise = {}};
+  return builder.finish({}).withBaselines({{0, std::make_shared<const Baseline>(rest)}});
+}
+
+std::string csvOf(const Profile& profile, const SignalRowsOptions& options = {}) {
+  std::string rows;
+  writeTableText(
+      *signalTable(profile, options), {}, [&](const std::string& text) { rows += text; });
+  return rows;
+}
+
+TEST(SignalRows, OfReadingsHaveTheSumsOfTheComponents) {
+  EXPECT_EQ(signalColumns("counts", true).size(), 11U);
+  EXPECT_EQ(columnNamed(signalColumns("kPa", true), "norm").column.unit, "kPa");
+  // The magnitudes of z are 60 and 4; x = 3 + 1, y = -2, z = 60 - 4, and sqrt(16 + 4 + 3136).
+  const std::string rows = csvOf(threeAxes());
+  EXPECT_NE(rows.find("area_mm2,x,y,z,norm\n"), std::string::npos) << rows;
+  EXPECT_NE(rows.find(",4,60,64,2,8,4,-2,56,56.17"), std::string::npos) << rows;
+  // Signs stay where the signals are filtered; one frame is its own filtered value.
+  const std::string smoothed =
+      csvOf(threeAxes(), {.smooth = parseRecipe(std::vector<std::string>{"kalman"})});
+  EXPECT_NE(smoothed.find(",4,-2,56,56.17"), std::string::npos) << smoothed;
+  // A filtered frame has no readings any more.
+  const std::vector<std::string> median = {"median"};
+  const std::string filtered = csvOf(filteredProfile(threeAxes(), parseRecipe(median)));
+  EXPECT_EQ(std::count(filtered.begin(), filtered.end(), ','), 2 * 9) << filtered;
 }
 
 }  // namespace

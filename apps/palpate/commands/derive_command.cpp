@@ -71,7 +71,8 @@ int deriveCommand(const Arguments& words) {
        .purpose =
            "Computes curves from signals by formulas and prints them as CSV: frame,time_s and a "
            "column for each formula. Signals: m1_mean, m1_filtered_mean, m1_min, m1_max, m1_sum, "
-           "m1_active, m1_area_mm2 of matrix 1; hand_sum and so on of the whole hand; m5_x2_y9 a "
+           "m1_active, m1_area_mm2 of matrix 1, with readings also m1_x, m1_y, m1_z, m1_norm; "
+           "hand_sum and so on of the whole hand; m5_x2_y9 a "
            "taxel (column 2, row 9); angle3 [deg] and temperature4 [deg C], interpolated at the "
            "frames; t [s]. Operators + - * / ^ ( ), comparisons and a ? b : c; functions abs sqrt "
            "min max exp ln sin .., and of signals: der(x), the slope of x over time [1/s]; "

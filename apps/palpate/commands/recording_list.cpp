@@ -161,8 +161,7 @@ constexpr std::size_t kMostTextAhead = 4u << 20;
 constexpr std::size_t kPieceOfRows = 1u << 16;  // bytes
 // Why a recording can't stand in a table whose columns and units are those of an earlier one.
 constexpr const char* kOtherColumns =
-    "its values have another unit, or other columns, than those of the recordings before; give it "
-    "a table of its own";
+    "its columns or units differ from those of the recordings before; write it to another table";
 class TooMuchText {};
 
 // What became of one recording before its turn.

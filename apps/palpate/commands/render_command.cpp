@@ -27,6 +27,7 @@
 #include "commands/recording_list.h"
 #include "commands/render_hand.h"
 #include "commands/render_movie.h"
+#include "gui/matrices/drawn_taxels.h"
 #include "gui/matrices/matrices_frame_painter.h"
 #include "gui/picture/ffmpeg.h"
 #include "gui/picture/picture_export.h"
@@ -197,6 +198,8 @@ void useOneRange(const Profile& profile,
   for (std::size_t i = span.first; i <= span.last; ++i) {
     profile.readFrame(i, frame);
     for (const float value : frame.values) largest = std::max(largest, value);
+    if (options.taxels == gui::TaxelView::kMagnitude)
+      largest = std::max(largest, static_cast<float>(gui::largestDrawn(frame, options.taxels)));
   }
   options.rangeMax = largest > 0.0F ? static_cast<double>(largest) : 1.0;
 }
@@ -415,6 +418,14 @@ int renderCommand(const Arguments& words) {
                    "the maximum of the frame, or of all frames of a series"},
                   {"interpolated", "", "smooth between the taxels"},
                   {"values", "", "print the value of every active taxel"},
+                  {"component",
+                   "normal|magnitude",
+                   "of readings with a sign or three components; default normal: z, with its sign "
+                   "on a diverging map"},
+                  {"arrows",
+                   "F",
+                   "length of the arrows of shear, 0..50; 1: a shear as large as the highest "
+                   "colour is one taxel long; default 2; 0: none"},
                   {"theme", "dark|light", "default light"},
                   {"force", "", "replace OUT"}},
       .example = "palpate render foam_ball.dsa --frame 2411 -o frame.svg --values",
@@ -435,6 +446,9 @@ int renderCommand(const Arguments& words) {
   if (const auto range = given.text("range")) parseRange(*range, options);
   options.interpolated = given.has("interpolated");
   options.values = given.has("values");
+  if (given.choice("component", {"normal", "magnitude"}) == "magnitude")
+    options.taxels = gui::TaxelView::kMagnitude;
+  options.arrows = given.number("arrows", 0.0, gui::kLongestArrows).value_or(options.arrows);
   const std::string theme = given.choice("theme", {"dark", "light"}).value_or("light");
   if (theme == "dark" && given.has("print"))
     throw UsageError("--print has a white background, not a dark one");

@@ -104,7 +104,11 @@ Series typedSeries(const Profile& profile,
     throw Error(file + ": " + error.what());
   }
   if (!hasSeries(profile, *signal.choice))
-    throw Error(file + ": has no " + nameOf(*signal.choice, profile.layout()));
+    throw Error(
+        file + ": has no " + nameOf(*signal.choice, profile.layout()) +
+        (signal.choice->kind == SeriesChoice::Kind::kMatrix && isComponent(signal.choice->signal)
+             ? ": only a matrix whose sensor sends readings has it, unfiltered"
+             : ""));
   return readSeries(profile, *signal.choice, fromS, toS, progress);
 }
 

@@ -3,7 +3,8 @@
 //
 // Series "signals": per matrix N `mN/mean`, `mN/filtered_mean`, `mN/max`, `mN/min`, `mN/sum` [unit
 // of the hand's taxels], `mN/active` [taxels], `mN/area_mm2` [mm^2]; the same of all matrices
-// together as `whole/..`. The values are those of `palpate signals`.
+// together as `whole/..`. With readings also `mN/x`, `mN/y`, `mN/z`, `mN/norm`. The values are
+// those of `palpate signals`.
 //
 // Series "slip": per matrix N `mN/active` [taxels], `mN/dx`, `mN/dy`, `mN/ref_dx`, `mN/ref_dy`
 // [taxels], `mN/rotation_deg`, `mN/ref_rotation_deg` [deg], `mN/confidence`, `mN/p_moved` (0..1),

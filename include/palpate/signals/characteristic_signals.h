@@ -28,10 +28,28 @@ struct CharacteristicSignals {
   double sum = 0.0;      // [counts]
   int active = 0;        // number of active taxels
   double areaMm2 = 0.0;  // active * taxel area [mm^2]
+  // x, y and z of the readings over their baseline (forceAt()), summed over all scanned taxels
+  // [unit of the readings]. 0 where the sensor sends no readings; NaN of a filtered frame, and of
+  // the whole hand, since each matrix has axes of its own.
+  std::array<double, 3> force = {};
 };
 
 // Names one of the characteristic signals.
-enum class SignalKind { kMean, kFilteredMean, kMaximum, kMinimum, kSum, kActive, kArea };
+enum class SignalKind {
+  kMean,
+  kFilteredMean,
+  kMaximum,
+  kMinimum,
+  kSum,
+  kActive,
+  kArea,
+  // The components of `force`, and its length.
+  kX,
+  kY,
+  kZ,
+  kNorm
+};
+// Those that every hand has.
 inline constexpr std::array kAllSignalKinds = {SignalKind::kMean,
                                                SignalKind::kFilteredMean,
                                                SignalKind::kMaximum,
@@ -39,9 +57,14 @@ inline constexpr std::array kAllSignalKinds = {SignalKind::kMean,
                                                SignalKind::kSum,
                                                SignalKind::kActive,
                                                SignalKind::kArea};
+// Whether only matrices with readings have it: kX, kY, kZ, kNorm.
+constexpr bool isComponent(SignalKind kind) noexcept { return kind >= SignalKind::kX; }
+// The signals of matrices with or without readings (Profile::givesReadings()), in the order of the
+// enumeration: kAllSignalKinds, with readings also the components.
+std::span<const SignalKind> signalKinds(bool withComponents) noexcept;
 double valueOf(const CharacteristicSignals& values, SignalKind which);
 // Name in tables, files and options: "mean", "filtered_mean", "max", "min", "sum", "active",
-// "area_mm2".
+// "area_mm2", "x", "y", "z", "norm".
 std::string_view signalName(SignalKind kind);
 std::optional<SignalKind> signalKindNamed(std::string_view name);
 

@@ -20,7 +20,8 @@ namespace palpate {
 // Selects one time series of a profile.
 struct SeriesChoice {
   enum class Kind {
-    // `signal` of matrix `index`; with index = number of matrices, of the whole hand.
+    // `signal` of matrix `index`; with index = number of matrices, of the whole hand,
+    // which has no components (isComponent()).
     kMatrix,
     // Mean value of `taxels` [counts]; unloaded taxels count as 0.
     kTaxels,

@@ -18,8 +18,9 @@
 
 namespace palpate {
 
-// Values in the order of kAllSignalKinds. A filtered number of active taxels can be a fraction.
-using SignalValues = std::array<double, kAllSignalKinds.size()>;
+// Values by SignalKind; components are 0 where they aren't filtered. A filtered number of active
+// taxels can be a fraction.
+using SignalValues = std::array<double, static_cast<std::size_t>(SignalKind::kNorm) + 1>;
 
 // Filters the characteristic signals of frames.
 class SignalFilter {
@@ -28,7 +29,11 @@ class SignalFilter {
   using Emit = std::function<void(std::int64_t hostUs, std::span<const SignalValues> rows)>;
 
   // Throws std::invalid_argument when the recipe has a filter over space, or without a matrix.
-  SignalFilter(const Recipe& recipe, std::size_t numMatrices, Emit emit);
+  // `withComponents`: filters kX, kY, kZ and kNorm, too; the length is that of the filtered vector.
+  SignalFilter(const Recipe& recipe,
+               std::size_t numMatrices,
+               Emit emit,
+               bool withComponents = false);
   ~SignalFilter();
   SignalFilter(const SignalFilter&) = delete;
   SignalFilter& operator=(const SignalFilter&) = delete;

@@ -1,6 +1,7 @@
 // The names of the signals of a recording, as formulas, the commands `derive`, `spectrum` and
 // `compare`, and the window write them (docs/analysis.md, "Names of signals"):
 //   m1_mean      mean of matrix 1; also filtered_mean, min, max, sum, active, area_mm2
+//   m1_x         with readings: their sum along x; also y, z, and norm, the length of the three
 //   hand_sum     the same of the whole hand
 //   m5_x2_y9     taxel of matrix 5 in column 2, row 9
 //   angle3       joint angle 3 [deg]

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <palpate/core/progress.h>
@@ -27,7 +28,7 @@ class SignalOverview {
   void compute(const Progress& progress = {});
 
   // The series of a matrix or, with row = number of matrices, of the whole hand. Throws
-  // std::out_of_range.
+  // std::out_of_range, also for a signal that the profile doesn't have (signalKinds()).
   const BucketSeries& of(std::size_t row, SignalKind kind) const;
   bool complete() const { return series_.front()->complete(); }
   // Time from the first frame that is ready [s].
@@ -42,6 +43,7 @@ class SignalOverview {
  private:
   Profile profile_;
   std::size_t numRows_;
+  std::span<const SignalKind> kinds_;
   std::vector<std::unique_ptr<BucketSeries>> series_;  // row after row, kind after kind
   TimingReport timing_;
   UnreadableSamples unreadable_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@
 
 namespace palpate {
 
-// The signals of a matrix, values in `unit`.
-std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit);
+// The signals of a matrix, values in `unit`. With components: of a profile with readings
+// (Profile::givesReadings()).
+std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit,
+                                                  bool withComponents = false);
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one

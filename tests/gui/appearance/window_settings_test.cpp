@@ -22,6 +22,8 @@ TEST_F(WindowSettingsTest, ReadBackAsWritten) {
   view.manualMin = 50.0;
   view.manualMax = 725.0;
   view.signal = PlottedSignal::kFilteredMean;
+  view.taxels = TaxelView::kMagnitude;
+  view.arrows = 0.0;
   view.speed = 0.25;
   {
     QSettings settings(ini_, QSettings::IniFormat);
@@ -36,6 +38,8 @@ TEST_F(WindowSettingsTest, ReadBackAsWritten) {
   EXPECT_EQ(back.manualMin, 50.0);
   EXPECT_EQ(back.manualMax, 725.0);
   EXPECT_EQ(back.signal, view.signal);
+  EXPECT_EQ(back.taxels, view.taxels);
+  EXPECT_EQ(back.arrows, 0.0);
   EXPECT_EQ(back.speed, 0.25);
 }
 

@@ -8,7 +8,9 @@
 
 #include "palpate/device/sdh2.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/model/touch.h"
 
+#include "gui/appearance/difference_map.h"
 #include "gui/hand3d/hand_picture.h"
 #include "gui/testing/sample_profiles.h"
 #include "testing/sdh2.h"
@@ -273,6 +275,43 @@ TEST_F(HandSceneBuilderTest, FindsTheTaxelUnderARay) {
     EXPECT_EQ(drawing_.taxelUnder(at - 60.0 * out, out, look_), std::nullopt);
   }
   EXPECT_EQ(drawing_.taxelUnder({0.0, 0.0, 500.0}, Eigen::Vector3d::UnitZ(), look_), std::nullopt);
+}
+
+// A pad of two taxels laid flat: pressed and sheared to the right and down, and pulled.
+TEST_F(HandSceneBuilderTest, ReadingsHaveSignsAndArrows) {
+  MatrixLayout matrix = MatrixLayout::full(1, 2, 2.0);
+  matrix.touch = {.components = 3, .isSigned = true, .threshold = 1.0F};
+  const HandDescription pad = describeHand(SensorLayout({matrix}), 0, 0);
+  drawing_.setHand(pad, true);
+  TactileFrame frame(pad.layout);
+  frame.readings = {30, 40, 100, 0, 0, -100};
+  decideTouch(frame, nullptr);
+  drawing_.setMoment(frame, {});
+  look_.range = {-100.0, 100.0};
+  look_.isSigned = true;
+  look_.arrows = 2.0;
+  fill();
+  const ColorTable& table = differenceTable(look_.theme);
+  EXPECT_EQ(numOf(table.front()), 6u);
+  EXPECT_EQ(numOf(table.back()), 6u);
+  ASSERT_EQ(scene_.lines.size(), 5u) << "a line and four of its head; the other isn't sheared";
+  // 2 * 2 mm * (30, 40) / 100, down is -y.
+  const Eigen::Vector3f way = scene_.lines[0].toMm - scene_.lines[0].fromMm;
+  EXPECT_LT((way - Eigen::Vector3f(1.2F, -1.6F, 0.0F)).norm(), 1e-5F);
+  look_.arrows = 0.0;
+  EXPECT_TRUE(fill().lines.empty());
+  look_.isSigned = false;
+  look_.view = TaxelView::kMagnitude;
+  look_.range = {0.0, 100.0};
+  fill();
+  EXPECT_EQ(numOf(colorTable(look_.map).back()), 12u);
+  HandLook other;
+  other.arrows = 5.0;
+  other.isSigned = true;
+  const HandLook taken = withColorsOf(look_, other);
+  EXPECT_EQ(taken.arrows, 5.0);
+  EXPECT_TRUE(taken.isSigned);
+  EXPECT_EQ(taken.view, TaxelView::kNormal);
 }
 
 TEST_F(HandSceneBuilderTest, WithoutAHandNothingIsDrawn) {

@@ -35,6 +35,24 @@ TEST(TaxelPatches, OnTheHandTheyFaceOutwardsAroundTheirCentre) {
     const Eigen::Vector3f middle =
         (patch.cornersMm[0] + patch.cornersMm[1] + patch.cornersMm[2] + patch.cornersMm[3]) / 4.0F;
     EXPECT_LT((middle - patch.centreMm).norm(), 0.05F);
+    EXPECT_NEAR(patch.alongX.dot(patch.alongY), 0.0F, 1e-3F);
+    EXPECT_NEAR(patch.alongX.norm(), 1.0F, 1e-5F);
+  }
+}
+
+TEST(TaxelPatches, TheirAxesPointToTheNextColumnAndTheNextRow) {
+  const HandGeometry geometry(sdh2Geometry());
+  TaxelPatches patches;
+  patchesOnHand(
+      geometry.pose({0.0, -10.0, 20.0, -10.0, 20.0, -10.0, 20.0}), *sdh2().layout, patches);
+  const SensorLayout& layout = *sdh2().layout;
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    const int columns = layout.matrix(m).columns;
+    const auto at = [&](int y, int x) -> const TaxelPatch& {
+      return patches[layout.offset(m) + static_cast<std::size_t>(y * columns + x)];
+    };
+    EXPECT_GT((at(6, 3).centreMm - at(6, 2).centreMm).dot(at(6, 2).alongX), 3.0F) << m;
+    EXPECT_GT((at(7, 2).centreMm - at(6, 2).centreMm).dot(at(6, 2).alongY), 3.0F) << m;
   }
 }
 
@@ -58,6 +76,8 @@ TEST(TaxelPatches, LaidFlatTheyLieLikeTheHeatMaps) {
     most = most.cwiseMax(patch.centreMm);
     EXPECT_GT(facing(patch).z(), 0.0F);
     EXPECT_EQ(patch.normal, Eigen::Vector3f::UnitZ());
+    EXPECT_EQ(patch.alongX, Eigen::Vector3f::UnitX());
+    EXPECT_EQ(patch.alongY, Eigen::Vector3f(-Eigen::Vector3f::UnitY()));
   }
   EXPECT_NEAR(least.x(), -most.x(), 1e-4F);  // around the origin
   EXPECT_NEAR(least.y(), -most.y(), 1e-4F);

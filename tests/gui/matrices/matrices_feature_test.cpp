@@ -1,6 +1,11 @@
 // The heat maps over the bench: what is chosen and marked belongs to the matrices that are shown.
 #include "gui/matrices/matrices_feature.h"
 
+#include <QComboBox>
+#include <QDoubleSpinBox>
+
+#include <palpate/model/profile_builder.h>
+
 #include "gui/matrices/matrices_panel.h"
 #include "gui/window_state/window_state_fixture.h"
 
@@ -27,6 +32,32 @@ TEST_F(MatricesFeatureTest, WhatIsChosenIsTheSameInViewAndModel) {
   EXPECT_EQ(view().selection(), chosen());
   view().clearSelection();
   EXPECT_TRUE(windowState_->selection.taxels().empty());
+}
+
+TEST_F(MatricesFeatureTest, ReadingsHaveChoicesOfTheirOwn) {
+  auto* view3 = feature_.panel().findChild<QComboBox*>("taxelsBox");
+  auto* arrows = feature_.panel().findChild<QDoubleSpinBox*>("arrowScale");
+  windowState_->displayed.show(recording("a"));
+  EXPECT_TRUE(view3->isHidden());
+  EXPECT_TRUE(arrows->isHidden());
+  EXPECT_FALSE(windowState_->displayed.givesReadings());
+  MatrixLayout matrix = MatrixLayout::full(1, 2, 2.0);
+  matrix.touch = {.components = 3, .isSigned = true, .threshold = 1.0F};
+  ProfileBuilder builder(std::make_shared<SensorLayout>(std::vector{matrix}));
+  const std::vector<float> readings = {30, 40, 120, 0, 0, -100};
+  builder.addReadings(1'000'000, readings);
+  windowState_->displayed.show(makeOpenedRecording("b", builder.finish({})));
+  EXPECT_TRUE(windowState_->displayed.givesReadings());
+  EXPECT_FALSE(view3->isHidden());
+  EXPECT_FALSE(arrows->isHidden());
+  feature_.panel().show(windowState_->displayed.recorded()->profile.frame(0));
+  EXPECT_TRUE(view().look().isSigned);
+  EXPECT_EQ(view().look().range, (ValueRange{-120.0, 120.0}));
+  arrows->setValue(4.0);
+  EXPECT_EQ(view().look().arrows, 4.0);
+  emit view3->activated(1);
+  EXPECT_FALSE(view().look().isSigned);
+  EXPECT_EQ(view().look().range, (ValueRange{0.0, 130.0})) << "30, 40, 120";
 }
 
 TEST_F(MatricesFeatureTest, WithoutAChoiceTheModelKnowsTheMatricesThatAreShown) {

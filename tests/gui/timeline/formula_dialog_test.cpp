@@ -190,6 +190,12 @@ TEST_F(FormulaDialogTest, WithoutARecordingThereIsNone) {
   EXPECT_EQ(actionsOf_.findChild<FormulaDialog*>("FormulaDialog"), nullptr);
 }
 
+TEST(FormulaSignals, TheWholeHandHasNoComponents) {
+  const Profile profile = synthesize({.durationS = 1.0, .grasps = 0});
+  for (const FormulaSignal& each : formulaSignals(profile, SignalKind::kZ, {}))
+    EXPECT_NE(each.name, "hand_z");
+}
+
 TEST(FormulaSignals, ColumnsOfFurtherSeriesAreSome) {
   const Profile profile = testing::withWrist(synthesize({.durationS = 1.0, .grasps = 0}), 10);
   const auto found = formulaSignals(profile, SignalKind::kMean, {});

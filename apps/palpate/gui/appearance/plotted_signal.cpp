@@ -16,6 +16,14 @@ QString nameOf(PlottedSignal signal) {
       return "active taxels";
     case PlottedSignal::kArea:
       return "active area";
+    case PlottedSignal::kX:
+      return "x";
+    case PlottedSignal::kY:
+      return "y";
+    case PlottedSignal::kZ:
+      return "z";
+    case PlottedSignal::kNorm:
+      return "norm";
     case PlottedSignal::kMean:
       break;
   }
@@ -36,6 +44,14 @@ QString meaningOf(PlottedSignal signal) {
       return "Number of taxels that read more than 0";
     case PlottedSignal::kArea:
       return "Active taxels times the area of a taxel";
+    case PlottedSignal::kX:
+      return "Sum of the readings towards the next column, over the baseline";
+    case PlottedSignal::kY:
+      return "Sum of the readings towards the next row, over the baseline";
+    case PlottedSignal::kZ:
+      return "Sum of the readings into the surface, over the baseline, with their signs";
+    case PlottedSignal::kNorm:
+      return "Length of the vector of x, y and z";
     case PlottedSignal::kMean:
       break;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QString>
+#include <array>
 
 #include <palpate/signals/characteristic_signals.h>
 
@@ -10,7 +11,22 @@
 namespace palpate::gui {
 
 using PlottedSignal = SignalKind;
-inline constexpr const auto& kAllPlottedSignals = kAllSignalKinds;
+// With those that only matrices with readings have, in the order of signalKinds(true).
+inline constexpr std::array kAllPlottedSignals = {PlottedSignal::kMean,
+                                                  PlottedSignal::kFilteredMean,
+                                                  PlottedSignal::kMaximum,
+                                                  PlottedSignal::kMinimum,
+                                                  PlottedSignal::kSum,
+                                                  PlottedSignal::kActive,
+                                                  PlottedSignal::kArea,
+                                                  PlottedSignal::kX,
+                                                  PlottedSignal::kY,
+                                                  PlottedSignal::kZ,
+                                                  PlottedSignal::kNorm};
+// The signal, or the sum where a source has no components.
+inline PlottedSignal plottable(PlottedSignal signal, bool withComponents) {
+  return isComponent(signal) && !withComponents ? PlottedSignal::kSum : signal;
+}
 
 // "mean", "filtered mean", ..; also the key in the settings.
 QString nameOf(PlottedSignal signal);

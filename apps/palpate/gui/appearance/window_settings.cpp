@@ -18,6 +18,8 @@ void viewFields(SettingsTable& table, ViewSettings& view) {
   table.choice("view/map", view.map, kAllColorMaps);
   table.flag("view/interpolated", view.interpolated);
   table.flag("view/values", view.values);
+  table.choice("view/taxels", view.taxels, kAllTaxelViews);
+  table.number("view/arrows", view.arrows, 0.0, kLongestArrows);
   table.choice("view/range", view.range, kAllRangeModes);
   table.number("view/manual_min", view.manualMin, 0.0, kLargestValue);
   table.number("view/manual_max", view.manualMax, 0.0, kLargestValue);

@@ -9,6 +9,7 @@
 #include "gui/appearance/color_map.h"
 #include "gui/appearance/display_units.h"
 #include "gui/appearance/plotted_signal.h"
+#include "gui/appearance/taxel_view.h"
 #include "gui/appearance/theme.h"
 
 namespace palpate::gui {
@@ -33,6 +34,8 @@ struct ViewSettings {
   ColorMapName map = ColorMapName::kInferno;
   bool interpolated = false;
   bool values = false;
+  TaxelView taxels = TaxelView::kNormal;
+  double arrows = kUsualArrows;  // factor of the arrows of shear; 0: none
   RangeMode range = RangeMode::kRecording;
   double manualMin = 0.0;  // [counts]
   double manualMax = 1000.0;

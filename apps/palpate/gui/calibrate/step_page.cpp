@@ -164,7 +164,7 @@ StepPage::StepPage(QWidget* parent) : ComputedPage("steps", parent) {
                   "stepSignal",
                   "Signal of the matrix; a calibration uses the filtered mean",
                   "Signal");
-  for (const PlottedSignal each : kAllPlottedSignals) signal_->addItem(nameOf(each));
+  for (const PlottedSignal each : kAllSignalKinds) signal_->addItem(nameOf(each));
   signal_->setCurrentText(nameOf(PlottedSignal::kFilteredMean));
   robust_ = named(
       new QCheckBox("Robust", this), "stepRobust", "Gives outliers less weight (Huber's loss)");

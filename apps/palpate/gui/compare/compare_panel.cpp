@@ -27,6 +27,7 @@
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/make.h"
+#include "gui/widgets/signal_box.h"
 
 namespace palpate::gui {
 namespace {
@@ -106,7 +107,7 @@ QWidget* ComparePanel::makeCurveHeader() {
     return made;
   };
   signal_ = box("compareSignal", "Plotted signal");
-  for (const PlottedSignal signal : kAllPlottedSignals) signal_->addItem(gui::nameOf(signal));
+  offerSignals(*signal_, false);
   matrix_ = box("compareMatrix", "Plotted matrix");
   overlayBox_ = box("compareOverlay", "Which curves the chart shows, all aligned with A");
   for (const CompareOverlay overlay : kAllCompareOverlays)
@@ -253,6 +254,7 @@ std::optional<TimeSpan> ComparePanel::common() const {
 }
 
 void ComparePanel::pairChanged() {
+  showSignal();
   worker_.abandon();
   answer_ = {};
   comparison_.reset();
@@ -302,6 +304,17 @@ void ComparePanel::fillMatrices() {
   signal_->setEnabled(!column());
 }
 
+bool ComparePanel::givesReadings() const { return a_ && a_->profile.givesReadings(); }
+
+PlottedSignal ComparePanel::plottedSignal() const {
+  return plottable(settings_.signal, givesReadings());
+}
+
+void ComparePanel::showSignal() {
+  offerSignals(*signal_, givesReadings());
+  signal_->setCurrentText(gui::nameOf(plottedSignal()));
+}
+
 const PlottedCurve* ComparePanel::column() const {
   const int behind = matrix_->count() - matrix_->currentIndex();
   const auto count = static_cast<int>(columns_.size());
@@ -310,7 +323,7 @@ const PlottedCurve* ComparePanel::column() const {
 }
 
 QString ComparePanel::baseUnit() const {
-  return column() ? column()->baseUnit : unitOf(settings_.signal, handUnit());
+  return column() ? column()->baseUnit : unitOf(plottedSignal(), handUnit());
 }
 
 void ComparePanel::setActive(bool on) {
@@ -344,7 +357,7 @@ void ComparePanel::ask() {
                .choice = column() ? column()->choice
                                   : SeriesChoice{.kind = SeriesChoice::Kind::kMatrix,
                                                  .index = matrix_->currentData().toULongLong(),
-                                                 .signal = settings_.signal},
+                                                 .signal = plottedSignal()},
                .graspA = graspA_,
                .graspB = graspB_,
                .overlay = overlay_,
@@ -480,7 +493,7 @@ void ComparePanel::setSettings(const ViewSettings& settings) {
   const bool otherSignal = settings.signal != settings_.signal;
   const bool otherUnits = settings.units != settings_.units;
   settings_ = settings;
-  signal_->setCurrentText(gui::nameOf(settings.signal));
+  showSignal();
   if (otherSignal) {
     asked_ = false;
     ask();
@@ -507,7 +520,7 @@ void ComparePanel::showCurves() {
                      .curveA = answer_.curveA,
                      .curveB = answer_.curveB,
                      .offsetS = answer_.offsetS,
-                     .signal = settings_.signal,
+                     .signal = plottedSignal(),
                      .column = column() ? std::optional(*column()) : std::nullopt,
                      .handUnit = handUnit(),
                      .units = settings_.units,
@@ -709,7 +722,7 @@ QString ComparePanel::figures() const {
   const CurveComparison& found = *answer_.figures;
   if (found.samples == 0) return overlaidText() + "no common time";
   const ShownUnit unit = column() ? ShownUnit{column()->unit, {.moreDecimals = 2}}
-                                  : shownUnit(settings_.signal, handUnit(), settings_.units);
+                                  : shownUnit(plottedSignal(), handUnit(), settings_.units);
   const auto shown = [&unit](double difference) {
     return unit.conversion.ofDifference(difference);
   };
@@ -835,7 +848,7 @@ TextTable ComparePanel::averageTable() const {
 TextTable ComparePanel::curveTable() const {
   TextTable table{.header = {"time_s", "frame_a", "a", "frame_b", "b"}};
   if (!answer_.curveA || !answer_.a || !answer_.b) return table;
-  const QString name = column() ? column()->name : gui::nameOf(settings_.signal);
+  const QString name = column() ? column()->name : gui::nameOf(plottedSignal());
   const std::string unit =
       (" " + name + (baseUnit().isEmpty() ? "" : " [" + baseUnit() + "]")).toStdString();
   table.header[2] += unit;

@@ -130,6 +130,10 @@ class ComparePanel : public QWidget {
   void showCurves();
   // Unit of the values of A.
   QString handUnit() const;
+  // What is compared of a matrix: of A, which may have readings.
+  bool givesReadings() const;
+  PlottedSignal plottedSignal() const;
+  void showSignal();
   // The column of a further series that is compared instead of a matrix; null: none.
   const PlottedCurve* column() const;
   // What tables have of it.

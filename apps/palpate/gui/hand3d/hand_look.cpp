@@ -38,6 +38,16 @@ QString nameOf(SphereLook look) {
   return {};
 }
 
+HandLook withColorsOf(HandLook look, const HandLook& other) {
+  look.map = other.map;
+  look.range = other.range;
+  look.view = other.view;
+  look.isSigned = other.isSigned;
+  look.arrows = other.arrows;
+  look.theme = other.theme;
+  return look;
+}
+
 namespace {
 
 void handLookFields(SettingsTable& table, HandLook& look) {

@@ -51,9 +51,15 @@ struct HandLook {
   // The same as in the heat maps.
   ColorMapName map = ColorMapName::kInferno;
   ValueRange range = {};
+  TaxelView view = TaxelView::kNormal;
+  bool isSigned = false;
+  double arrows = kUsualArrows;
   Theme theme = Theme::kDark;
   bool operator==(const HandLook&) const = default;
 };
+
+// The look with what it has in common with the heat maps from another one.
+HandLook withColorsOf(HandLook look, const HandLook& other);
 
 // Load and store the look in the settings; values that make no sense become the defaults.
 HandLook loadHandLook(const QSettings& settings);

@@ -143,15 +143,15 @@ void HandPanel::setColors(const MatricesLook& colors) {
   HandLook look = view_->look();
   look.map = colors.map;
   look.range = colors.range;
+  look.view = colors.taxels;
+  look.isSigned = colors.isSigned;
+  look.arrows = colors.arrows;
   look.theme = colors.theme;
   view_->setLook(look);
 }
 
 void HandPanel::setLook(const HandLook& wanted) {
-  HandLook look = wanted;
-  look.map = view_->look().map;
-  look.range = view_->look().range;
-  look.theme = view_->look().theme;
+  const HandLook look = withColorsOf(wanted, view_->look());
   view_->setLook(look);
   taxels_->setCurrentIndex(handPanelIndexOf(kAllTaxelShapes, look.taxels));
   spheres_->setCurrentIndex(handPanelIndexOf(kAllSphereLooks, look.sphere));

@@ -9,6 +9,7 @@
 #include <palpate/kinematics/joint_range.h>
 
 #include "gui/hand3d/hand_raster.h"
+#include "gui/matrices/drawn_taxels.h"
 
 namespace palpate::gui {
 namespace {
@@ -102,10 +103,17 @@ void handPicturePaintNotice(QPainter& painter,
 
 HandLook lookOf(const HandPictureOptions& options, const HandSceneBuilder& drawing) {
   HandLook look = options.look;
-  look.map = options.page.map;
-  look.range = {options.page.rangeMin, options.page.rangeMax};
-  if (const auto& frame = drawing.handState().frame) look.range = rangeOf(options.page, *frame);
-  look.theme = options.page.theme;
+  MatricesPictureOptions page = options.page;
+  look.map = page.map;
+  look.range = {page.rangeMin, page.rangeMax};
+  if (const auto& frame = drawing.handState().frame) {
+    page.isSigned = isDrawnSigned(*frame, page.taxels);
+    look.range = rangeOf(page, *frame);
+  }
+  look.view = page.taxels;
+  look.isSigned = page.isSigned;
+  look.arrows = page.arrows;
+  look.theme = page.theme;
   return look;
 }
 
@@ -145,8 +153,10 @@ void paintHandOverlay(QPainter& painter,
           kHandPictureBarWidth,
           height);
       painter.setRenderHint(QPainter::Antialiasing, false);
-      paintColorBar(
-          painter, bar, lookOf(options, drawing).range, withUnit(options.page, drawing.hand()));
+      const HandLook look = lookOf(options, drawing);
+      MatricesPictureOptions page = withUnit(options.page, drawing.hand());
+      page.isSigned = look.isSigned;
+      paintColorBar(painter, bar, look.range, page);
     }
   }
   painter.restore();

@@ -11,6 +11,8 @@
 #include <palpate/slip/object_motion.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/difference_map.h"
+#include "gui/matrices/drawn_taxels.h"
 #include "gui/matrices/matrices_painter.h"
 
 namespace palpate::gui {
@@ -27,6 +29,9 @@ constexpr float kBarShare = 0.8F;
 constexpr float kTallestBarMm = 30.0F;
 constexpr float kOutlineLiftMm = 0.45F;
 constexpr float kTaxelDotPx = 3.2F;
+constexpr double kShortestShearMm = 0.1;
+constexpr float kShearLiftMm = 0.6F;
+constexpr float kShearPx = 1.5F;
 // Opacity of an object once it is touched: the taxels behind it are seen.
 constexpr int kTouchedObjectAlpha = 70;
 // Share of the background colour in a greyed hand.
@@ -182,21 +187,29 @@ constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr int kLeastRank = 2;
 constexpr int kWholeRank = 6;
 
-void addHead(
-    HandScene& scene, const Vector3d& tip, const Vector3d& along, float widthPx, QRgb color) {
+void addHead(HandScene& scene,
+             const Vector3d& tip,
+             const Vector3d& along,
+             float widthPx,
+             QRgb color,
+             double headMm = kHeadMm) {
   const Vector3d side = along.unitOrthogonal(), other = along.cross(side);
   for (const Vector3d& way : {side, Vector3d(-side), other, Vector3d(-other)})
     scene.lines.push_back({tip.cast<float>(),
-                           (tip - kHeadMm * along + 0.45 * kHeadMm * way).cast<float>(),
+                           (tip - headMm * along + 0.45 * headMm * way).cast<float>(),
                            widthPx,
                            color});
 }
 
-void addArrow(
-    HandScene& scene, const Vector3d& from, const Vector3d& way, float widthPx, QRgb color) {
+void addArrow(HandScene& scene,
+              const Vector3d& from,
+              const Vector3d& way,
+              float widthPx,
+              QRgb color,
+              double headMm = kHeadMm) {
   const Vector3d tip = from + way;
   scene.lines.push_back({from.cast<float>(), tip.cast<float>(), widthPx, color});
-  addHead(scene, tip, way.normalized(), widthPx, color);
+  addHead(scene, tip, way.normalized(), widthPx, color, headMm);
 }
 
 // Adds an arc for a rotation about an axis through `centre`, as long as the angle.
@@ -357,18 +370,28 @@ void HandSceneBuilder::addObjects(HandScene& scene, const HandLook& look) const 
 
 void HandSceneBuilder::addTaxels(HandScene& scene, const HandLook& look) const {
   const TaxelPatches& places = patches(look);
-  const ColorTable& table = colorTable(look.map);
+  const ColorTable& table = look.isSigned ? differenceTable(look.theme) : colorTable(look.map);
   const ThemeColors& colors = colorsOf(look.theme);
-  QColor resting = colorsOf(Theme::kDark).taxel;  // as in the heat maps
+  // As in the heat maps.
+  QColor resting = look.isSigned ? colors.taxel : colorsOf(Theme::kDark).taxel;
   if (!posed() && !isFlat(look.taxels)) resting = mixed(resting, colors.window, kBodyVeil);
   const bool bars = look.taxels == TaxelShape::kBars || look.taxels == TaxelShape::kFlatBars;
-  const double span = std::max(1e-9, look.range.maximum - look.range.minimum);
+  // Bars of signed values are as long as their size.
+  const double lowest = look.isSigned ? 0.0 : look.range.minimum;
+  const double span = std::max(1e-9, look.range.maximum - lowest);
   const SensorLayout& layout = *hand_->layout;
   const float least = leastSeen(*hand_);
+  std::vector<MatrixValues> ofReadings;
+  if (handState_.frame && (look.isSigned || look.view == TaxelView::kMagnitude))
+    for (std::size_t m = 0; m < layout.numMatrices(); ++m)
+      ofReadings.push_back(drawnValues(*handState_.frame, m, look.view));
   eachTaxel(layout, look, [&](std::size_t place, std::size_t m, int y, int x) {
     const TaxelPatch& patch = places[place];
-    const float value = handState_.frame ? handState_.frame->allValues()[place] : 0.0F;
-    const bool active = handState_.frame && isSeen(handState_.frame->values[place], value, least);
+    const float value = !ofReadings.empty() ? ofReadings[m](y, x)
+                        : handState_.frame  ? handState_.frame->allValues()[place]
+                                            : 0.0F;
+    const float size = look.isSigned ? std::abs(value) : value;
+    const bool active = handState_.frame && isSeen(handState_.frame->values[place], size, least);
     const bool scanned = layout.matrix(m).enabled(y, x);
     const QRgb color =
         active ? table[static_cast<std::size_t>(colorIndex(
@@ -394,8 +417,8 @@ void HandSceneBuilder::addTaxels(HandScene& scene, const HandLook& look) const {
             active ? Vector3f(Vector3f::Zero()) : patch.normal,
             color);
     if (!bars || !active) return;
-    const double share = std::clamp(
-        (static_cast<double>(value) - std::min(0.0, look.range.minimum)) / span, 0.0, 1.0);
+    const double share =
+        std::clamp((static_cast<double>(size) - std::min(0.0, lowest)) / span, 0.0, 1.0);
     addBar(scene, patch, kTallestBarMm * static_cast<float>(share), color);
   });
 }
@@ -422,6 +445,7 @@ void HandSceneBuilder::fill(HandScene& scene,
   if (!flat) addObjects(scene, look);
   addTaxels(scene, look);
   addSelection(scene, look);
+  addShear(scene, look);
   if (look.normals) addNormals(scene, look);
   if (look.axes && !flat) addAxes(scene, look);
   if (flat) return;
@@ -640,6 +664,28 @@ void HandSceneBuilder::addNormals(HandScene& scene, const HandLook& look) const 
                                active ? touched : resting});
       }
   }
+}
+
+void HandSceneBuilder::addShear(HandScene& scene, const HandLook& look) const {
+  const double scale = arrowScale(look.range, look.arrows);
+  if (!handState_.frame || !(scale > 0.0) || !hasShear(*hand_->layout)) return;
+  const TaxelPatches& places = patches(look);
+  const QRgb color = colorsOf(look.theme).text.rgb();
+  eachTaxel(*hand_->layout, look, [&](std::size_t place, std::size_t m, int y, int x) {
+    const MatrixLayout& matrix = hand_->layout->matrix(m);
+    if (matrix.touch.components != 3 || !matrix.enabled(y, x)) return;
+    const TaxelPatch& patch = places[place];
+    const QPointF shear = scale * matrix.pitchMm * shearAt(*handState_.frame, {m, y, x});
+    if (std::hypot(shear.x(), shear.y()) < kShortestShearMm) return;
+    const Vector3f way =
+        static_cast<float>(shear.x()) * patch.alongX + static_cast<float>(shear.y()) * patch.alongY;
+    addArrow(scene,
+             (patch.centreMm + kShearLiftMm * patch.normal).cast<double>(),
+             way.cast<double>(),
+             kShearPx,
+             color,
+             std::min(0.4 * matrix.pitchMm, 0.4 * std::hypot(shear.x(), shear.y())));
+  });
 }
 
 void HandSceneBuilder::addAxes(HandScene& scene, const HandLook& look) const {

@@ -89,6 +89,7 @@ class HandSceneBuilder {
   void addObjects(HandScene& scene, const HandLook& look) const;
   void addTaxels(HandScene& scene, const HandLook& look) const;
   void addSelection(HandScene& scene, const HandLook& look) const;
+  void addShear(HandScene& scene, const HandLook& look) const;
   void addNormals(HandScene& scene, const HandLook& look) const;
   void addSphere(HandScene& scene, const HandLook& look, const HandCamera& camera) const;
   void addContacts(HandScene& scene, const HandLook& look) const;

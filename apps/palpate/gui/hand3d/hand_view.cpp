@@ -246,6 +246,9 @@ HandPictureOptions HandView::options() const {
   options.page.map = look_.map;
   options.page.rangeMin = look_.range.minimum;
   options.page.rangeMax = look_.range.maximum;
+  options.page.taxels = look_.view;
+  options.page.isSigned = look_.isSigned;
+  options.page.arrows = look_.arrows;
   options.page.theme = look_.theme;
   options.page.font = font();
   options.page.colorBar = colorBar_;

@@ -32,6 +32,8 @@ void patchesOnHand(const HandPose& pose, const SensorLayout& layout, TaxelPatche
       patch.centreMm = pose.positionMm(m, y, x).cast<float>();
       patch.normal = pose.normal(m, y, x).cast<float>();
       patch.cornersMm = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+      patch.alongX = (corner(0, 1) + corner(1, 1) - corner(0, 0) - corner(1, 0)).normalized();
+      patch.alongY = (corner(1, 0) + corner(1, 1) - corner(0, 0) - corner(0, 1)).normalized();
       // The sense of rotation of the corners depends on the surface's frame.
       const Eigen::Vector3f facing =
           (patch.cornersMm[1] - patch.cornersMm[0]).cross(patch.cornersMm[3] - patch.cornersMm[0]);
@@ -79,6 +81,8 @@ void patchesLaidFlat(const HandDescription& hand, TaxelPatches& out) {
       patch.cornersMm = {corner, corner + down, corner + down + right, corner + right};
       patch.centreMm = corner + 0.5F * (right + down);
       patch.normal = Eigen::Vector3f::UnitZ();
+      patch.alongX = Eigen::Vector3f::UnitX();
+      patch.alongY = -Eigen::Vector3f::UnitY();
     });
   }
 }

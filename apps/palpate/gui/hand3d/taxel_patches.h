@@ -19,6 +19,8 @@ struct TaxelPatch {
   std::array<Eigen::Vector3f, 4> cornersMm;
   Eigen::Vector3f centreMm;
   Eigen::Vector3f normal;
+  // Unit vectors along the surface, towards the next column and the next row.
+  Eigen::Vector3f alongX, alongY;
 };
 
 // One per place, matrix after matrix, row by row, as in a frame.

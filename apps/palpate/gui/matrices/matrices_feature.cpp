@@ -123,6 +123,12 @@ void MatricesFeature::connectLook() {
   });
   connect(panel_, &MatricesPanel::mapChosen, this, useMap);
   connect(panel_, &MatricesPanel::rangeChosen, this, useRange);
+  connect(panel_, &MatricesPanel::taxelsChosen, this, [&look](TaxelView taxels) {
+    look.change([&](ViewSettings& view) { view.taxels = taxels; });
+  });
+  connect(panel_, &MatricesPanel::arrowsChosen, this, [&look](double arrows) {
+    look.change([&](ViewSettings& view) { view.arrows = arrows; });
+  });
   connect(panel_, &MatricesPanel::manualRangeChosen, this, [&look](double low, double high) {
     look.change([&](ViewSettings& view) {
       view.manualMin = low;

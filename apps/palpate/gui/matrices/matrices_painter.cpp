@@ -3,12 +3,14 @@
 #include <QFontMetricsF>
 #include <QImage>
 #include <QPainter>
+#include <QPainterPath>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "gui/appearance/difference_map.h"
 #include "gui/appearance/hand_unit.h"
+#include "gui/matrices/drawn_taxels.h"
 #include "gui/matrices/heat_image.h"
 
 namespace palpate::gui {
@@ -19,6 +21,8 @@ constexpr double kGridLine = 1.0;        // [px] between squares
 constexpr double kValuesFrom = 11.0;     // [px] below this side numbers can't be read
 constexpr double kSmallestFontPx = 5.0;  // of values [px]
 constexpr double kLargestFontPx = 15.0;
+constexpr double kShortestArrow = 1.5;  // of shear that is drawn [px]
+constexpr double kArrowHead = 5.0;      // [px]
 
 QRectF squareOf(const QRectF& taxel) {
   if (taxel.width() < kGridFrom) return taxel;
@@ -36,14 +40,18 @@ double niceStep(double span, double parts) {
 
 QString tickText(double value) { return QString::number(value, 'g', 6); }
 
+bool diverges(const MatricesPictureOptions& options) {
+  return options.difference || options.isSigned;
+}
+
 // Taxels at rest are dark in both themes: on a light ground the weakest touch would be the darkest
-// place, and look like the strongest. Differences have a map for each theme.
+// place, and look like the strongest. The diverging map is another in each theme.
 const ThemeColors& cellColors(const MatricesPictureOptions& options) {
-  return colorsOf(options.difference ? options.theme : Theme::kDark);
+  return colorsOf(diverges(options) ? options.theme : Theme::kDark);
 }
 
 const ColorTable& tableOf(const MatricesPictureOptions& options) {
-  return options.difference ? differenceTable(options.theme) : colorTable(options.map);
+  return diverges(options) ? differenceTable(options.theme) : colorTable(options.map);
 }
 
 void paintTicks(QPainter& painter,
@@ -165,7 +173,7 @@ QFont valueFont(const MatricesPictureOptions& options, const HandDescription& ha
                       (decimalsOf(hand) > 0 ? decimalsOf(hand) + 1 : 0);
   // Four digits are about 2.6 times as wide as the font size.
   const double widthPerPx =
-      (options.difference ? 3.3 : 2.62) * static_cast<double>(std::max<qsizetype>(4, digits)) / 4.0;
+      (diverges(options) ? 3.3 : 2.62) * static_cast<double>(std::max<qsizetype>(4, digits)) / 4.0;
   const double px = std::clamp((side - 2.0) / widthPerPx, kSmallestFontPx, kLargestFontPx);
   font.setPixelSize(std::max(1, static_cast<int>(std::lround(px))));
   return font;
@@ -186,7 +194,7 @@ void paintColorBar(QPainter& painter,
   painter.setPen(colorsOf(options.theme).border);
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(bar);
-  if (!options.difference) {
+  if (!diverges(options)) {
     constexpr double kRestGapPx = 3.0, kRestHeightPx = 5.0;
     painter.setBrush(cellColors(options).taxel);
     painter.drawRect(QRectF(bar.left(), bar.bottom() + kRestGapPx, bar.width(), kRestHeightPx));
@@ -218,7 +226,14 @@ void paintTitle(QPainter& painter, const QRectF& rect, const MatricesPictureOpti
 }
 
 ValueRange rangeOf(const MatricesPictureOptions& options, const TactileFrame& frame) {
-  if (options.rangeMax > options.rangeMin) return {options.rangeMin, options.rangeMax};
+  const bool given = options.rangeMax > options.rangeMin;
+  if (options.isSigned) {
+    const double end = given ? std::max(std::abs(options.rangeMin), std::abs(options.rangeMax))
+                             : largestDrawn(frame, options.taxels);
+    return end > 0.0 ? ValueRange{-end, end} : ValueRange{-1.0, 1.0};
+  }
+  if (given) return {options.rangeMin, options.rangeMax};
+  if (const double drawn = largestDrawn(frame, options.taxels); drawn > 0.0) return {0.0, drawn};
   float largest = 0.0F;
   for (const float value : frame.allValues()) largest = std::max(largest, value);
   return {0.0, largest > 0.0F ? static_cast<double>(largest) : 1.0};
@@ -271,14 +286,20 @@ void paintMatrixValues(QPainter& painter,
                        const ValueRange& range,
                        const MatricesPictureOptions& options) {
   const MatrixLayout& layout = hand.layout->matrix(matrix);
-  const ConstMatrixMap values = frame.allValues(matrix);
+  const bool ofReadings =
+      !options.difference && (options.isSigned || options.taxels == TaxelView::kMagnitude);
+  const MatrixValues drawn =
+      ofReadings ? drawnValues(frame, matrix, options.taxels) : MatrixValues();
+  const ConstMatrixMap values = drawn.size() > 0
+                                    ? ConstMatrixMap(drawn.data(), drawn.rows(), drawn.cols())
+                                    : frame.allValues(matrix);
   const ConstMatrixMap contact = frame.matrix(matrix);
   const ColorTable& table = tableOf(options);
   const double side = geometry.taxelSide(matrix);
   const auto saturation = hand.saturationOf(matrix);
   HeatImageOptions image{options.map, range.minimum, range.maximum};
   image.least = static_cast<double>(leastSeen(hand));
-  if (options.difference) image.difference = &table;
+  if (diverges(options)) image.difference = &table;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing, false);
   const bool asImage = options.interpolated || side < kGridFrom;
@@ -295,18 +316,19 @@ void paintMatrixValues(QPainter& painter,
   for (int y = 0; y < layout.rows; ++y) {
     for (int x = 0; x < layout.columns; ++x) {
       const float value = values(y, x);
-      const bool seen = options.difference ? value != 0.0F : isSeen(contact(y, x), value, least);
+      const float size = options.isSigned ? std::abs(value) : value;
+      const bool seen = options.difference ? value != 0.0F : isSeen(contact(y, x), size, least);
       if (!seen || !layout.enabled(y, x)) continue;
       const int index = colorIndex(static_cast<double>(value), range.minimum, range.maximum);
       const QColor color = QColor::fromRgb(table[static_cast<std::size_t>(index)]);
       const QRectF square = squareOf(geometry.taxelRect(matrix, y, x));
       if (!asImage) painter.fillRect(square, color);
-      if (value >= saturation && !options.difference) paintSaturated(painter, square);
+      if (size >= saturation && !options.difference) paintSaturated(painter, square);
       if (!withText) continue;
       painter.setPen(contrasting(color));
       painter.drawText(square,
                        Qt::AlignCenter | Qt::TextDontClip,
-                       options.difference ? signedText(static_cast<double>(value), decimals)
+                       diverges(options) ? signedText(static_cast<double>(value), decimals)
                        : decimals == 0
                            ? QString::number(std::lround(value))
                            : QString::number(static_cast<double>(value), 'f', decimals));
@@ -315,19 +337,59 @@ void paintMatrixValues(QPainter& painter,
   painter.restore();
 }
 
+double arrowScale(const ValueRange& range, double arrows) {
+  return range.maximum > 0.0 ? arrows / range.maximum : 0.0;
+}
+
+void paintShear(QPainter& painter,
+                const MatricesGeometry& geometry,
+                std::size_t matrix,
+                const TactileFrame& frame,
+                const ValueRange& range,
+                const MatricesPictureOptions& options) {
+  const MatrixLayout& layout = frame.layout->matrix(matrix);
+  const double scale = arrowScale(range, options.arrows) * geometry.taxelSide(matrix);
+  if (options.difference || layout.touch.components != 3 || !(scale > 0.0)) return;
+  QPainterPath arrows;
+  for (int y = 0; y < layout.rows; ++y)
+    for (int x = 0; x < layout.columns; ++x) {
+      const QPointF way = scale * shearAt(frame, {matrix, y, x});
+      const double length = std::hypot(way.x(), way.y());
+      if (!(length >= kShortestArrow)) continue;
+      const QPointF tip = squareOf(geometry.taxelRect(matrix, y, x)).center() + way;
+      const QPointF back = std::min(kArrowHead, length / 2.0) / length * way;
+      const QPointF aside = 0.6 * QPointF(-back.y(), back.x());
+      arrows.moveTo(tip - way);
+      arrows.lineTo(tip);
+      arrows.moveTo(tip - back + aside);
+      arrows.lineTo(tip);
+      arrows.lineTo(tip - back - aside);
+    }
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  // White on black is visible on every colour of every map.
+  painter.strokePath(arrows, QPen(Qt::black, 3.5));
+  painter.strokePath(arrows, QPen(Qt::white, 1.5));
+  painter.restore();
+}
+
 void paintMatricesPicture(QPainter& painter,
                           const QRectF& area,
                           const TactileFrame& frame,
                           const HandDescription& hand,
-                          const MatricesPictureOptions& options) {
+                          const MatricesPictureOptions& given) {
   if (!frame.layout || !hand.layout || !(*frame.layout == *hand.layout) ||
       frame.values.size() != hand.layout->numCells())
     throw std::invalid_argument("paintMatricesPicture: the frame is not of this hand");
+  MatricesPictureOptions options = given;
+  options.isSigned = !options.difference && isDrawnSigned(frame, options.taxels);
   const MatricesGeometry geometry(area, hand, options);
   const ValueRange range = rangeOf(options, frame);
   paintMatricesBackground(painter, geometry, hand, range, options);
   for (std::size_t m = 0; m < geometry.numMatrices(); ++m)
     paintMatrixValues(painter, geometry, m, frame, hand, range, options);
+  for (std::size_t m = 0; m < geometry.numMatrices(); ++m)
+    paintShear(painter, geometry, m, frame, range, options);
 }
 
 }  // namespace palpate::gui

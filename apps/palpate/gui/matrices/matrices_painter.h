@@ -17,6 +17,7 @@
 #include <palpate/model/tactile_frame.h>
 
 #include "gui/appearance/color_map.h"
+#include "gui/appearance/taxel_view.h"
 #include "gui/appearance/theme.h"
 
 class QPainter;
@@ -46,6 +47,12 @@ struct MatricesPictureOptions {
   bool colorBar = true;
   // The values are signed: the difference map is used, with 0 in its middle.
   bool difference = false;
+  // What is drawn of readings, see gui/matrices/drawn_taxels.h.
+  TaxelView taxels = TaxelView::kNormal;
+  // isDrawnSigned(): the difference map shows the normal component, with 0 in its middle.
+  // paintMatricesPicture() sets it.
+  bool isSigned = false;
+  double arrows = kUsualArrows;  // factor of the arrows of shear; 0: none
   // Device pixels per pixel, so that taxels get whole device pixels; 0: exact sizes (vector
   // graphics).
   double pixelRatio = 0.0;
@@ -88,7 +95,7 @@ class MatricesGeometry {
   std::vector<QSizeF> sizes_;
 };
 
-// The value range of a frame according to `options`.
+// The value range of a frame according to `options`; of signed values as far below 0 as above.
 struct ValueRange {
   double minimum = 0.0;
   double maximum = 1.0;
@@ -128,6 +135,16 @@ void paintMatrixValues(QPainter& painter,
 QString matrixNameWithin(const HandDescription& hand,
                          std::size_t matrix,
                          const std::function<bool(const QString&)>& fits);
+
+// Length of an arrow per unit of shear, in sides of a taxel; 0: there are no arrows.
+double arrowScale(const ValueRange& range, double arrows);
+// Paints the shear of the touched taxels of a matrix as arrows from their centres.
+void paintShear(QPainter& painter,
+                const MatricesGeometry& geometry,
+                std::size_t matrix,
+                const TactileFrame& frame,
+                const ValueRange& range,
+                const MatricesPictureOptions& options);
 
 // Paints the colour bar with its values, above it the unit, and below it a field in the colour of
 // taxels that aren't touched, which isn't that of the smallest value; and title and caption in one

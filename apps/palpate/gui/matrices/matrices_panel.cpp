@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "gui/appearance/hand_unit.h"
+#include "gui/matrices/drawn_taxels.h"
 #include "gui/widgets/fitting_row.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/text_fit.h"
@@ -66,6 +67,24 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour");
   maximum_ = rangeField(header, "rangeMaximum", "Value of the highest colour");
   to_ = new QLabel("–", header);
+  taxels_ = named(new QComboBox(header), "taxelsBox");
+  taxels_->setFocusPolicy(Qt::ClickFocus);
+  taxels_->setToolTip("Normal component of the readings, or the length of all components");
+  for (const TaxelView view : kAllTaxelViews) taxels_->addItem(nameOf(view));
+  arrows_ = rangeField(header,
+                       "arrowScale",
+                       "Arrows of shear: with 1 a shear as large as the upper end of the colour "
+                       "range is one taxel long; 0: none");
+  arrows_->setPrefix("↗ ");
+  arrows_->setDecimals(1);
+  arrows_->setRange(0.0, kLongestArrows);
+  arrows_->setSingleStep(0.5);
+  arrows_->setSpecialValueText("no arrows");
+  fitToText(*arrows_, [this] {
+    arrows_->setFixedWidth(arrows_->fontMetrics().horizontalAdvance("no arrows") + 18);
+  });
+  taxels_->hide();
+  arrows_->hide();
 
   QHBoxLayout& row = header->row();
   row.setContentsMargins(12, 4, 10, 4);
@@ -75,6 +94,8 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   looks_ = {makeToolButton(header, interpolated), makeToolButton(header, values)};
   for (QToolButton* button : looks_) row.addWidget(button);
   row.addSpacing(6);
+  row.addWidget(taxels_);
+  row.addWidget(arrows_);
   row.addWidget(map_);
   row.addWidget(range_);
   row.addWidget(minimum_);
@@ -92,6 +113,10 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   connect(range_, &QComboBox::activated, this, [this](int index) {
     emit rangeChosen(kAllRangeModes[static_cast<std::size_t>(index)]);
   });
+  connect(taxels_, &QComboBox::activated, this, [this](int index) {
+    emit taxelsChosen(kAllTaxelViews[static_cast<std::size_t>(index)]);
+  });
+  connect(arrows_, &QDoubleSpinBox::valueChanged, this, &MatricesPanel::arrowsChosen);
   const auto manual = [this] {
     // A maximum that is not above the minimum is raised to minimum + 1.
     const double low = minimum_->value();
@@ -111,6 +136,7 @@ void MatricesPanel::resizeEvent(QResizeEvent* event) {
 
 void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {
   recording_ = recording;
+  largestMagnitude_ = 0.0;
   frame_ = TactileFrame();
   hand_.reset();
   if (!recording_) {
@@ -139,6 +165,9 @@ void MatricesPanel::setHand(const HandDescription& hand) {
 }
 
 void MatricesPanel::showUnit() {
+  const bool shears = hasShear(*hand_->layout);
+  taxels_->setVisible(shears || hasSign(*hand_->layout));
+  arrows_->setVisible(shears);
   const int decimals = decimalsOf(*hand_);
   const QSignalBlocker blockedMin(minimum_), blockedMax(maximum_);
   for (QDoubleSpinBox* field : {minimum_, maximum_}) {
@@ -153,11 +182,17 @@ void MatricesPanel::showUnit() {
 
 void MatricesPanel::show(const TactileFrame& frame) {
   frame_ = frame;
-  if (settings_.range == RangeMode::kFrame) {
+  const double drawn = largestShown();
+  if (settings_.range == RangeMode::kFrame ||
+      isDrawnSigned(frame_, settings_.taxels) != view_->look().isSigned) {
     applyLook();
+  } else if (recording_ && drawn > largestMagnitude_) {
+    // What is known of a recording are its values.
+    largestMagnitude_ = drawn;
+    renewRange();
   } else if (!recording_) {
-    const auto largest =
-        static_cast<double>(*std::max_element(frame_.values.begin(), frame_.values.end()));
+    const double largest = std::max(
+        drawn, static_cast<double>(*std::max_element(frame_.values.begin(), frame_.values.end())));
     // In steps, so that the colours don't change continuously while the force increases.
     if (largest > largestLive_) {
       const double step = liveRangePart(*hand_, kLiveStepPart);
@@ -175,6 +210,9 @@ void MatricesPanel::setSettings(const ViewSettings& settings) {
   range_->setCurrentIndex(
       static_cast<int>(std::find(kAllRangeModes.begin(), kAllRangeModes.end(), settings.range) -
                        kAllRangeModes.begin()));
+  const QSignalBlocker blockedArrows(arrows_);
+  taxels_->setCurrentText(nameOf(settings.taxels));
+  arrows_->setValue(settings.arrows);
   minimum_->setValue(settings.manualMin);
   maximum_->setValue(settings.manualMax);
   const bool manual = settings.range == RangeMode::kManual;
@@ -185,26 +223,35 @@ void MatricesPanel::setSettings(const ViewSettings& settings) {
   applyLook();
 }
 
+double MatricesPanel::largestShown() const {
+  return settings_.taxels == TaxelView::kMagnitude ? largestDrawn(frame_, settings_.taxels) : 0.0;
+}
+
 ValueRange MatricesPanel::rangeNow() const {
+  const bool isSigned = isDrawnSigned(frame_, settings_.taxels);
   const double scale = hand_ ? std::pow(10.0, decimalsOf(*hand_)) : 1.0;
   double maximum = 1.0 / scale;
   switch (settings_.range) {
     case RangeMode::kManual:
-      return {settings_.manualMin, settings_.manualMax};
+      return {isSigned ? -settings_.manualMax : settings_.manualMin, settings_.manualMax};
     case RangeMode::kFullScale:
       if (hand_) maximum = static_cast<double>(hand_->maximumCounts);
       break;
     case RangeMode::kFrame:
       for (const float value : frame_.values)
         maximum = std::max(maximum, static_cast<double>(value));
+      maximum = std::max(maximum, largestShown());
       break;
     case RangeMode::kRecording:
       maximum =
           std::max(maximum, recording_ ? recording_->maximumNow().value_or(0.0) : largestLive_);
+      if (settings_.taxels == TaxelView::kMagnitude)
+        maximum = std::max({maximum, largestMagnitude_, largestShown()});
       break;
   }
   // Filters produce fractions; the scale needs whole steps of the last decimal.
-  return {0.0, std::ceil(maximum * scale) / scale};
+  const double end = std::ceil(maximum * scale) / scale;
+  return {isSigned ? -end : 0.0, end};
 }
 
 void MatricesPanel::renewRange() {
@@ -216,6 +263,9 @@ void MatricesPanel::applyLook() {
                   .interpolated = settings_.interpolated,
                   .values = settings_.values,
                   .range = rangeNow(),
+                  .taxels = settings_.taxels,
+                  .isSigned = isDrawnSigned(frame_, settings_.taxels),
+                  .arrows = settings_.arrows,
                   .theme = shownTheme()});
   emit lookChanged(view_->look());
 }
@@ -228,6 +278,9 @@ MatricesPictureOptions MatricesPanel::pictureOptions() const {
   const ValueRange range = rangeNow();
   options.rangeMin = range.minimum;
   options.rangeMax = range.maximum;
+  options.taxels = settings_.taxels;
+  options.isSigned = isDrawnSigned(frame_, settings_.taxels);
+  options.arrows = settings_.arrows;
   options.theme = shownTheme();
   options.font = font();
   return options;

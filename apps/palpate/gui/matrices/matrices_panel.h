@@ -47,6 +47,8 @@ class MatricesPanel : public QWidget {
   void lookChanged(const palpate::gui::MatricesLook& look);
   void mapChosen(palpate::gui::ColorMapName map);
   void rangeChosen(palpate::gui::RangeMode mode);
+  void taxelsChosen(palpate::gui::TaxelView view);
+  void arrowsChosen(double factor);
   void manualRangeChosen(double minimum, double maximum);
 
  protected:
@@ -54,14 +56,18 @@ class MatricesPanel : public QWidget {
 
  private:
   ValueRange rangeNow() const;
+  // Of the magnitudes of the frame; 0 where others are shown.
+  double largestShown() const;
   void applyLook();
-  // Unit and decimals of the range fields.
+  // Unit and decimals of the range fields; which choices the hand's readings have.
   void showUnit();
 
   MatricesView* view_;
   QList<QToolButton*> looks_;
   QComboBox* map_;
   QComboBox* range_;
+  QComboBox* taxels_;
+  QDoubleSpinBox* arrows_;
   QDoubleSpinBox* minimum_;
   QLabel* to_;
   QDoubleSpinBox* maximum_;
@@ -69,6 +75,8 @@ class MatricesPanel : public QWidget {
   std::optional<HandDescription> hand_;
   // Upper end of the colour range of a live hand, in its unit.
   double largestLive_ = 0.0;
+  // Largest magnitude of the frames of a recording that were shown so far.
+  double largestMagnitude_ = 0.0;
   TactileFrame frame_;
   ViewSettings settings_;
 };

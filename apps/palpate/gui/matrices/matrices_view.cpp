@@ -72,7 +72,8 @@ void MatricesView::setPressure(std::shared_ptr<const PressureFrame> pressure) {
 
 void MatricesView::setFrame(const TactileFrame& frame) {
   if (!hand_) return;
-  const bool first = !frame_;
+  // Readings may shear or change their sign where the values stay; arrows leave their matrix.
+  const bool first = !frame_ || frame_->readings != frame.readings;
   QRegion changed;
   for (std::size_t m = 0; m < geometry_.numMatrices() && !first; ++m)
     if (frame.matrix(m) != static_cast<const TactileFrame&>(*frame_).matrix(m))
@@ -99,6 +100,9 @@ MatricesPictureOptions MatricesView::pictureOptions() const {
   options.rangeMin = look_.range.minimum;
   options.rangeMax = look_.range.maximum;
   options.theme = look_.theme;
+  options.taxels = look_.taxels;
+  options.isSigned = look_.isSigned;
+  options.arrows = look_.arrows;
   options.pixelRatio = devicePixelRatioF();
   options.font = font();
   return options;
@@ -133,6 +137,8 @@ void MatricesView::paintEvent(QPaintEvent* event) {
   for (std::size_t m = 0; frame_ && m < geometry_.numMatrices(); ++m)
     if (event->region().intersects(geometry_.matrixRect(m).toAlignedRect()))
       paintMatrixValues(painter, geometry_, m, *frame_, *hand_, look_.range, options);
+  for (std::size_t m = 0; frame_ && m < geometry_.numMatrices(); ++m)
+    paintShear(painter, geometry_, m, *frame_, look_.range, options);
   if (hover_) {
     painter.setPen(QPen(colorsOf(look_.theme).accent, 2.0));
     painter.setBrush(Qt::NoBrush);

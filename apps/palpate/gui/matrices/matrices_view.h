@@ -28,6 +28,9 @@ struct MatricesLook {
   bool interpolated = false;
   bool values = false;
   ValueRange range;
+  TaxelView taxels = TaxelView::kNormal;
+  bool isSigned = false;  // isDrawnSigned()
+  double arrows = kUsualArrows;
   Theme theme = Theme::kDark;
   bool operator==(const MatricesLook&) const = default;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <palpate/model/touch.h>
+
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
 
@@ -24,6 +26,21 @@ QString pressureText(const HandDescription& hand,
          (pressure->matrices[m].inRange ? "" : ", outside the measured range");
 }
 
+QString numberOf(const HandDescription& hand, float value) {
+  return value == std::round(value)
+             ? QString::number(std::lround(value))
+             : QString::number(static_cast<double>(value), 'f', std::max(2, decimalsOf(hand)));
+}
+
+// "-5", with three components "x 3, y -2, z 60".
+QString readingText(const HandDescription& hand,
+                    const TaxelPlace& place,
+                    const TactileFrame& frame) {
+  const auto [x, y, z] = forceAt(frame, place);
+  if (hand.layout->matrix(place.matrix).touch.components == 1) return numberOf(hand, z);
+  return "x " + numberOf(hand, x) + ", y " + numberOf(hand, y) + ", z " + numberOf(hand, z);
+}
+
 }  // namespace
 
 QString taxelText(const HandDescription& hand,
@@ -38,11 +55,11 @@ QString taxelText(const HandDescription& hand,
   if (!layout.enabled(y, x)) return where + "masked: not scanned";
   if (!frame) return where + "no frame yet";
   const float value = frame->allValues(m)(y, x);
-  if (!isTouched(value)) return where + "0 " + unitOf(hand) + ", at rest";
-  const QString number =
-      value == std::round(value)
-          ? QString::number(std::lround(value))
-          : QString::number(static_cast<double>(value), 'f', std::max(2, decimalsOf(hand)));
+  const bool ofReadings = !frame->readings.empty();
+  if (!ofReadings && !isTouched(value)) return where + "0 " + unitOf(hand) + ", at rest";
+  const QString number = ofReadings ? readingText(hand, place, *frame) : numberOf(hand, value);
+  if (ofReadings && !isTouched(frame->matrix(m)(y, x)))
+    return where + number + " " + unitOf(hand) + ", at rest";
   return where + number + " " + unitOf(hand) +
          (value >= hand.saturationOf(m) ? ", saturated" : "") +
          pressureText(hand, place, pressure, units);

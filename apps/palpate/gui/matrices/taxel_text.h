@@ -13,7 +13,8 @@
 
 namespace palpate::gui {
 
-// "finger 0 distal · x 3, y 5 · 812 counts"; with pressures also " · 12.3 kPa · 0.14 N".
+// "finger 0 distal · x 3, y 5 · 812 counts"; of readings all components, with their signs:
+// "pad · x 3, y 5 · x 3, y -2, z 60 counts"; with pressures also " · 12.3 kPa · 0.14 N".
 QString taxelText(const HandDescription& hand,
                   const TaxelPlace& place,
                   const std::optional<TactileFrame>& frame,

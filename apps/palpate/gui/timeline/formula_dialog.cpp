@@ -53,7 +53,9 @@ std::vector<FormulaSignal> formulaSignals(const Profile& profile,
   };
   if (chosen.count() == 1 && TaxelSelection(layout).sameSensor(chosen))
     add("the chosen taxel", {.kind = SeriesChoice::Kind::kTaxels, .taxels = chosen});
-  for (std::size_t m = 0; m <= layout.numMatrices(); ++m)
+  // The whole hand has no components.
+  const std::size_t rows = layout.numMatrices() + (isComponent(signal) ? 0 : 1);
+  for (std::size_t m = 0; m < rows; ++m)
     add((m < layout.numMatrices() ? QString::fromStdString(hand.matrixName(m))
                                   : QString("whole hand")) +
             " " + nameOf(signal),

@@ -53,7 +53,8 @@ QString nameOfEvent(const Event& event) {
 bool endsAtSaturation(const SeriesChoice& choice) {
   if (choice.kind == SeriesChoice::Kind::kTaxels) return true;
   return choice.kind == SeriesChoice::Kind::kMatrix && choice.signal != SignalKind::kSum &&
-         choice.signal != SignalKind::kActive && choice.signal != SignalKind::kArea;
+         choice.signal != SignalKind::kActive && choice.signal != SignalKind::kArea &&
+         !isComponent(choice.signal);
 }
 
 QLabel* wordsOn(QWidget* chart, const char* name) {

@@ -161,11 +161,7 @@ void TimelineFeature::connectSubject() {
           });
   ViewAppearance& look = state().appearance;
   followUnits(signalTree_);
-  connect(&look, &ViewAppearance::changed, this, [this, &look] {
-    header_->setSignal(look.view().signal);
-    checkChoice(actions_.signalsPlotted, kAllPlottedSignals, look.view().signal);
-    showCurves();
-  });
+  connect(&look, &ViewAppearance::changed, this, [this, &look] { showCurves(); });
   const auto useSignal = [&look](PlottedSignal signal) {
     look.change([&](ViewSettings& view) { view.signal = signal; });
   };
@@ -514,7 +510,7 @@ void TimelineFeature::askForFormula(const QString& name) {
   const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
   const Profile profile = profile_.value_or(recording->profile);
   std::vector<FormulaSignal> from =
-      formulaSignals(profile, state().appearance.view().signal, state().selection.taxels());
+      formulaSignals(profile, plottedSignal(), state().selection.taxels());
   // What is plotted comes first.
   const std::vector<PlottedCurve> shown = curves();
   std::stable_partition(from.begin(), from.end(), [&](const FormulaSignal& each) {
@@ -543,7 +539,7 @@ void TimelineFeature::askForFormula(const QString& name) {
 
 PlottedCurve TimelineFeature::matrixCurveOf(const HandDescription& hand, std::size_t row) const {
   const DisplayUnits& units = state().appearance.view().units;
-  const SignalKind signal = state().appearance.view().signal;
+  const PlottedSignal signal = plottedSignal();
   PlottedCurve made = matrixCurve(hand, row, signal, units);
   if (!extras_.calibrated || state().displayed.isLive()) return made;
   const bool isForce = signal == SignalKind::kSum;
@@ -562,6 +558,20 @@ PlottedCurve TimelineFeature::matrixCurveOf(const HandDescription& hand, std::si
   return made;
 }
 
+PlottedSignal TimelineFeature::plottedSignal() const {
+  return plottable(state().appearance.view().signal, state().displayed.givesReadings());
+}
+
+void TimelineFeature::showSignal() {
+  const bool components = state().displayed.givesReadings();
+  header_->setComponents(components);
+  header_->setSignal(plottedSignal());
+  const QList<QAction*> actions = actions_.signalsPlotted->actions();
+  for (qsizetype i = static_cast<qsizetype>(kAllSignalKinds.size()); i < actions.size(); ++i)
+    actions[i]->setVisible(components);
+  checkChoice(actions_.signalsPlotted, kAllPlottedSignals, plottedSignal());
+}
+
 std::vector<PlottedCurve> TimelineFeature::curves() const {
   std::vector<PlottedCurve> curves;
   const HandDescription* hand = state().displayed.hand();
@@ -569,7 +579,9 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   const DisplayUnits& units = state().appearance.view().units;
   const std::vector<bool>& plotted = state().selection.plotted();
   for (std::size_t row = 0; row < plotted.size(); ++row)
-    if (plotted[row]) curves.push_back(matrixCurveOf(*hand, row));
+    // The whole hand has no components.
+    if (plotted[row] && (row < hand->layout->numMatrices() || !isComponent(plottedSignal())))
+      curves.push_back(matrixCurveOf(*hand, row));
   const bool live = state().displayed.isLive();
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording && !live) return curves;
@@ -624,6 +636,7 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
 }
 
 void TimelineFeature::showCurves() {
+  showSignal();
   const bool live = state().displayed.isLive();
   const std::vector<PlottedCurve> now = curves();
   header_->setCurves(now);
@@ -767,9 +780,8 @@ std::vector<ExportedView> TimelineFeature::views() {
   view.widget = charts_;
   view.minHeightShare = kChartHeight;
   view.isThere = [&windowState] { return windowState.currentFrame.hasFrame(); };
-  view.fileName = [&windowState] {
-    return windowState.recordingStem() + "_" +
-           nameOf(windowState.appearance.view().signal).replace(' ', '_');
+  view.fileName = [this, &windowState] {
+    return windowState.recordingStem() + "_" + nameOf(plottedSignal()).replace(' ', '_');
   };
   view.paint = [this, &windowState](QPainter& painter, const PictureLook& look) {
     ChartPictureOptions options;

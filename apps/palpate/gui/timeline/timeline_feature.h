@@ -67,6 +67,9 @@ class TimelineFeature : public Feature {
   void takeLiveSeries(const LiveResults& results);
   // Those beside the series of the hand, of what is shown.
   std::vector<SeriesDescription> furtherSeries() const;
+  // What is plotted of each matrix, and the choices that show it.
+  PlottedSignal plottedSignal() const;
+  void showSignal();
   std::vector<PlottedCurve> curves() const;
   void showCurves();
   // Why a formula can't be computed on this recording; empty: it can.

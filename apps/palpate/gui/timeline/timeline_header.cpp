@@ -10,6 +10,7 @@
 
 #include "gui/chart/chart_style.h"
 #include "gui/widgets/make.h"
+#include "gui/widgets/signal_box.h"
 
 namespace palpate::gui {
 namespace {
@@ -130,10 +131,7 @@ TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidge
   signal_ = named(new QComboBox(this), "signalBox");
   signal_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   signal_->setToolTip("What is plotted of each ticked matrix");
-  for (const PlottedSignal signal : kAllPlottedSignals) {
-    signal_->addItem(nameOf(signal));
-    signal_->setItemData(signal_->count() - 1, meaningOf(signal), Qt::ToolTipRole);
-  }
+  offerSignals(*signal_, false);
   curves_ = makeToolButton(this, "curvesButton", "Curves");
   curves_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   curves_->setToolTip("Taxels, joint angles, temperatures and forces in the timeline");
@@ -171,6 +169,11 @@ TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidge
 }
 
 void TimelineHeader::setSignal(PlottedSignal signal) { signal_->setCurrentText(nameOf(signal)); }
+
+void TimelineHeader::setComponents(bool offered) {
+  if (signal_->count() != static_cast<int>(signalKinds(offered).size()))
+    offerSignals(*signal_, offered);
+}
 
 void TimelineHeader::setCurves(const std::vector<PlottedCurve>& curves) {
   std::vector<Legend::Entry> entries;

@@ -65,6 +65,8 @@ class TimelineHeader : public QWidget {
   };
   explicit TimelineHeader(const Actions& actions, QWidget* parent = nullptr);
   void setSignal(PlottedSignal signal);
+  // Whether x, y, z and their norm can be chosen.
+  void setComponents(bool offered);
   void setCurves(const std::vector<PlottedCurve>& curves);
   // "3.20 – 5.10 s · 61 frames"; empty: nothing is selected, no cursor is set.
   void setSelection(const QString& words);

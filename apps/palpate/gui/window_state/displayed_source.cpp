@@ -23,6 +23,11 @@ const HandDescription* DisplayedSource::hand() const {
   return unfiltered_ ? &unfiltered_->profile.hand() : nullptr;
 }
 
+bool DisplayedSource::givesReadings() const {
+  if (isLive()) return hand_ && hand_->layout->decidesTouch();
+  return filtered_ && filtered_->profile.givesReadings();
+}
+
 bool DisplayedSource::hasFrames() const { return isRecording() && playback_.hasFrames(); }
 
 void DisplayedSource::show(OpenedRecordingPtr recording) {

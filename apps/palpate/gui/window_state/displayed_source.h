@@ -44,6 +44,9 @@ class DisplayedSource : public QObject {
   LiveSource* source() const { return isLive() ? live_.source() : nullptr; }
   // The hand of the displayed source; null: nothing is shown.
   const HandDescription* hand() const;
+  // Whether its frames, as they are shown, have readings, and so components; of a live hand whether
+  // it sends them.
+  bool givesReadings() const;
   // Whether a recording with at least one frame is shown.
   bool hasFrames() const;
 
