@@ -12,6 +12,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/dsa_sensor.h"
@@ -194,6 +195,17 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout) {
   }
 }
 
+namespace {
+
+// Without them the readings would be taken for what presses.
+std::string touchRulesOfHand(const MetaRows& meta) {
+  const std::string json = meta["hand_json"];
+  if (json.empty()) throw Error("its rules of touch are damaged, and so is its hand");
+  return touchRulesText(*parseHand(json, meta["hand_urdf"], "the recording's hand").layout);
+}
+
+}  // namespace
+
 SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta) {
   const std::filesystem::path& path = database.path();
   std::vector<MatrixLayout> matrices;
@@ -223,7 +235,8 @@ SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta) {
   }
   try {
     const SensorLayout layout(std::move(matrices));
-    const std::string rules = meta[kTouchRulesKey];
+    const std::string rules =
+        meta.touchRulesDamaged ? touchRulesOfHand(meta) : meta[kTouchRulesKey];
     return rules.empty() ? layout : withTouchRules(layout, rules);
   } catch (const std::exception& error) {
     throw FormatError(path, std::string("the layout of its matrices is invalid: ") + error.what());
@@ -370,10 +383,12 @@ MetaRows readMeta(SqliteDatabase& database) {
   while (rows.next()) {
     std::string key = rows.text(0);
     std::string value = rows.text(1);
-    if (rows.integer(2) != static_cast<std::int64_t>(metaCrc(key, value)))
+    if (rows.integer(2) != static_cast<std::int64_t>(metaCrc(key, value))) {
       ++meta.damaged;
-    else
+      meta.touchRulesDamaged = meta.touchRulesDamaged || key == kTouchRulesKey;
+    } else {
       meta.values.insert_or_assign(std::move(key), std::move(value));
+    }
     if (meta.damaged + meta.values.size() > kMostRows)
       throw FormatError(database.path(), "has too many rows of meta data");
   }

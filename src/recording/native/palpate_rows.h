@@ -42,8 +42,8 @@ std::string maskText(const Mask& mask);
 void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view value);
 void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 
-// Reads the layout back. Throws FormatError where it is damaged or makes no sense.
-// With the rules of touch of a recording of readings.
+// Reads the layout back, with the rules of touch of a recording of readings; where these are
+// damaged, with those of its hand. Throws FormatError where it is damaged or makes no sense.
 struct MetaRows;
 SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta);
 
@@ -81,6 +81,7 @@ std::string samplesKey(Stream stream);
 struct MetaRows {
   RecordingMeta values;
   std::size_t damaged = 0;
+  bool touchRulesDamaged = false;
   // The value of a key; empty when there is none.
   std::string operator[](const std::string& key) const;
   std::optional<std::int64_t> integer(const std::string& key) const;
