@@ -52,7 +52,7 @@ void look(const std::shared_ptr<const SensorLayout>& layout,
   for (const float value : frame.allValues()) require(std::isfinite(value));
   require(frame.values[1] == 0.0F);
   for (int x = 0; x < 3; ++x)
-    for (const float part : forceAt(frame, {0, x, 0})) require(std::isfinite(part));
+    for (const float part : forceAt(frame, {0, 0, x})) require(std::isfinite(part));
 }
 
 }  // namespace
