@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -379,7 +380,7 @@ PlannedSeries planSeriesFile(const SeriesFile& wanted,
   if (!unused.empty()) p.note(reason::kNotUsed, {namesText(unused)});
   for (const std::string& note : p.plan.notes)
     plan.notes.push_back("series " + wanted.name + ": " + note);
-  for (const std::string& doubt : table->doubts(INFINITY))
+  for (const std::string& doubt : table->doubts(std::numeric_limits<double>::infinity()))
     plan.doubts.push_back("series " + wanted.name + ": " + doubt);
   return series;
 }

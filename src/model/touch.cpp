@@ -12,6 +12,8 @@
 namespace palpate {
 namespace {
 
+constexpr float kLargest = std::numeric_limits<float>::max();
+
 // Of the readings of one matrix.
 struct MatrixReadings {
   const MatrixLayout& layout;
@@ -19,8 +21,10 @@ struct MatrixReadings {
   const Baseline* baseline;
   std::size_t first;  // of the matrix among all readings
 
+  // Finite for any two readings.
   float difference(std::size_t i) const {
-    return readings[first + i] - (baseline ? baseline->rest[first + i] : 0.0F);
+    return std::clamp(
+        readings[first + i] - (baseline ? baseline->rest[first + i] : 0.0F), -kLargest, kLargest);
   }
   float limit(std::size_t i) const {
     const float noise = baseline && !baseline->noise.empty() ? baseline->noise[first + i] : 0.0F;
@@ -67,7 +71,8 @@ void decideTouch(TactileFrame& frame, std::shared_ptr<const Baseline> baseline) 
       const std::size_t z = place * step + step - 1;
       shown[place] = rule.isSigned ? std::abs(of.difference(z)) : of.difference(z);
       const float length =
-          step == 3 ? std::hypot(of.difference(z - 2), of.difference(z - 1), shown[place])
+          step == 3 ? std::min(std::hypot(of.difference(z - 2), of.difference(z - 1), shown[place]),
+                               kLargest)
                     : shown[place];
       float limit = of.limit(z);
       for (std::size_t k = place * step; k < z; ++k) limit = std::max(limit, of.limit(k));

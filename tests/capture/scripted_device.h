@@ -58,12 +58,14 @@ class ScriptedDevice : public Device {
   DeviceInfo says;
   // Host time since which no frame came, which is going on; 0: frames come.
   std::int64_t silentSinceUs = 0;
+  std::vector<SeriesDescription> further;  // before a session has the device
   // Called when the open gap was asked for.
   std::function<void()> afterOpenGap;
 
   ScriptedDevice() { state.tactile.port = "/dev/scripted"; }
   HandDescription described = sdh2();
   HandDescription hand() const override { return described; }
+  std::vector<SeriesDescription> series() const override { return further; }
   DeviceInfo info() const override { return says; }
   void start(DeviceSink& to) override {
     sink = &to;
@@ -101,9 +103,11 @@ struct ScriptedSession {
   std::size_t frames = 0;  // number of frames delivered by run()
   std::size_t samples = 0;
 
-  explicit ScriptedSession(CaptureOptions options = {}) {
+  explicit ScriptedSession(CaptureOptions options = {},
+                           std::vector<SeriesDescription> further = {}) {
     auto owned = std::make_unique<ScriptedDevice>();
     device = owned.get();
+    device->further = std::move(further);
     options.ownThread = false;
     session = std::make_unique<CaptureSession>(std::move(owned), std::move(options), clock);
     session->start();

@@ -1,5 +1,7 @@
 // Series of other sensors, recorded beside the hand in the same session.
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <mutex>
 #include <span>
@@ -180,6 +182,119 @@ TEST(SeriesRecording, EachPartHasThem) {
     EXPECT_EQ(profile.series()[kHandSeries].name, "cell");
   }
   EXPECT_EQ(samples, 220u);
+}
+
+TEST(SeriesRecording, AnMcapFileBesideItHoldsTheSameSeries) {
+  const TemporaryFolder folder;
+  Session bench({"wrist", "cell"});
+  RecordingOptions options;
+  options.path = folder / "a.palpate";
+  options.mcap.emplace();
+  bench.session->startRecording(options);
+  bench.frame();
+  bench.wires[1]->send("f[N],g[N]\n");
+  bench.rows(1, 20);
+  bench.rows(0, 30);
+  const RecordingReport report = bench.stop();
+  EXPECT_EQ(report.mcapFailure, "");
+  const Profile native = openRecording(folder / "a.palpate");
+  const Profile mcap = openRecording(folder / "a.mcap");
+  ASSERT_EQ(mcap.furtherSeries().size(), 2u);
+  for (std::size_t s = kHandSeries; s < native.series().size(); ++s) {
+    const auto same = std::ranges::find(mcap.series(), native.series()[s]);
+    ASSERT_NE(same, mcap.series().end()) << native.series()[s].name;
+    const auto at = static_cast<std::size_t>(same - mcap.series().begin());
+    ASSERT_EQ(mcap.numSamples(at), native.numSamples(s));
+    for (std::size_t i = 0; i < native.numSamples(s); ++i) {
+      EXPECT_EQ(mcap.sample(at, i).hostUs, native.sample(s, i).hostUs);
+      EXPECT_EQ(mcap.sample(at, i).values, native.sample(s, i).values);
+    }
+  }
+}
+
+// Bytes of a sender that are no rows, or rows from another clock, cost nothing of the others.
+TEST(SeriesRecording, BadRowsOfOneSourceLeaveTheOthersAsTheyAre) {
+  const TemporaryFolder folder;
+  Session bench({"early", "late", "bad"});
+  bench.record(folder / "a.palpate");
+  bench.frame();
+  const auto send = [&](std::size_t i, const std::string& text) {
+    const std::uint64_t before = bench.rowsOf(i);
+    bench.clock.pass(5'000);
+    bench.wires[i]->send(text);
+    ASSERT_TRUE(awaited([&] { return bench.rowsOf(i) == before + 1; })) << text;
+    bench.frame();
+  };
+  bench.wires[0]->send("time_s,f[N]\n");
+  bench.wires[1]->send("time_s,f[N]\n");
+  bench.wires[2]->send("time_s,f[N],g[N]\n");
+  for (int n = 0; n < 20; ++n) {
+    const std::string row = std::to_string(n) + "\n";
+    send(0, std::to_string(1'000.0 + 0.01 * n) + "," + row);
+    send(1, std::to_string(4'600.0 + 0.01 * n) + "," + row);  // an hour later
+    // A time that is back, and NaN; then other columns, too many numbers, none, an infinite one.
+    send(2,
+         std::to_string(100 - n) + ",nan," + row +
+             "u[V],v[V]\n1,2\ntime_s,f[N],g[N]\n1,2,3,4\n;;;;\n1,inf,2\n");
+  }
+  ASSERT_TRUE(
+      awaited([&] { return bench.session->seriesSources()[2]->status().port.suspect == 100; }));
+  const RecordingReport report = bench.stop();
+  EXPECT_TRUE(report.complete) << report.message;
+  EXPECT_EQ(report.counter("series_early_lost"), 0);
+  EXPECT_EQ(report.counter("series_bad_lost"), 0);
+  EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
+  const Profile profile = openRecording(folder / "a.palpate");
+  ASSERT_EQ(profile.furtherSeries().size(), 3u);
+  EXPECT_EQ(profile.numFrames(), 61u);
+  for (std::size_t s = kHandSeries; s < kHandSeries + 3; ++s) {
+    ASSERT_EQ(profile.numSamples(s), 20u);
+    const bool isBad = profile.series()[s].name == "bad";
+    const double firstS = profile.series()[s].name == "early" ? 1'000.0 : 4'600.0;
+    for (std::size_t n = 0; n < 20; ++n) {
+      const Sample sample = profile.sample(s, n);
+      EXPECT_EQ(sample.values.back(), static_cast<double>(n));
+      EXPECT_EQ(std::isnan(sample.values.front()), isBad);
+      // Arrivals are in the order of the host, whatever the clocks of the senders say.
+      EXPECT_LT(std::abs(sample.hostUs - profile.frameTimeUs(3 * n + 1)), 15'001);
+      ASSERT_TRUE(sample.deviceUs.has_value());
+      if (isBad) {
+        EXPECT_GE(*sample.deviceUs, profile.sample(s, n == 0 ? 0 : n - 1).deviceUs.value_or(-1));
+      } else {
+        EXPECT_NEAR(static_cast<double>(*sample.deviceUs),
+                    1e6 * (firstS + 0.01 * static_cast<double>(n)),
+                    1.0);
+      }
+    }
+  }
+}
+
+TEST(SeriesRecording, ASeriesThatStopsForGoodIsAnOpenGapAndAnAlarm) {
+  const TemporaryFolder folder;
+  Session bench({"wrist", "cell"});
+  bench.record(folder / "a.palpate");
+  bench.frame();
+  bench.rows(0, 50);
+  bench.rows(1, 50);  // meanwhile the other one is silent
+  const auto state = [&] { return bench.session->seriesSources()[0]->status().port.state; };
+  ASSERT_TRUE(awaited([&] {
+    bench.clock.pass(100'000);
+    bench.frame();
+    return state() == PortState::kSilent;
+  }));
+  const RecordingReport report = bench.stop();
+  EXPECT_EQ(report.series.at(0).samples, 50);
+  EXPECT_GT(report.counter("series_wrist_lost"), 40) << "also those of the gap without an end";
+  const Recording read = readableRecording(folder / "a.palpate");
+  EXPECT_EQ(std::ranges::count_if(read.events,
+                                  [](const Event& event) {
+                                    return event.kind == "gap" &&
+                                           event.json.find("\"wrist\"") != std::string::npos;
+                                  }),
+            1);
+  EXPECT_TRUE(std::ranges::any_of(read.events, [](const Event& event) {
+    return event.kind == "alarm" && event.text.find("wrist") != std::string::npos;
+  }));
 }
 
 TEST(SeriesRecording, AnUnpluggedSourceIsAGapAndTheHandGoesOn) {

@@ -6,9 +6,11 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <memory>
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +19,7 @@
 #include "palpate/emulator/emulated_hand.h"
 #include "palpate/recording/recording.h"
 
+#include "commands/numbered_series.h"
 #include "emulator/numbered_hand.h"
 #include "testing/awaited.h"
 #include "testing/background_program.h"
@@ -27,7 +30,8 @@ namespace palpate::testing {
 struct KillFigures {
   int kills = 0;
   int opened = 0;
-  std::uint64_t frames = 0;  // in all files
+  std::uint64_t frames = 0;   // in all files
+  std::uint64_t samples = 0;  // of the series, in all files
   // from the first frame that left the hand and isn't in the file to the kill
   double mostLostMs = 0.0;
   int withJournal = 0;  // killed inside of a commit
@@ -36,15 +40,26 @@ struct KillFigures {
 // One emulated hand, many recorders one after another.
 class KilledRecordings {
  public:
-  KilledRecordings(const std::string& program, EmulatedHandOptions options, unsigned seed)
-      : program_(program), hand_(std::make_unique<NumberedHand>(), options), random_(seed) {}
+  // `series`: of how many senders rows are recorded beside the hand, up to three.
+  KilledRecordings(const std::string& program,
+                   EmulatedHandOptions options,
+                   unsigned seed,
+                   std::size_t series = 0)
+      : program_(program), hand_(std::make_unique<NumberedHand>(), options), random_(seed) {
+    constexpr std::pair<const char*, double> kSenders[] = {
+        {"cell", 1000.0}, {"imu", 200.0}, {"wrist", 20.0}};
+    for (std::size_t i = 0; i < series; ++i)
+      series_.push_back(std::make_unique<NumberedSeries>(kSenders[i].first, kSenders[i].second));
+  }
 
   void round() {
     const TemporaryFolder folder;
     const auto file = folder / "killed.palpate";
-    BackgroundProgram recorder(
-        program_,
-        {"record", "--dsa", hand_.dsaPort(), "--sdh", hand_.sdhPort(), "-o", file, "--quiet"});
+    std::vector<std::string> arguments{
+        "record", "--dsa", hand_.dsaPort(), "--sdh", hand_.sdhPort(), "-o", file, "--quiet"};
+    for (const auto& each : series_)
+      arguments.insert(arguments.end(), {"--series", each->option()});
+    BackgroundProgram recorder(program_, arguments);
     // Streams left over by the one killed before are stopped first: a file tells that this one
     // records.
     ASSERT_TRUE(awaited([&] { return std::filesystem::exists(file); })) << recorder.err();
@@ -98,16 +113,61 @@ class KilledRecordings {
           std::max(figures_.mostLostMs, static_cast<double>(killUs - sent.hostUs) / 1000.0);
       break;
     }
+    if (!series_.empty()) checkSeries(folder, file, profile, killUs);
+  }
+
+  // Each series has its rows from the first one on, none is missing inside; recovery gives as many
+  // of each stream.
+  void checkSeries(const std::filesystem::path& folder,
+                   const std::filesystem::path& file,
+                   const Profile& profile,
+                   std::int64_t killUs) {
+    const Profile recovered = [&] {
+      recoverRecording(file, folder / "recovered.palpate");
+      return openRecording(folder / "recovered.palpate");
+    }();
+    EXPECT_EQ(recovered.numFrames(), profile.numFrames());
+    ASSERT_EQ(recovered.series(), profile.series());
+    for (std::size_t s = 0; s < profile.series().size(); ++s)
+      EXPECT_EQ(recovered.numSamples(s), profile.numSamples(s)) << profile.series()[s].name;
+    for (std::size_t s = kHandSeries; s < profile.series().size(); ++s) {
+      SCOPED_TRACE(profile.series()[s].name);
+      EXPECT_EQ(profile.series()[s].columns, (std::vector<Column>{{"n", ""}, {"m", "N"}}));
+      std::int64_t lastUs = 0;
+      double first = 0.0;
+      for (std::size_t i = 0; i < profile.numSamples(s); ++i) {
+        const Sample sample = profile.sample(s, i);
+        ASSERT_GT(sample.hostUs, lastUs);
+        lastUs = sample.hostUs;
+        if (i == 0) first = sample.values[0];
+        const double n = first + static_cast<double>(i);
+        ASSERT_EQ(sample.values, (std::vector<double>{n, -2.0 * n}));
+      }
+      figures_.samples += profile.numSamples(s);
+      const auto sender = std::find_if(series_.begin(), series_.end(), [&](const auto& each) {
+        return each->name() == profile.series()[s].name;
+      });
+      ASSERT_NE(sender, series_.end());
+      const std::vector<std::int64_t> sentUs = (*sender)->sentUs();
+      const auto next = static_cast<std::size_t>(first) + profile.numSamples(s) - 1;  // not saved
+      if (profile.numSamples(s) > 0 && next < sentUs.size() && sentUs[next] < killUs)
+        figures_.mostLostMs =
+            std::max(figures_.mostLostMs, static_cast<double>(killUs - sentUs[next]) / 1000.0);
+    }
   }
 
   std::string program_;
   EmulatedHand hand_;
+  std::vector<std::unique_ptr<NumberedSeries>> series_;
   std::mt19937 random_;
   KillFigures figures_;
 };
 
-// `kills` over four hands at a time, half of them at 300 frames/s.
-inline KillFigures killRecordings(const std::string& program, int kills, int hands) {
+// `kills` over four hands at a time, half of them at 300 frames/s, each with `series` senders.
+inline KillFigures killRecordings(const std::string& program,
+                                  int kills,
+                                  int hands,
+                                  std::size_t series = 0) {
   std::vector<KillFigures> figures(static_cast<std::size_t>(hands));
   std::vector<std::jthread> workers;
   for (int h = 0; h < hands; ++h)
@@ -117,7 +177,7 @@ inline KillFigures killRecordings(const std::string& program, int kills, int han
         options.rate = EmulationRate::kFixed;
         options.hz = 300.0;
       }
-      KilledRecordings recordings(program, options, static_cast<unsigned>(h) + 1);
+      KilledRecordings recordings(program, options, static_cast<unsigned>(h) + 1, series);
       for (int k = h; k < kills && !::testing::Test::HasFatalFailure(); k += hands)
         recordings.round();
       figures[static_cast<std::size_t>(h)] = recordings.figures();
@@ -128,15 +188,18 @@ inline KillFigures killRecordings(const std::string& program, int kills, int han
     all.kills += one.kills;
     all.opened += one.opened;
     all.frames += one.frames;
+    all.samples += one.samples;
     all.withJournal += one.withJournal;
     all.mostLostMs = std::max(all.mostLostMs, one.mostLostMs);
   }
-  std::printf("%d kills, %d files open, %llu frames, %d journals, at most %.0f ms lost\n",
-              all.kills,
-              all.opened,
-              static_cast<unsigned long long>(all.frames),
-              all.withJournal,
-              all.mostLostMs);
+  std::printf(
+      "%d kills, %d files open, %llu frames, %llu samples, %d journals, at most %.0f ms lost\n",
+      all.kills,
+      all.opened,
+      static_cast<unsigned long long>(all.frames),
+      static_cast<unsigned long long>(all.samples),
+      all.withJournal,
+      all.mostLostMs);
   return all;
 }
 

@@ -14,5 +14,11 @@ TEST_P(KillRecordingSlow, TwoHundredAndFiftyKills) {
   EXPECT_LE(figures.mostLostMs, 150.0);
 }
 
+TEST(KillRecordingSlow, AHundredKillsOfFourSources) {
+  const KillFigures figures = killRecordings(PALPATE_PROGRAM, 100, 2, 3);
+  EXPECT_EQ(figures.opened, 100);
+  EXPECT_LE(figures.mostLostMs, 150.0);
+}
+
 }  // namespace
 }  // namespace palpate::testing::kill_recording_slow_test

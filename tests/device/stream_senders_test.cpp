@@ -6,12 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "palpate/capture/capture_session.h"
+#include "palpate/device/series_source.h"
 #include "palpate/device/stream_device.h"
 #include "palpate/device/stream_lines.h"
 #include "palpate/device/stream_packets.h"
 #include "palpate/recording/recording.h"
 
 #include "device/arduino_stub.h"
+#include "device/collecting_sink.h"
 #include "device/stream_hands.h"
 #include "testing/awaited.h"
 #include "testing/background_program.h"
@@ -86,6 +88,31 @@ TEST(StreamSenders, EveryValueOfThePythonLinesIsRecorded) {
 
 TEST(StreamSenders, EveryValueOfThePythonPacketsIsRecorded) {
   recordAndCompare("send_packets.py", 0.25F, "P7");
+}
+
+TEST(StreamSenders, EveryRowOfThePythonSeriesIsRead) {
+  constexpr std::size_t kRows = 50;
+  BackgroundProgram program("/usr/bin/python3",
+                            {PALPATE_STREAM_SENDERS "/send_series.py", "0", std::to_string(kRows)});
+  const auto port = program.awaitLine("");
+  ASSERT_TRUE(port.has_value()) << program.err();
+  CollectingSink sink;
+  SeriesSource source({.name = "cell", .source = "tcp:127.0.0.1:" + *port});
+  source.start(sink, kHandSeries);
+  ASSERT_TRUE(awaited([&] { return source.status().port.items == kRows; })) << source.lastFault();
+  EXPECT_EQ(program.wait(), 0) << program.err();
+  source.stop();
+  EXPECT_EQ(source.description().columns, (std::vector<Column>{{"force", "N"}, {"count", ""}}));
+  EXPECT_EQ(source.status().port.suspect, 0u);
+  EXPECT_EQ(source.status().port.lost, 0u);
+  ASSERT_EQ(sink.temperatures.size(), kRows);  // all samples that are no angles
+  for (std::size_t n = 0; n < kRows; ++n) {
+    const Sample& sample = sink.temperatures[n];
+    const auto number = static_cast<double>(n);
+    EXPECT_EQ(sample.values, (std::vector<double>{0.5 * number, -number}));
+    ASSERT_TRUE(sample.deviceUs);
+    EXPECT_GE(*sample.deviceUs, sink.temperatures[n == 0 ? 0 : n - 1].deviceUs.value_or(0));
+  }
 }
 
 TEST(StreamSenders, TheArduinoLinesAreRead) {

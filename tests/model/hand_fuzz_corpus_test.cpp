@@ -3,7 +3,7 @@
 namespace palpate::testing::hand_fuzz_corpus_test {
 namespace {
 
-TEST(HandFuzzCorpus, ReplaysWithoutHarm) { expectCorpusReplays(PALPATE_FUZZ_CORPUS, 8); }
+TEST(HandFuzzCorpus, ReplaysWithoutHarm) { expectCorpusReplays(PALPATE_FUZZ_CORPUS, 11); }
 
 }  // namespace
 }  // namespace palpate::testing::hand_fuzz_corpus_test

@@ -1,5 +1,6 @@
 #include "palpate/recording/mcap_recording.h"
 
+#include <cmath>
 #include <csignal>
 #include <random>
 #include <thread>
@@ -733,6 +734,40 @@ TEST(McapLiveWriter, whatIsFlushedCanBeReadBeforeTheEnd) {
   const Recording whole = readMcap(folder / "a.mcap");
   EXPECT_EQ(testing::dumped(whole.profile), testing::dumped(profile));
   EXPECT_EQ(whole.events, std::vector<Event>{kOddEvent});
+}
+
+TEST(McapLiveWriter, seriesComeBackWithTheirDescriptions) {
+  const TemporaryFolder folder;
+  const Profile profile = randomProfile(4, false, 3);
+  McapLiveWriter writer(folder / "a.mcap", profile.hand(), {});
+  const SeriesDescription cell{"cell", "trigger", {{"f", "N"}}, "tcp:1"};
+  const SeriesDescription imu{"imu", "", {{"ax", "m/s^2"}, {"ay", ""}}, ""};
+  writer.addSeries(kHandSeries + 4, cell);  // any index
+  writer.addFrame(profile.frame(0));
+  writer.addSample({10, {0.1}, kHandSeries + 4, 7});
+  writer.addSeries(kHandSeries + 1, imu);
+  writer.addSample({5, {std::nan(""), -2.0}, kHandSeries + 1});
+  writer.addSample({11, {0.2}, kHandSeries + 4});
+  EXPECT_THROW(writer.addSample({12, {1.0, 2.0}, kHandSeries + 4}), std::invalid_argument);
+  EXPECT_THROW(writer.addSample({11, {1.0}, kHandSeries + 4}), std::invalid_argument);
+  EXPECT_THROW(writer.addSample({13, {1.0}, kHandSeries + 2}), std::invalid_argument) << "no such";
+  EXPECT_THROW(writer.addSample({13, {1.0}, kMaxSeries}), std::invalid_argument);
+  EXPECT_THROW(writer.addSeries(kMaxSeries, imu), std::invalid_argument);
+  EXPECT_THROW(writer.addSeries(kAngleSeries, imu), std::invalid_argument);
+  writer.finish();
+  const Profile read = openRecording(folder / "a.mcap");
+  ASSERT_EQ(read.furtherSeries().size(), 2u);
+  for (std::size_t s = kHandSeries; s < kHandSeries + 2; ++s) {
+    const bool isCell = read.series()[s].name == "cell";
+    EXPECT_EQ(read.series()[s], isCell ? cell : imu);
+    ASSERT_EQ(read.numSamples(s), isCell ? 2u : 1u);
+    const Sample first = read.sample(s, 0);
+    EXPECT_EQ(first.hostUs, isCell ? 10 : 5);
+    EXPECT_EQ(first.deviceUs, isCell ? std::optional<std::int64_t>(7) : std::nullopt);
+    EXPECT_EQ(first.values.back(), isCell ? 0.1 : -2.0);
+    EXPECT_EQ(std::isnan(first.values.front()), !isCell);
+  }
+  EXPECT_EQ(verifyRecording(folder / "a.mcap").state, VerifyReport::State::kSound);
 }
 
 TEST(McapLiveWriter, refusesWhatDoesNotFitAndAddsNothing) {

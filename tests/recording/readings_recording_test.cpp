@@ -127,6 +127,72 @@ TEST(ReadingsRecording, ABaselineTakenLaterIsSeenAndDamagesNothing) {
       << "what happened while recording stays";
 }
 
+// With a sign only, a frame has as many readings as values: they must not be mixed up.
+TEST(ReadingsRecording, DamagedRulesAreThoseOfTheHand) {
+  const TemporaryFolder folder;
+  const HandDescription hand = parseHand(
+      R"({"format": "palpate-hand", "version": 1, "name": "s", "full_scale": 9, "signed": true,
+          "touch_threshold": 2, "matrices": [{"name": "a", "rows": 1, "columns": 2,
+          "pitch_mm": 4}]})",
+      "",
+      "hand.json");
+  ProfileBuilder builder(hand);
+  for (int i = 0; i < 5; ++i)
+    builder.addReadings(1'000 + 10 * i, std::vector<float>{-3.0F, static_cast<float>(i)});
+  saveRecording(builder.finish({}), {}, folder / "a.palpate");
+  const std::vector<float> expected = openRecording(folder / "a.palpate").frame(3).values;
+  ASSERT_EQ(expected, (std::vector<float>{3.0F, 3.0F}));
+  const auto change = [&](const char* sql) {
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open((folder / "a.palpate").c_str(), &db), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(db);
+  };
+  change("UPDATE meta SET value='[' || value WHERE key='touch_rules'");
+  EXPECT_THROW(openRecording(folder / "a.palpate"), FormatError);
+  const PalpateRecovery recovery = recoverPalpateProfile(folder / "a.palpate");
+  EXPECT_FALSE(recovery.whole());
+  ASSERT_TRUE(recovery.profile);
+  EXPECT_EQ(recovery.profile->frame(3).values, expected);
+  EXPECT_EQ(recovery.profile->frame(3).readings, (std::vector<float>{-3.0F, 3.0F}));
+  change("UPDATE meta SET value='{' || value WHERE key='hand_json'");
+  EXPECT_THROW(openRecording(folder / "a.palpate"), FormatError);
+}
+
+// Cut anywhere, bytes changed anywhere: readings that are given are those that were written.
+TEST(ReadingsRecording, NeverGiveAWrongReadingWhateverIsDamaged) {
+  const TemporaryFolder folder;
+  saveRecording(recorded(), rest(), folder / "sound.palpate");
+  const std::string sound = readFile(folder / "sound.palpate");
+  std::size_t given = 0;
+  const auto check = [&](const Profile& profile) {
+    ASSERT_TRUE(profile.givesReadings() || profile.numFrames() == 0);
+    for (std::size_t i = 0; i < profile.numFrames(); ++i, ++given) {
+      const TactileFrame frame = profile.frame(i);
+      ASSERT_EQ(frame.readings, readingsOf(static_cast<int>((frame.hostUs - 1'000) / 10)));
+    }
+  };
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::string bytes = sound;
+    if (seed % 3 == 0) bytes.resize(random() % bytes.size());
+    for (unsigned i = seed % 2 == 0 ? 0 : 1 + random() % 40; i > 0 && !bytes.empty(); --i) {
+      char& byte = bytes[random() % bytes.size()];
+      byte = static_cast<char>(byte ^ static_cast<char>(1 + random() % 255));
+    }
+    writeFile(folder / "damaged.palpate", bytes);
+    const PalpateRecovery recovery = recoverPalpateProfile(folder / "damaged.palpate");
+    if (recovery.profile) check(*recovery.profile);
+    try {
+      check(openRecording(folder / "damaged.palpate"));
+    } catch (const FormatError&) {
+    } catch (const FileError&) {
+    }
+  }
+  EXPECT_GT(given, 1'000u);
+}
+
 TEST(ReadingsRecording, OtherFormsHoldWhatIsSeen) {
   const TemporaryFolder folder;
   const Profile profile = recorded();

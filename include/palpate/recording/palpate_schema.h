@@ -24,8 +24,8 @@ constexpr std::int32_t kPalpateVersion = 1;                 // user_version
 // The user_version of a file that has blocks with device times in microseconds.
 constexpr std::int32_t kPalpateVersionWithDeviceUs = 2;
 // The user_version of a file with series beside those of the hand (table `series`), with taxels
-// whose touch is decided when they are read (`touch_rules`), or with taxels that aren't square
-// (`pitch_y_mm`).
+// whose touch is decided when they are read (key `touch_rules` of the table `meta`), or with taxels
+// that aren't square (`pitch_y_mm`).
 constexpr std::int32_t kPalpateVersionWithSeries = 3;
 // The most bytes of data in a block of several items. Its row then never overflows its 4096-byte
 // page of SQLite, so that recovery finds it in the raw bytes of the page.

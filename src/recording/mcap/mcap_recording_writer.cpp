@@ -275,7 +275,10 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
 void McapRecordingWriter::addSample(const Sample& sample) {
   if (sample.series == kAngleSeries) return addAngles(sample);
   if (sample.series == kTemperatureSeries) return addTemperatures(sample);
-  const SampleChannel& channel = samples_.at(sample.series);
+  const auto known = samples_.find(sample.series);
+  if (known == samples_.end())
+    throw std::invalid_argument("McapRecordingWriter: a sample of a series that was not begun");
+  const SampleChannel& channel = known->second;
   if (sample.values.size() != channel.width)
     throw std::invalid_argument("McapRecordingWriter: another number of values");
   std::string& out = file_.beginMessage(channel.id, mcapTimeNs(sample.hostUs));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <exception>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -144,7 +145,7 @@ struct McapLiveWriter::Impl {
   std::shared_ptr<const SensorLayout> layout;
   std::unique_ptr<McapRecordingWriter> writer;
   std::optional<std::int64_t> lastFrameUs;
-  std::array<std::optional<std::int64_t>, kMaxSeries> lastSampleUs;  // by series
+  std::map<std::size_t, std::optional<std::int64_t>> lastSampleUs;  // by series
 };
 
 McapLiveWriter::McapLiveWriter(const fs::path& path,

@@ -215,6 +215,7 @@ namespace {
 // The layout of the hand where rows of the meta data are damaged, perhaps the rules of touch, and
 // the hand decides touch; else null.
 std::shared_ptr<const SensorLayout> handLostRules(SqliteDatabase& database, const MetaRows& meta) {
+  // Where the key is damaged, any damaged row may be the one.
   if (meta.damaged == 0 || !meta[kTouchRulesKey].empty() ||
       database.integerOf("PRAGMA user_version") != kPalpateVersionWithSeries)
     return nullptr;
@@ -414,10 +415,11 @@ MetaRows readMeta(SqliteDatabase& database) {
   while (rows.next()) {
     std::string key = rows.text(0);
     std::string value = rows.text(1);
-    if (rows.integer(2) != static_cast<std::int64_t>(metaCrc(key, value)))
+    if (rows.integer(2) != static_cast<std::int64_t>(metaCrc(key, value))) {
       ++meta.damaged;
-    else
+    } else {
       meta.values.insert_or_assign(std::move(key), std::move(value));
+    }
     if (meta.damaged + meta.values.size() > kMostRows)
       throw FormatError(database.path(), "has too many rows of meta data");
   }

@@ -42,8 +42,8 @@ std::string maskText(const Mask& mask);
 void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view value);
 void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 
-// Reads the layout back. Throws FormatError where it is damaged or makes no sense.
-// With the rules of touch of a recording of readings.
+// Reads the layout back, with the rules of touch of a recording of readings; where these are
+// damaged, with those of its hand. Throws FormatError where it is damaged or makes no sense.
 struct MetaRows;
 // Where the rules of touch are damaged, those of the hand are taken with `rulesOfHand`; else that
 // throws FormatError.
