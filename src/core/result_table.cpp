@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kPieceBytes = 1u << 16;
+constexpr std::size_t kTableBytes = 1u << 16;
 
 void appendNumberCell(std::string& text, double value, int decimals) {
   if (decimals < 0)
@@ -133,7 +133,7 @@ std::size_t writeTableText(ResultTable& table,
     const std::size_t begin = text.size();
     form.appendRow(text, cells);
     if (count == 0 && options.form == TableForm::kJson) text.erase(begin, 1);
-    if (text.size() < kPieceBytes) continue;
+    if (text.size() < kTableBytes) continue;
     sink(text);
     text.clear();
   }

@@ -31,7 +31,8 @@ int graspsCommand(const Arguments& words) {
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  GraspRowsOptions options{.filters = recipeOf(given)};
+  GraspRowsOptions options;
+  options.filters = recipeOf(given);
   if (given.choice("rule", {"general", "study"}) == "study")
     options.segments.rule = GraspRule::kStudy;
   return runTableCommand(given, graspsOf(options));
