@@ -281,7 +281,7 @@ wait $hands || true
 cat r*.json""".strip()
 
 
-# Curves of cost against size (docs/growth.md): name -> (what, unit of the size, benchmark, sizes).
+# Curves of cost against size (docs/notes/growth.md): name -> (what, unit of the size, benchmark, sizes).
 FRAMES = [10 ** i for i in range(2, 7)]
 CLASSES = [10, 30, 100, 300]
 GROWTH = {

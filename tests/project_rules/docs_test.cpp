@@ -167,7 +167,7 @@ TEST(Manual, PicturesAreShownAndSmall) {
 }
 
 TEST(Manual, KindsOfEventsAreInTheFormat) {
-  const std::string& page = pages().at("docs/palpate_format.md");
+  const std::string& page = pages().at("docs/notes/palpate_format.md");
   std::string rows;
   for (const std::string& line : sectionOf(page, "Events")) {
     const auto cells = cellsOf(line);
@@ -181,7 +181,7 @@ TEST(Manual, KindsOfEventsAreInTheFormat) {
   EXPECT_GT(kinds.size(), 6u);
   for (const std::string& kind : kinds)
     EXPECT_NE(rows.find("`" + kind + "`"), std::string::npos)
-        << "docs/palpate_format.md lacks events of kind " << kind;
+        << "docs/notes/palpate_format.md lacks events of kind " << kind;
 }
 
 TEST_F(Docs, CommandsAndOptionsInPagesExist) {
@@ -216,13 +216,13 @@ TEST_F(Docs, OptionsThatStandAloneExist) {
 }
 
 TEST_F(Docs, EveryCommandAndOptionIsInTheManual) {
-  const std::string& page = pages().at("docs/commands.md");
+  const std::string& page = pages().at("docs/manual/commands.md");
   std::string all;
   for (const auto& [name, text] : pages()) all += text;
   const std::set<std::string> told = optionsIn(all);
   for (const auto& [command, options] : options_) {
     EXPECT_NE(page.find("| `palpate " + command), std::string::npos)
-        << "docs/commands.md has no row for " << command;
+        << "docs/manual/commands.md has no row for " << command;
     for (const std::string& option : options)
       EXPECT_TRUE(told.contains(option)) << "no page tells of " << command << " " << option;
   }
@@ -264,7 +264,8 @@ TEST_F(Docs, EveryDockIsDescribed) {
   const auto docks = matches(result.err.substr(result.err.find(there) + there.size()), "[A-Za-z]+");
   EXPECT_GT(docks.size(), 8u);
   for (const std::string& dock : docks)
-    EXPECT_NE(pages().at("docs/docks.md").find("\n## " + dock + "\n"), std::string::npos) << dock;
+    EXPECT_NE(pages().at("docs/manual/docks.md").find("\n## " + dock + "\n"), std::string::npos)
+        << dock;
 }
 
 }  // namespace

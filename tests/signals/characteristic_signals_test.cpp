@@ -168,7 +168,7 @@ TEST(CharacteristicSignals, AllInOneAreTheSameNumbers) {
       EXPECT_EQ(valueOf(rows[i], kind), valueOf(expected[i], kind)) << "row " << i;
 }
 
-// docs/commands.md: the columns of palpate signals.
+// docs/manual/columns.md: the columns of palpate signals.
 TEST(SignalNames, AreThoseOfTheTables) {
   std::set<std::string_view> names;
   for (const SignalKind kind : kAllSignalKinds) {

@@ -1,5 +1,5 @@
 // Slip as result tables: one row for each frame and matrix with an active taxel, or one for each
-// slip. docs/slip.md explains the columns.
+// slip. docs/manual/columns.md explains the columns.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ std::vector<ColumnOf<SlipDetection>> slipColumns();
 struct SlipRowsOptions {
   SlipRunOptions pass = {};
   std::optional<std::int64_t> matrix = {};  // only this one
-  bool segments = false;  // a row per slip instead of one per frame and matrix
-  bool unitsRow = false;  // of CSV: a second row with the units
-  Recipe filters = {};    // of the frames, first
+  bool segments = false;                    // a row per slip instead of one per frame and matrix
+  bool unitsRow = false;                    // of CSV: a second row with the units
+  Recipe filters = {};                      // of the frames, first
 };
 // The table "slip" of a profile that is filtered already, or "slip_segments". Throws as SlipRun.
 std::unique_ptr<ResultTable> slipTable(const Profile& profile,
