@@ -1,4 +1,4 @@
-"""What scripts/measure measures, and the tables it writes of it into README.md and docs/*.md.
+"""What scripts/measure measures, and the tables it writes of it into README.md and docs/**/*.md.
 
 A part is one command, run once; its figures are taken from what it prints. A row of a table names figures in braces.
 """

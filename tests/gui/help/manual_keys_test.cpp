@@ -15,7 +15,7 @@ class ManualKeysTest : public WindowTest {
  protected:
   ManualKeysTest() { open({"good.dsa"}); }
   static std::string page(const char* name) {
-    return testing::readFile(testing::dataFolder().parent_path() / "docs" / name);
+    return testing::readFile(testing::dataFolder().parent_path() / "docs/manual" / name);
   }
 };
 
