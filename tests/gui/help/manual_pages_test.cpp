@@ -110,7 +110,10 @@ TEST_F(ManualPagesTest, QuestionsFindTheirPage) {
                                        {"settings units", "manual/settings.md"},
                                        {"python recordings", "manual/python.md"},
                                        {"docks timeline", "manual/docks.md"},
-                                       {"columns slip", "manual/columns.md"},
+                                       {"load cell", "manual/second_sensor.md"},
+                                       {"hand does not answer", "manual/connect.md"},
+                                       {"stop the hand", "manual/safety.md"},
+                                       {"csv import", "manual/import.md"},
                                        {"compare two recordings", "manual/compare.md"}}) {
     const auto hits = pages.search(question);
     ASSERT_FALSE(hits.empty()) << question;
