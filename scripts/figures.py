@@ -1,4 +1,4 @@
-"""What scripts/measure measures, and the tables it writes of it into README.md and docs/*.md.
+"""What scripts/measure measures, and the tables it writes of it into README.md and docs/**/*.md.
 
 A part is one command, run once; its figures are taken from what it prints. A row of a table names figures in braces.
 """
@@ -281,7 +281,7 @@ wait $hands || true
 cat r*.json""".strip()
 
 
-# Curves of cost against size (docs/growth.md): name -> (what, unit of the size, benchmark, sizes).
+# Curves of cost against size (docs/notes/growth.md): name -> (what, unit of the size, benchmark, sizes).
 FRAMES = [10 ** i for i in range(2, 7)]
 CLASSES = [10, 30, 100, 300]
 GROWTH = {

@@ -1,4 +1,4 @@
-# Types of the module palpate; what everything does stands in its docstrings and in docs/python.md.
+# Types of the module palpate; what everything does stands in its docstrings and in docs/manual/python.md.
 import os
 from collections.abc import Iterator, Sequence
 from typing import Any, Union, overload

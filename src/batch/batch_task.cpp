@@ -200,11 +200,12 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
 RecordingTable graspsOf(const GraspRowsOptions& options) {
   options.filters.validate();
   const bool isStudy = options.segments.rule == GraspRule::kStudy;
-  return {.options = std::string("grasps; ") + (isStudy ? "study" : "general") +
-                     filtersText(options.filters),
-          .of = [options, isStudy](const fs::path& file,
-                                   const Recording& whole,
-                                   const Progress& progress) {
+  return {
+      .options =
+          std::string("grasps; ") + (isStudy ? "study" : "general") + filtersText(options.filters),
+      .of =
+          [options, isStudy](
+              const fs::path& file, const Recording& whole, const Progress& progress) {
             const Profile profile =
                 filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5));
             const HandDescription& hand = profile.hand();
@@ -214,7 +215,7 @@ RecordingTable graspsOf(const GraspRowsOptions& options) {
                                   hand.name + "' doesn't name: use --rule general");
             return graspTable(profile, options.segments, partOf(progress, 0.5, 1.0));
           },
-          .rowNoun = "grasp"};
+      .rowNoun = "grasp"};
 }
 
 BatchTask tableTask(const RecordingTable& table) {
@@ -227,11 +228,11 @@ BatchTask tableTask(const RecordingTable& table) {
                 item.source, {.threads = threads}, partOf(progress, 0.0, 0.4));
             const std::unique_ptr<ResultTable> rows =
                 table.of(item.source, recording, partOf(progress, 0.4, 1.0));
-            const std::size_t count = writeTableFile(
-                *rows,
-                item.target,
-                overwrite,
-                {.form = tableFormOf(item.target), .unitsRow = table.unitsRow});
+            const std::size_t count =
+                writeTableFile(*rows,
+                               item.target,
+                               overwrite,
+                               {.form = tableFormOf(item.target), .unitsRow = table.unitsRow});
             BatchAnswer answer{.said = table.rowNoun.empty()
                                            ? counted(recording.profile.numFrames(), "frame")
                                            : counted(count, table.rowNoun),
@@ -259,10 +260,8 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
                               ? FileError(item.source, "has no grasp with features").what()
                               : table.problems.front());
             for (FeatureRow& row : table.rows) row.className = classIn(item);
-            const std::size_t count = writeTableFile(*featureTable(table),
-                                                     item.target,
-                                                     overwrite,
-                                                     {.form = tableFormOf(item.target)});
+            const std::size_t count = writeTableFile(
+                *featureTable(table), item.target, overwrite, {.form = tableFormOf(item.target)});
             BatchAnswer answer{.said = counted(count, "grasp")};
             if (!table.problems.empty()) answer.problem = table.problems.front();
             return answer;

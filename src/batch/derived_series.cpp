@@ -79,8 +79,17 @@ class SlipRowSeries final : public FrameSeries {
   SlipRowSeries(const Profile& profile, const SlipDetectorOptions& options)
       : FrameSeries(profile, "slip"), detector_(profile.hand(), options) {
     const std::vector<ColumnOf<SlipDetection>> all = slipColumns();
-    for (const char* name : {"active", "dx", "dy", "ref_dx", "ref_dy", "rotation_deg",
-                             "ref_rotation_deg", "confidence", "p_moved", "state", "slipping"})
+    for (const char* name : {"active",
+                             "dx",
+                             "dy",
+                             "ref_dx",
+                             "ref_dy",
+                             "rotation_deg",
+                             "ref_rotation_deg",
+                             "confidence",
+                             "p_moved",
+                             "state",
+                             "slipping"})
       ofMatrix_.push_back(columnNamed(all, name));
     const std::size_t numMatrices = profile.layout().numMatrices();
     for (std::size_t m = 0; m < numMatrices; ++m)

@@ -1,4 +1,5 @@
-// Writes the items of an emulated hand in one of the forms that docs/stream_protocol.md specifies.
+// Writes the items of an emulated hand in one of the forms that docs/manual/stream_protocol.md
+// specifies.
 #pragma once
 
 #include <cstddef>

@@ -388,8 +388,8 @@ Mat5Source::Mat5Source(const std::filesystem::path& path) : StoredArraySource(pa
   recogniseOwn();
 }
 
-// In Palpate's own exports (docs/bridges.md) it is known what the axes are, and times, which are
-// N x 1, have a row each.
+// In Palpate's own exports (docs/notes/exchange_formats.md) it is known what the axes are, and
+// times, which are N x 1, have a row each.
 void Mat5Source::recogniseOwn() {
   const auto has = [&](std::string_view name) {
     return std::any_of(columns_.begin(), columns_.end(), [&](const TableColumn& column) {

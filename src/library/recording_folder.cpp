@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // SQLite's header: its name, and at byte 68 the application_id of a native recording
-// (docs/palpate_format.md).
+// (docs/notes/palpate_format.md).
 bool beginsAsNativeRecording(const fs::path& file) {
   constexpr std::string_view kSqlite("SQLite format 3\0", 16);
   constexpr std::string_view kPalpate("PALP");

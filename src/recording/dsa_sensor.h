@@ -1,5 +1,5 @@
-// The <sensor> part of a .dsa recording: from its elements (docs/dsa_format.md) to a sensor layout.
-// Private to this module.
+// The <sensor> part of a .dsa recording: from its elements (docs/notes/dsa_format.md) to a sensor
+// layout. Private to this module.
 #pragma once
 
 #include <cstddef>

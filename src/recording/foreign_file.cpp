@@ -79,7 +79,8 @@ std::string bagFolderText(const fs::path& folder) {
 
 std::string foreignFormatText(const fs::path& path) {
   constexpr std::size_t kLookedAt = 512;
-  constexpr std::size_t kSqliteIdAt = 68;  // of a native recording, see docs/palpate_format.md
+  constexpr std::size_t kSqliteIdAt =
+      68;  // of a native recording, see docs/notes/palpate_format.md
   const std::string bytes = beginningOfFile(path, kLookedAt);
   const std::string_view first = bytes;
   for (const auto& [start, text] : kKnownStarts)

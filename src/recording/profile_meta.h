@@ -1,4 +1,4 @@
-// What every form of a file says of a recording as a whole (docs/palpate_format.md, "meta").
+// What every form of a file says of a recording as a whole (docs/notes/palpate_format.md, "meta").
 // Private to this module; inline, because the library of HDF5 files, which this module links, needs
 // it, too.
 #pragma once

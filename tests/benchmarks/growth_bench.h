@@ -1,5 +1,5 @@
-// What the benchmarks of growth (docs/growth.md) share: recordings of any length, and the memory
-// that a piece of work takes.
+// What the benchmarks of growth (docs/notes/growth.md) share: recordings of any length, and the
+// memory that a piece of work takes.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How costs grow with sizes, for docs/growth.md: opening (frames), the library (recordings),
+// How costs grow with sizes, for docs/notes/growth.md: opening (frames), the library (recordings),
 // training (grasps, classes), an answer (classes), the signals of a frame (taxels). The argument of
 // a benchmark is the size; peak_MB is how far the memory rises meanwhile. The timeline's is in
 // timeline_benchmark.cpp.

@@ -91,7 +91,7 @@ void timelineOfADay(benchmark::State& state) {
   }
 }
 // From the file to its curves, and until every frame is read; by the number of frames
-// (docs/growth.md).
+// (docs/notes/growth.md).
 void growthTimeline(benchmark::State& state) {
   const palpate::testing::TemporaryFolder folder;
   const fs::path file = folder / "long.palpate";

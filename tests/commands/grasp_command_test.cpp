@@ -147,7 +147,7 @@ TEST(GraspCommand, CtrlCStopsTheHandFirst) {
 }
 
 // The program dies in a motion: by a signal that nothing can handle, and by one of a crash, after
-// which the crash handler and palpate_stop both send stops. docs/safety.md
+// which the crash handler and palpate_stop both send stops. docs/notes/safety.md
 void dieInAMotion(int number, std::size_t stops) {
   EmulatedBench bench(stillHand());
   BackgroundProgram program(PALPATE_PROGRAM,

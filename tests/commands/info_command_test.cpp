@@ -30,8 +30,8 @@ Json infoOf(const fs::path& file) {
 }
 
 TEST(InfoCommand, ReportsASmallHandWrittenFile) {
-  // The example of docs/dsa_format.md: one matrix 2 x 3, two frames 32 ms apart, the second with a
-  // value of 1000; one sample of angles and of temperatures.
+  // The example of docs/notes/dsa_format.md: one matrix 2 x 3, two frames 32 ms apart, the second
+  // with a value of 1000; one sample of angles and of temperatures.
   const testing::TemporaryFolder folder;
   testing::writeFile(folder / "small.dsa",
                      "<?xml version=\"1.0\" encoding=\"utf-8\"?><root><sensor name=\"\">"

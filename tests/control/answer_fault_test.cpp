@@ -1,5 +1,5 @@
 // The motion controller's answers are damaged, invalid or missing while the hand moves or holds: a
-// stop is on the wire in time, whatever the fault and the motion (docs/safety.md).
+// stop is on the wire in time, whatever the fault and the motion (docs/notes/safety.md).
 #include <map>
 #include <tuple>
 
@@ -28,7 +28,7 @@ enum class Motion {
   kEmptyHand
 };
 
-// docs/safety.md: from the first bad answer to the stop.
+// docs/notes/safety.md: from the first bad answer to the stop.
 double limitS(Motion motion) {
   const bool isTactile = motion == Motion::kReactive || motion == Motion::kSlipAware ||
                          motion == Motion::kHolding || motion == Motion::kEasing ||

@@ -63,8 +63,8 @@ TEST(GraspReach, WhatDoesNotRiseIsNotTalkedAbout) {
   EXPECT_EQ(reach.report.text.find("close more slowly"), std::string::npos) << reach.report.text;
 }
 
-// docs/safety.md contains these figures: scripts/measure reads `measured {..}`. The rise is smaller
-// at a lower velocity.
+// docs/notes/safety.md contains these figures: scripts/measure reads `measured {..}`. The rise is
+// smaller at a lower velocity.
 TEST(GraspReach, TheSlowerTheLess) {
   // Different times of the frames relative to the touch.
   constexpr int kTouches = 7;
@@ -136,7 +136,7 @@ KeptGrasp keptGrasp(const std::string& scene,
 
 // The objects of the scenes, up to 2 mm from their places in each direction, at random phases of
 // the frames. Grasps of an object learn from those before, the first one knows nothing.
-// docs/safety.md contains these figures.
+// docs/notes/safety.md contains these figures.
 TEST(GraspReach, AGraspThatKeepsItsLimit) {
   constexpr int kGrasps = 15;
   constexpr double kLimit = 200.0;  // the usual one

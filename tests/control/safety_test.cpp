@@ -1,4 +1,4 @@
-// Safety of the hand (R18, docs/safety.md), checked at the motion port of the emulated hand.
+// Safety of the hand (R18, docs/notes/safety.md), checked at the motion port of the emulated hand.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -228,7 +228,7 @@ TEST(Safety, AMotionPortThatReturnsBringsAStopBeforeAnythingElse) {
   const auto report = bench.awaitEnd();
   ASSERT_TRUE(report.has_value());
   EXPECT_EQ(report->outcome, GraspOutcome::kPortGone) << report->text;
-  EXPECT_TRUE(bench.handMoves());  // as docs/safety.md says: an `m` motion runs to its target
+  EXPECT_TRUE(bench.handMoves());  // as docs/notes/safety.md says: an `m` motion runs to its target
   EXPECT_THROW(bench.control->grasp(request), DeviceError);
   bench.log.restart();
   bench.hand->replug();

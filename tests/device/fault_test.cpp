@@ -1,5 +1,5 @@
 // Tests of unexpected exceptions inside a port's thread: the process continues, the hand is
-// stopped, the port is opened again (docs/safety.md).
+// stopped, the port is opened again (docs/notes/safety.md).
 #include <atomic>
 #include <mutex>
 #include <new>

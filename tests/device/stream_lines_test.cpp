@@ -1,5 +1,5 @@
-// Lines of text as docs/stream_protocol.md specifies them: what is read, and what a refused line is
-// told.
+// Lines of text as docs/manual/stream_protocol.md specifies them: what is read, and what a refused
+// line is told.
 #include "palpate/device/stream_lines.h"
 
 #include <random>

@@ -1,5 +1,5 @@
-// Packets of a binary stream as docs/stream_protocol.md specifies them. The expected bytes were
-// made with Python's struct and zlib.
+// Packets of a binary stream as docs/manual/stream_protocol.md specifies them. The expected bytes
+// were made with Python's struct and zlib.
 #include "palpate/device/stream_packets.h"
 
 #include <cmath>

@@ -144,9 +144,9 @@ TEST(Scene, AnotherHandHasOtherPreshapesAndMatrices) {
   EXPECT_NE(fault("sdh2", fast).find("velocity_deg_per_s"), std::string::npos);
 }
 
-// The example on the page docs/emulator.md is a valid scene.
+// The example on the page docs/notes/emulator.md is a valid scene.
 TEST(Scene, TheExampleOfTheDocumentIsOne) {
-  const std::string page = readFile(dataFolder().parent_path() / "docs" / "emulator.md");
+  const std::string page = readFile(dataFolder().parent_path() / "docs/notes/emulator.md");
   const std::size_t from = page.find("    {\"objects\"");
   ASSERT_NE(from, std::string::npos);
   const Scene scene = parseScene(page.substr(from, page.find("\n\n", from) - from), "emulator.md");

@@ -106,7 +106,7 @@ TEST(Recipe, PresetsAreSoundAndTheFirstRunsLive) {
     EXPECT_FALSE(preset.name.empty());
     EXPECT_FALSE(preset.empty()) << preset.name;
   }
-  // What docs/ghosting.md says of it: live, a frame late.
+  // What docs/notes/ghosting.md says of it: live, a frame late.
   EXPECT_TRUE(highSensitivityRecipe().causal());
   EXPECT_EQ(latencyFrames(highSensitivityRecipe()), 1);
 }

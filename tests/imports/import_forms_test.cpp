@@ -601,7 +601,7 @@ TEST(ImportForms, AFolderWithAFilePerMatrixIsReadByTheNamesOfTheFiles) {
             (std::vector<float>{9, 10, 11, 12, 29, 30, 31, 32}));
 }
 
-// Frames stay whole where lines are missing, as in a stream (docs/stream_protocol.md).
+// Frames stay whole where lines are missing, as in a stream (docs/manual/stream_protocol.md).
 TEST(ImportForms, ALinePerMatrixIsAFrame) {
   const TemporaryFolder folder;
   ImportMapping rate;

@@ -24,7 +24,7 @@ BenchmarkedMethod onlyRegister() {
   throw std::out_of_range("register");
 }
 
-// Targets, from the values in docs/slip.md.
+// Targets, from the values in docs/notes/slip.md.
 TEST(SlipAccuracy, RegisterIsNearTheBound) {
   for (const auto& [noise, most] : {std::pair{5.0, 1.2}, {20.0, 1.2}}) {
     SlipAccuracyOptions options;

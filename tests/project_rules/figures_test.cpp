@@ -1,4 +1,4 @@
-// What was measured and what the pages say are one: README.md and docs/*.md against
+// What was measured and what the pages say are one: README.md and docs/**/*.md against
 // docs/figures.json, by `scripts/measure --check`.
 #include <set>
 
@@ -51,6 +51,13 @@ TEST_F(FiguresOfAPage, AnotherFigureThanTheMeasuredOneFails) {
   const std::string faults = faultsOf("# A\nNIST: <!--=nist.digits-->9.9<!----> digits.\n");
   EXPECT_NE(faults.find("README.md:2: "), std::string::npos) << faults;
   EXPECT_NE(faults.find("<!--=nist.digits-->9.4<!---->"), std::string::npos) << faults;
+}
+
+TEST_F(FiguresOfAPage, PagesInFoldersAreChecked) {
+  fs::create_directories(folder_ / "docs/notes");
+  writeFile(folder_ / "docs/notes/a.md", "<!--=nist.digits-->9.9<!---->\n");
+  const std::string faults = faultsOf("# A\n");
+  EXPECT_NE(faults.find("docs/notes/a.md:1: "), std::string::npos) << faults;
 }
 
 TEST_F(FiguresOfAPage, AFigureThatNoCommandMeasuresFails) {

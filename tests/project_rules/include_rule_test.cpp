@@ -9,7 +9,7 @@ namespace palpate::testing::include_rule_test {
 namespace {
 
 IncludeRules projectRules() {
-  return IncludeRules::fromPage(readFile(projectFolder() / "docs" / "architecture.md"));
+  return IncludeRules::fromPage(readFile(projectFolder() / "docs/architecture.md"));
 }
 
 const std::string kWindow = "apps/palpate/gui";

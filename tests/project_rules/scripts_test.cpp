@@ -86,7 +86,7 @@ class PackageScript : public Scripts {
     fs::create_directories(checkout_ / "cmake/package");
     writeFile(checkout_ / "cmake/package/debian-tools.txt", "third\nfourth [try]\n");
     standInApt("", "", 0);  // nothing is missing
-    standIn("cpack", log("cpack") + "touch palpate_0.1.0-1_amd64.deb");
+    standIn("cpack", log("cpack") + "touch palpate_0.2.0-1_amd64.deb");
     // What is unpacked: a program that works.
     standIn("dpkg-deb",
             "mkdir -p \"$3/usr/bin\"; printf '#!/bin/sh\\n' > \"$3/usr/bin/palpate\"; "
@@ -94,7 +94,7 @@ class PackageScript : public Scripts {
     for (const char* tool : {"lintian", "desktop-file-validate", "appstreamcli", "xmllint"})
       standIn(tool, log(tool));
   }
-  const std::string package_ = "build/release/palpate_0.1.0-1_amd64.deb\n";
+  const std::string package_ = "build/release/palpate_0.2.0-1_amd64.deb\n";
 };
 
 TEST_F(PackageScript, BuildsOnlyWhatIsInstalledPacksAndChecks) {

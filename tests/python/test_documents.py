@@ -1,4 +1,4 @@
-"""The Python reader printed in docs/palpate_format.md runs and gives the values."""
+"""The Python reader printed in docs/notes/palpate_format.md runs and gives the values."""
 import os
 import re
 import sqlite3
@@ -13,7 +13,7 @@ WHOLE = Path(os.environ["PALPATE_CORPUS"]) / "palpate" / "whole.palpate"
 
 class FormatDocument(unittest.TestCase):
     def test_its_reader_reads(self):
-        text = (SOURCE / "docs/palpate_format.md").read_text()
+        text = (SOURCE / "docs/notes/palpate_format.md").read_text()
         (code,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
         self.assertLessEqual(len(code.strip().splitlines()), 15)
         names = {}
@@ -25,7 +25,7 @@ class FormatDocument(unittest.TestCase):
         self.assertEqual(read, [(t, values) for t, _, values in angles])
 
     def test_its_tables_are_those_of_the_file(self):
-        text = (SOURCE / "docs/palpate_format.md").read_text()
+        text = (SOURCE / "docs/notes/palpate_format.md").read_text()
         (code,) = re.findall(r"```sql\n(.*?)```", text, re.DOTALL)
         code = "\n".join(line for line in code.splitlines() if not line.startswith("--"))
         plain = lambda sql: re.sub(r"\s+", "", sql).lower()
@@ -34,7 +34,7 @@ class FormatDocument(unittest.TestCase):
         self.assertEqual(told, {plain(sql) for (sql,) in rows})
 
     def test_its_keys_of_meta_are_those_of_the_file(self):
-        text = (SOURCE / "docs/palpate_format.md").read_text()
+        text = (SOURCE / "docs/notes/palpate_format.md").read_text()
         told = set(re.findall(r"`(\w+)`", text.split("## Meta")[1].split("## ")[0]))
         for (key,) in sqlite3.connect(WHOLE).execute("SELECT key FROM meta"):
             self.assertIn(key, told)

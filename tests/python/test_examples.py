@@ -111,7 +111,7 @@ PRINTED = {
 def test_the_figures_of_the_manual_are_those_that_the_scripts_print(recordings, tmp_path):
     said = "".join(run(name, recordings, tmp_path) for name in
                    ("calibration_figures", "slip_figures", "recognition_figures"))
-    page = (SOURCE / "docs/python.md").read_text().split("## The study's figures")[1].split("\n## ")[0]
+    page = (SOURCE / "docs/manual/python.md").read_text().split("## The study's figures")[1].split("\n## ")[0]
     rows = [row.strip("| ").split(" | ") for row in page.splitlines() if row.startswith("| ")][1:]  # without the names
     left = dict(PRINTED)
     for section, ours, *_ in rows:

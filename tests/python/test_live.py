@@ -226,7 +226,7 @@ def test_the_bridge_to_ros2_publishes_images_and_joints(monkeypatch):
     script = SOURCE / "docs/stream_receivers/ros2_bridge.py"
     code = script.read_text()
     assert len([line for line in code.split('"""')[2].splitlines() if line.strip()]) <= 35
-    assert code.split('"""\n')[-1].strip() in (SOURCE / "docs/interop.md").read_text()
+    assert code.split('"""\n')[-1].strip() in (SOURCE / "docs/notes/live_streams.md").read_text()
     free = [udp_port() for _ in range(2)]
     for receiver, _ in free:
         receiver.close()

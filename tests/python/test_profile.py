@@ -140,7 +140,7 @@ class Arrays(unittest.TestCase):
 class FurtherSeries(unittest.TestCase):
     @staticmethod
     def add_wrist(path, rows):
-        """Adds a series to a native recording by docs/palpate_format.md: (host us, device us, fx, fz)."""
+        """Adds a series to a native recording by docs/notes/palpate_format.md: (host us, device us, fx, fz)."""
         columns = '[{"name":"fx","unit":"N"},{"name":"fz","unit":""}]'
         begin = rows[0][0]
         data = b"".join(struct.pack("<Iqdd", t - begin, device, fx, fz) for t, device, fx, fz in rows)

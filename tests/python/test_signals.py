@@ -140,7 +140,7 @@ def test_contact_of_filtered_values_is_that_of_the_recording():
         assert (given > 0).sum() > (values > 0).sum()
         held = np.where(values > 0, given, 0).astype(float)
         np.testing.assert_allclose(found["sum"], held.sum(axis=(1, 2)), rtol=1e-6)
-        # docs/filters.md: over the active ones and those that hold at least 1 % of the largest value.
+        # docs/manual/columns.md: over the active ones and those that hold at least 1 % of the largest value.
         counted = np.where((values > 0) | (given > 0.01 * given.max(axis=(1, 2), keepdims=True)), given, 0).astype(float)
         mean = counted[10:20].sum(axis=(1, 2)) / (counted[10:20] > 0).sum(axis=(1, 2))
         np.testing.assert_allclose(found["mean"][10:20], mean, rtol=1e-6)

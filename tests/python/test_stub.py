@@ -59,7 +59,7 @@ def test_the_manual_shows_which_arguments_are_given_by_name():
     functions = functions_of(TREE.body)
     for node in CLASSES.values():
         functions.update(functions_of(node.body))
-    calls = re.findall(r"`(\w+)\(([^()`]*)\)", (SOURCE / "docs/python.md").read_text())
+    calls = re.findall(r"`(\w+)\(([^()`]*)\)", (SOURCE / "docs/manual/python.md").read_text())
     assert len(calls) > 40
     for name, text in calls:
         if name not in functions:
@@ -83,7 +83,7 @@ def test_everything_is_explained():
 
 
 def test_the_page_names_everything():
-    page = (SOURCE / "docs/python.md").read_text()
+    page = (SOURCE / "docs/manual/python.md").read_text()
     for name in public(vars(palpate)):
         assert any(form in page for form in (f"{name}(", f"`{name}`", f"`palpate.{name}`")), name
     for name, node in CLASSES.items():

@@ -1,6 +1,6 @@
 // Tests recognition in another session on the real recordings: 571 grasps of 36 classes from
 // September 2014, and 42 grasps of three of these objects 11 weeks later (protocol X). Neither is
-// an independent test; docs/recognition.md lists which choices were made on which data.
+// an independent test; docs/notes/recognition.md lists which choices were made on which data.
 #include <algorithm>
 #include <array>
 #include <cmath>

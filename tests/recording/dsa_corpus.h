@@ -11,8 +11,8 @@
 
 namespace palpate::testing {
 
-// The example of docs/dsa_format.md: one matrix of 2 rows and 3 columns, two frames (all zero; 0 0
-// 100 / 0 1000 0), one temperature sample, one angle sample.
+// The example of docs/notes/dsa_format.md: one matrix of 2 rows and 3 columns, two frames (all
+// zero; 0 0 100 / 0 1000 0), one temperature sample, one angle sample.
 std::string exampleXml();
 // `text` with the first `from` replaced. Throws std::logic_error when there is none.
 std::string replaced(std::string text, std::string_view from, std::string_view to);

@@ -1,5 +1,5 @@
-// Reading .dsa recordings: the format's own example, every variant of docs/dsa_format.md, and the
-// oddities that cost no more than a warning.
+// Reading .dsa recordings: the format's own example, every variant of docs/notes/dsa_format.md, and
+// the oddities that cost no more than a warning.
 #include "palpate/recording/dsa_reader.h"
 
 #include <algorithm>

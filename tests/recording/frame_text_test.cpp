@@ -1,4 +1,4 @@
-// The run-length code of frames: the examples of docs/dsa_format.md, and round trips.
+// The run-length code of frames: the examples of docs/notes/dsa_format.md, and round trips.
 #include "palpate/recording/frame_text.h"
 
 #include <cmath>

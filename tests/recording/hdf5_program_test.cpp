@@ -74,7 +74,7 @@ void makeRecording(const fs::path& path) {
   fs::remove(path.string() + ".palpate");
 }
 
-// Makes the checksum of a changed file fit, as docs/bridges.md shows.
+// Makes the checksum of a changed file fit, as docs/notes/exchange_formats.md shows.
 std::string withRenewedChecksum(std::string file) {
   constexpr std::size_t kUserBlock = 512;
   const auto rest = std::as_bytes(std::span(file).subspan(kUserBlock));

@@ -1,4 +1,4 @@
-"""Reads a .palpate by docs/palpate_format.md alone: sqlite3, struct and zlib, nothing of palpate.
+"""Reads a .palpate by docs/notes/palpate_format.md alone: sqlite3, struct and zlib, nothing of palpate.
 
     independent_reader.py FILE OUT
 

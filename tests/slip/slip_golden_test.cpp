@@ -1,5 +1,5 @@
 // Compares slip on two real recordings with the results of an independent program (its conventions
-// and flaws: docs/slip.md).
+// and flaws: docs/notes/slip.md).
 #include <cmath>
 #include <fstream>
 #include <map>

@@ -5,7 +5,7 @@
 namespace palpate::slip_state_test {
 namespace {
 
-// The names in the column `state` are part of the documented interface (docs/commands.md).
+// The names in the column `state` are part of the documented interface (docs/manual/columns.md).
 TEST(SlipState, HasTheWordsOfTheTable) {
   EXPECT_EQ(nameOf(SlipState::kStill), "still");
   EXPECT_EQ(nameOf(SlipState::kLoading), "loading");

@@ -1,5 +1,5 @@
-// Targets of slip detection (docs/slip.md), tested on synthetic contacts with known motion and on
-// the real recordings if they are present.
+// Targets of slip detection (docs/notes/slip.md), tested on synthetic contacts with known motion
+// and on the real recordings if they are present.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -63,7 +63,7 @@ std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options) {
       {"output,o",
        "TEMPLATE",
        "a file for each recording, as out/{name}.csv; also {folder}, {ending}, {date}, {time}; "
-       "docs/bridges.md"},
+       "docs/manual/many_recordings.md"},
       {"force", "", "replace files that exist"}};
   options.insert(options.end(), batch.begin(), batch.end());
   return withResumeOptions(std::move(options));

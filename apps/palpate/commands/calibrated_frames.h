@@ -41,9 +41,9 @@ ComputedOptions computedOptions(const std::optional<CalibrationChoice>& choice,
 // Computes the pressures of one frame after the other.
 class CalibratedFrames {
  public:
-  // `profile`: that of the recording, as it is or filtered. Subtracts the tare that the recording's events contain. Throws Error for a sensor that the calibration
-  // cannot be applied to; FileError or FormatError where the tare or the settings are wanted and
-  // the events can't be read.
+  // `profile`: that of the recording, as it is or filtered. Subtracts the tare that the recording's
+  // events contain. Throws Error for a sensor that the calibration cannot be applied to; FileError
+  // or FormatError where the tare or the settings are wanted and the events can't be read.
   CalibratedFrames(const CalibrationChoice& choice,
                    const std::filesystem::path& file,
                    const Recording& recording,

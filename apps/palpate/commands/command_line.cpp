@@ -123,16 +123,18 @@ constexpr std::int64_t kShowProgressAfterUs = 1'000'000;
 
 std::string detail::rangeText(const OptionRange& range, std::optional<double> usual, bool isWhole) {
   std::string text = *range.unit ? std::string(" [") + range.unit + "]" : "";
-  const bool isOpen = isWhole ? range.maximum >= static_cast<double>(INT32_MAX)
-                              : !std::isfinite(range.maximum);
+  const bool isOpen =
+      isWhole ? range.maximum >= static_cast<double>(INT32_MAX) : !std::isfinite(range.maximum);
   text += isOpen ? "; from " + numberText(range.minimum)
                  : "; " + numberText(range.minimum) + ".." + numberText(range.maximum);
   return usual ? text + ", default " + numberText(*usual) : text;
 }
 
 OptionSpec bound(const std::string& name, std::string help, bool& field) {
-  return {name, "", std::move(help), [option = name.substr(0, name.find(',')), &field](
-                                         const CommandLine& given) {
+  return {name,
+          "",
+          std::move(help),
+          [option = name.substr(0, name.find(',')), &field](const CommandLine& given) {
             if (given.has(option)) field = true;
           }};
 }

@@ -158,7 +158,7 @@ int convertCommand(const Arguments& words) {
                    "       palpate convert PATH... [--each-grasp] -o TEMPLATE",
        .purpose = "Converts a recording. The ending of OUT chooses the format: .dsa, .palpate, "
                   ".csv (with OUT.angles.csv and such files of other series beside it), .npz (for "
-                  "NumPy), .h5, .mat, .mcap (docs/bridges.md) or .jsonl (frames as "
+                  "NumPy), .h5, .mat, .mcap (docs/manual/files.md) or .jsonl (frames as "
                   "schunk_sdh/TactileSensor). Of a FOLDER it converts every recording below it, "
                   "into OUTFOLDER under the same names with the ending of FORM, and prints a line "
                   "per file. If one fails, the others are still converted: exit code 3.",

@@ -71,7 +71,7 @@ std::vector<std::string> warningsOf(const Recording& recording) {
   return warnings;
 }
 
-// The details that operators enter before a recording (docs/palpate_format.md).
+// The details that operators enter before a recording (docs/notes/palpate_format.md).
 constexpr const char* kSaid[] = {"operator", "object", "run", "notes"};
 
 Json detailsOf(const Event& event) {

@@ -71,7 +71,8 @@ int labelsCommand(const Arguments& words) {
            "end_s is a moment, a row without kind is a label. Where a column names the file, only "
            "the rows of FILE are added. Wrong rows are left out and named by "
            "their line number; then the exit code is 3, or 1 if all rows are wrong.",
-       .options = withTableOptions({{"import", "LABELS.csv", "add the labels of this table to FILE"}}),
+       .options =
+           withTableOptions({{"import", "LABELS.csv", "add the labels of this table to FILE"}}),
        .example = "palpate labels recordings > labels.csv",
        .minArguments = 1},
       words);
@@ -83,9 +84,9 @@ int labelsCommand(const Arguments& words) {
   return runTableCommand(
       given,
       {.options = "labels",
-       .of = [](const std::filesystem::path&, const Recording& recording, const Progress&) {
-         return labelRows(recording.events, recording.profile);
-       },
+       .of = [](const std::filesystem::path&,
+                const Recording& recording,
+                const Progress&) { return labelRows(recording.events, recording.profile); },
        .rowNoun = "label",
        .readable = true});
 }

@@ -438,8 +438,7 @@ int writeTables(const RecordingList& list, bool quiet, const TableRun& run) {
                         const Recording& recording,
                         TextTarget& target,
                         const Progress& progress) {
-                      const std::unique_ptr<ResultTable> table =
-                          run.of(file, recording, progress);
+                      const std::unique_ptr<ResultTable> table = run.of(file, recording, progress);
                       const TableText text(*table, options);
                       target.head(text.begin());
                       std::string rows;

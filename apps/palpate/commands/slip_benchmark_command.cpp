@@ -43,9 +43,10 @@ Json slipBenchmarkToJson(const SlipAccuracy& accuracy) {
 int slipBenchmarkCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate slip-benchmark [--noise SD] [--edge SD] [--shape S].. [--seed N]",
-       .purpose = "Measures the accuracy of every slip method on synthetic contacts whose motion "
-                  "is known, and compares it with the Cramer-Rao bound. Prints JSON; docs/slip.md "
-                  "explains it.",
+       .purpose =
+           "Measures the accuracy of every slip method on synthetic contacts whose motion "
+           "is known, and compares it with the Cramer-Rao bound. Prints JSON; docs/notes/slip.md "
+           "explains it.",
        .options = {{"noise", "SD", "standard deviation of the noise [counts], default 5"},
                    {"edge",
                     "SD",

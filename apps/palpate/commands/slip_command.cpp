@@ -40,7 +40,8 @@ int slipCommand(const Arguments& words) {
        .purpose =
            "Prints for every frame and every matrix with an active taxel, as CSV, how the contact "
            "moved since the frame before (dx, dy) and since the reference [taxels, x right, y "
-           "down], by which angle it turned, and whether that is slip; docs/slip.md explains the "
+           "down], by which angle it turned, and whether that is slip; docs/manual/columns.md "
+           "explains the "
            "columns. With --segments there is a row per slip instead. PATH is a recording, or a "
            "folder: every recording below it. With several recordings a last column names the "
            "file. With -o there is a table for each recording.",

@@ -64,7 +64,7 @@ int stepBenchmarkCommand(const Arguments& words) {
        .purpose =
            "Fits synthetic loading steps whose parameters are known, by noise, length and drift, "
            "and counts how often the stated 95 % intervals contain them, with Wilson's interval of "
-           "that fraction. Prints JSON; docs/calibration.md explains it.",
+           "that fraction. Prints JSON; docs/notes/calibration.md explains it.",
        .options = {{"trials", "N", "steps per kind, default 200"},
                    {"seed", "N", "seed of noise and loads, default 1"}},
        .example = "palpate step-benchmark --trials 50",

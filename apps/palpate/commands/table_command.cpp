@@ -51,10 +51,9 @@ int runTableCommand(const CommandLine& given, const RecordingTable& table) {
   if (given.has("output"))
     return runBatchCommand(given, batchTemplateOf(given, {".csv", ".json"}), tableTask(chosen));
   refuseBatchOptions(given);
-  return writeTables(
-      recordingsIn(given.words()),
-      given.quiet(),
-      {.of = table.of, .text = tableTextOf(given), .readable = table.readable});
+  return writeTables(recordingsIn(given.words()),
+                     given.quiet(),
+                     {.of = table.of, .text = tableTextOf(given), .readable = table.readable});
 }
 
 }  // namespace palpate::commands

@@ -1,6 +1,6 @@
 // Closes the empty hand until its own pads touch, holds, and opens again. The recorded frames and
 // angles give the distance of the pads at the joint angles where they should touch
-// (docs/recognition.md, the zero of the empty hand).
+// (docs/notes/recognition.md, the zero of the empty hand).
 #pragma once
 
 #include <cstdint>

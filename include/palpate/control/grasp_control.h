@@ -4,8 +4,8 @@
 // A thread of its own processes the frames as they arrive: a frame over the limit causes a stop
 // command within milliseconds. Values are checked before a byte is sent. Connecting causes no
 // motion. The steps of a grasp are noted in the session as events "grasp" (and by the device as
-// "motion"), so that a recording contains them. docs/safety.md describes what is guaranteed, and
-// what the hand does when the program no longer controls it.
+// "motion"), so that a recording contains them. docs/notes/safety.md describes what is guaranteed,
+// and what the hand does when the program no longer controls it.
 #pragma once
 
 #include <condition_variable>

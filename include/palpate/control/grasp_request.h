@@ -162,7 +162,7 @@ enum class GraspOutcome {
   kStopped,       // stopped by the user
   kRelaxed,       // relaxed by the user: motors off
   kStreamLost,    // no frames any more in a reactive grasp: stopped
-  kPortGone,      // the motion port is gone: see docs/safety.md for what the hand does
+  kPortGone,      // the motion port is gone: see docs/notes/safety.md for what the hand does
   kFailed,        // the hand refused, didn't answer, or didn't end: stopped
   kRefused,       // the grasp never began: nothing was sent
 };

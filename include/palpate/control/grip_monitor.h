@@ -5,8 +5,8 @@
 // of at least 0.3. It slips if the contact moves by more than 0.20 taxel per frame in two
 // consecutive frames, or by more than 0.3 taxel or 5 deg from the reference. These limits are lower
 // than the 1.0 taxel of an alarm, because the imprint of an object that is pulled out moves only
-// about a quarter as far as the object (docs/slip.md), and because a false detection only increases
-// the force.
+// about a quarter as far as the object (docs/notes/slip.md), and because a false detection only
+// increases the force.
 #pragma once
 
 #include <optional>

@@ -33,9 +33,10 @@ inline std::optional<double> knownIf(bool known, double value) {
 struct ResultColumn {
   std::string name;  // "ref_dx"; unique in its table
   CellKind kind = CellKind::kNumber;
-  std::string unit = {};     // "mm", "taxels"; empty: none
-  std::string meaning = {};  // for the page of all columns: "motion since the reference, to the right"
-  int decimals = -1;         // of a number as text; -1: as many as read back as the same number
+  std::string unit = {};  // "mm", "taxels"; empty: none
+  std::string meaning =
+      {};             // for the page of all columns: "motion since the reference, to the right"
+  int decimals = -1;  // of a number as text; -1: as many as read back as the same number
 };
 
 // The number of a cell: of a flag 0 or 1; NaN where it isn't known, and for texts.
@@ -91,10 +92,10 @@ ColumnOf<Row> columnOf(std::string name, std::string unit, std::string meaning, 
     else
       return Result();
   }());
-  constexpr CellKind kind = std::is_same_v<Made, bool>         ? CellKind::kFlag
-                            : std::is_integral_v<Made>         ? CellKind::kInteger
-                            : std::is_floating_point_v<Made>   ? CellKind::kNumber
-                                                               : CellKind::kText;
+  constexpr CellKind kind = std::is_same_v<Made, bool>       ? CellKind::kFlag
+                            : std::is_integral_v<Made>       ? CellKind::kInteger
+                            : std::is_floating_point_v<Made> ? CellKind::kNumber
+                                                             : CellKind::kText;
   return {{std::move(name), kind, std::move(unit), std::move(meaning)},
           [of = std::move(of), made](const Row& row) -> Cell {
             if constexpr (isOptional) {

@@ -1,6 +1,6 @@
 // The stop of a hand whose program dies while it may move: written to the motion port by the
 // program's own crash handler, and by a small program, palpate_stop, that notices the death from
-// outside (kill -9, no memory left). docs/safety.md says which deaths are covered.
+// outside (kill -9, no memory left). docs/notes/safety.md says which deaths are covered.
 #pragma once
 
 #include <array>

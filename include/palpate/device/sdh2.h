@@ -18,7 +18,7 @@ constexpr float kSdh2SaturationCounts = 3500.0F;
 
 // How far the reading of a taxel, and the force of a finger, rise after a stop, per velocity of the
 // joints [counts per deg/s, N per deg/s], and the most that its motors can press at their current
-// limits [counts, N]: on the hardest known object, docs/safety.md.
+// limits [counts, N]: on the hardest known object, docs/notes/safety.md.
 constexpr double kSdh2RiseCounts = 800.0;
 constexpr double kSdh2RiseN = 6.5;
 constexpr double kSdh2StalledCounts = 3020.0;

@@ -1,6 +1,6 @@
 // Rows of numbers beside the hand, a further series: what a load cell, a wrist or an IMU sends as
-// lines of text over a serial port, a pty, TCP, UDP or standard input. docs/stream_protocol.md
-// specifies what is sent.
+// lines of text over a serial port, a pty, TCP, UDP or standard input.
+// docs/manual/stream_protocol.md specifies what is sent.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // A stream of frames as a Device: text lines, JSON or packets from a serial port, a pty, TCP, UDP
-// or standard input, of any hand whose description is known. docs/stream_protocol.md specifies what
-// is sent.
+// or standard input, of any hand whose description is known. docs/manual/stream_protocol.md
+// specifies what is sent.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Reads a stream of text lines: numbers separated by commas, semicolons or white space, one line
 // per frame, per matrix, or per row of the only matrix; values with labels ("A0:1,A1:2"); or JSON
-// objects as `palpate stream` sends them. docs/stream_protocol.md specifies all of them.
+// objects as `palpate stream` sends them. docs/manual/stream_protocol.md specifies all of them.
 //
 // The numbers of a line are read without an allocation; JSON objects take several.
 #pragma once

@@ -1,4 +1,4 @@
-// Reads and writes the packets of a binary stream. docs/stream_protocol.md specifies them:
+// Reads and writes the packets of a binary stream. docs/manual/stream_protocol.md specifies them:
 //
 //   A5 5A | version u8 = 1 | type u8 | length u32 [bytes of payload] | sequence u32 |
 //   device time u64 [us] | payload | CRC-32 u32

@@ -1,6 +1,6 @@
 // What a stream of a hand carries, whatever its form: frames, joint angles, temperatures and a
-// description, and the rules that every value must fulfil. docs/stream_protocol.md specifies the
-// forms: lines of text (StreamLineParser) and packets (StreamPacketParser).
+// description, and the rules that every value must fulfil. docs/manual/stream_protocol.md specifies
+// the forms: lines of text (StreamLineParser) and packets (StreamPacketParser).
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Emulated hand that sends its frames as a stream: for hands without the SDH-2's protocols. It
-// listens at a TCP port and sends packets or lines (docs/stream_protocol.md) to whoever connects,
-// one client at a time; a StreamDevice with the source tcp:HOST:PORT receives them.
+// listens at a TCP port and sends packets or lines (docs/manual/stream_protocol.md) to whoever
+// connects, one client at a time; a StreamDevice with the source tcp:HOST:PORT receives them.
 //
 // The hand's time advances while a client is connected: frame n is measured at n / rate. Without a
 // client the hand rests.

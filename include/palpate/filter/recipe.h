@@ -65,7 +65,7 @@ void writeRecipe(const std::filesystem::path& path, const Recipe& recipe, bool o
 // Ready-made recipes that the window offers; those for high sensitivity come first.
 std::span<const Recipe> recipePresets();
 // The recipe that cleans the frames of a hand at high sensitivity; chosen from the table in
-// docs/ghosting.md.
+// docs/notes/ghosting.md.
 const Recipe& highSensitivityRecipe();
 
 }  // namespace palpate

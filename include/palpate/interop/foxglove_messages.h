@@ -3,7 +3,7 @@
 // FrameTransforms, SceneUpdate, JointStates, Log), so that its panels show them without more.
 //
 // Lengths are in m and angles in rad there, as Foxglove's schemas ask for; signals keep their
-// units, which the schema of their channel names. docs/interop.md lists the channels.
+// units, which the schema of their channel names. docs/notes/live_streams.md lists the channels.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 //   answer:  {"ok":false,"command":"label","error":"not_recording","message":"nothing is being .."}
 //
 // A request is a verb and, behind blanks, its text up to the end of the line (LF, CR LF too):
-// UTF-8, at most kMaxRequestBytes. docs/interop.md is the manual.
+// UTF-8, at most kMaxRequestBytes. docs/notes/live_streams.md specifies it.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Live results of one frame as one JSON object on one line, in the form that PlotJuggler's UDP
 // server reads: nested keys become the tree of curves, and "t" is the field to choose as time
-// stamp. docs/interop.md lists the fields.
+// stamp. docs/notes/live_streams.md lists the fields.
 //
 // Unknown values have no key: there is neither null nor a number that means "none". Flags are 0 and
 // 1.

@@ -1,5 +1,5 @@
 // Where a hand touches in space as result tables: one row for each frame, or one for each frame and
-// matrix. docs/contact.md explains the columns.
+// matrix. docs/manual/columns.md explains the columns.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ struct ContactRowsOptions {
   // Used instead of recorded joint angles [deg, sliding: mm].
   std::optional<std::vector<double>> anglesDeg = {};
   ContactOptions contact = {};
-  bool matrices = false;                        // a row per matrix instead of one per frame
-  std::size_t first = 0, last = SIZE_MAX;       // frames, both inclusive
+  bool matrices = false;                   // a row per matrix instead of one per frame
+  std::size_t first = 0, last = SIZE_MAX;  // frames, both inclusive
   std::function<ForceReading(const TactileFrame&)> forceOf = {};  // fills force_n of frames
   std::string noForceText = {};  // why it may be unknown, as problems() say it
 };

@@ -12,8 +12,9 @@
 //   indentation of a pad = foamMm sqrt(peak taxel / 1000 counts)
 // with foamMm = 0.80, fitted to 28 classes of rigid objects (455 grasps of 12 to 15 September
 // 2014). It varies by +- 24 % from object to object: 0.4 on flat blocks, 1.1 on the hockey ball
-// (pointed contacts sink in deeper). docs/contact.md has the table. The model does not include
-// hysteresis and temperature of the foam, nor other sensitivities: it uses counts, not forces.
+// (pointed contacts sink in deeper). docs/notes/contact.md has the table. The model does not
+// include hysteresis and temperature of the foam, nor other sensitivities: it uses counts, not
+// forces.
 #pragma once
 
 #include <cstddef>

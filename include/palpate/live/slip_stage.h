@@ -15,7 +15,7 @@
 namespace palpate {
 
 // Options for live use: displacement vector of `centroid`, alarm of the method `contest`
-// (docs/slip.md), reference taken when a contact rests.
+// (docs/notes/slip.md), reference taken when a contact rests.
 SlipDetectorOptions liveSlipOptions();
 
 // Fills LiveResults::slip. When the alarm of a matrix begins, an event "slip" marks the moment;

@@ -1,6 +1,6 @@
 // Reads the description of a hand from its folder: hand.json, and hand.urdf where the hand has
-// joints. docs/another_hand.md describes both files; data/hands/hand.schema.json is the JSON schema
-// of hand.json.
+// joints. docs/manual/own_array.md describes both files; data/hands/hand.schema.json is the JSON
+// schema of hand.json.
 //
 // The hands that Palpate knows without a folder (data/hands of the project) are compiled into the
 // program, from the same files.

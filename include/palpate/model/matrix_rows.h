@@ -30,8 +30,7 @@ std::vector<ColumnOf<MatrixRow<Value>>> matrixRowColumns(
                     "host time, since 1970",
                     [](const Row& row) { return row.timeUs / kUsPerMs; }),
       columnOf<Row>("matrix", "", "number of the matrix, from 0", &Row::matrix)};
-  appendColumns(
-      columns, ofValue, [](const Row& row) -> const Value& { return row.value; });
+  appendColumns(columns, ofValue, [](const Row& row) -> const Value& { return row.value; });
   return columns;
 }
 

@@ -108,13 +108,13 @@ ModelEvaluation evaluateModel(const TrainedModel& model,
                               const EvaluationOptions& options = {});
 
 // JSON with accuracy, interval, top3, coverage, accuracy_when_sure, classes, confusion, ..
-// (docs/commands.md, `palpate evaluate --model`).
+// (docs/manual/commands.md, `palpate evaluate --model`).
 Json jsonOf(const ModelEvaluation& evaluation);
 
 // Name of a class of the model, or "unknown".
 std::string labelOf(const TrainedModel& model, int label);
 // JSON with file, begin, end, label, confidence, sure, membership, novelty, top: [{label, p}] with
-// the best five classes (docs/commands.md, `palpate classify`).
+// the best five classes (docs/manual/commands.md, `palpate classify`).
 Json predictionJson(const TrainedModel& model, const FeatureRow& row, const Prediction& prediction);
 
 }  // namespace palpate

@@ -1,5 +1,5 @@
 // Calibrates classifier scores to probabilities. The method is deterministic and uses test samples
-// that were not used for training (docs/recognition.md). ClassifierPipeline uses it.
+// that were not used for training (docs/notes/recognition.md). ClassifierPipeline uses it.
 //   pairs     P(first) = 1 / (1 + exp(a f + b)): Platt 2000, in the form of Lin, Lin, Weng 2007, "A
 //             note on Platt's probabilistic outputs for support vector machines", Machine Learning
 //             68

@@ -1,5 +1,6 @@
-// Splits samples into training and test samples by the protocols S and B (docs/recognition.md).
-// Cross-validation and the calibration of probabilities use the splits.
+// Splits samples into training and test samples by the protocols S and B
+// (docs/notes/recognition.md). Cross-validation and the calibration of probabilities use the
+// splits.
 #pragma once
 
 #include <cstddef>

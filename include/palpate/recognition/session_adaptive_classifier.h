@@ -28,7 +28,7 @@ namespace palpate {
 
 // The defaults were chosen on the last third of each recording of September 2014 and on sessions
 // simulated from them; the standard deviations of a session come from earlier work.
-// docs/recognition.md ("How the constants were chosen") says what this means for the reported
+// docs/notes/recognition.md ("How the constants were chosen") says what this means for the reported
 // accuracies.
 struct SessionAdaptiveOptions {
   double classCovarianceFraction = 0.5;  // 0..1

@@ -168,7 +168,7 @@ struct OpenSetPrediction {
 
 struct OpenSetOptions {
   // Threshold [ln] of the ratio: 1 % of the known and 60 % of the unknown grasps are below it
-  // (data: docs/recognition.md).
+  // (data: docs/notes/recognition.md).
   double minLogLikelihoodRatio = 1.0;
   // Part of the offset's distribution for which an object must be known to be called known while
   // the offset isn't trusted, 0..1.

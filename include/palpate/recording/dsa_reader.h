@@ -1,5 +1,5 @@
 // Reads a .dsa recording: bzip2-compressed (or plain) XML of the prior program, streaming; the
-// blocks of the file are decompressed on several threads. Format: docs/dsa_format.md.
+// blocks of the file are decompressed on several threads. Format: docs/notes/dsa_format.md.
 //
 // Strict: a file that is damaged anywhere gives one exception and no profile. What costs nothing is
 // a warning in the profile's info: declared counts that are wrong, unknown elements, odd masks,

@@ -1,4 +1,5 @@
-// Writes a .dsa recording, frame coding byte-identical to the prior program's (docs/dsa_format.md).
+// Writes a .dsa recording, frame coding byte-identical to the prior program's
+// (docs/notes/dsa_format.md).
 #pragma once
 
 #include <cstddef>

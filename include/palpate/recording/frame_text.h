@@ -1,6 +1,6 @@
-// The run-length code of a frame in a .dsa recording (docs/dsa_format.md): tokens of 8 hexadecimal
-// digits, each the bits of a big-endian IEEE 754 binary32. A negative value -n is a run of n zeros,
-// any other value (-0.0 too) is one value. White space has no meaning.
+// The run-length code of a frame in a .dsa recording (docs/notes/dsa_format.md): tokens of 8
+// hexadecimal digits, each the bits of a big-endian IEEE 754 binary32. A negative value -n is a run
+// of n zeros, any other value (-0.0 too) is one value. White space has no meaning.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
-// A recording as an HDF5 file, which h5py, MATLAB, HDFView and others open; docs/bridges.md has its
-// layout. It holds all of a recording (frames, stamps, series, events, hand, what was said of it)
-// bit by bit, so that it can be read back, and beside that where it comes from and series that were
-// computed of its frames.
+// A recording as an HDF5 file, which h5py, MATLAB, HDFView and others open;
+// docs/notes/exchange_formats.md has its layout. It holds all of a recording (frames, stamps,
+// series, events, hand, what was said of it) bit by bit, so that it can be read back, and beside
+// that where it comes from and series that were computed of its frames.
 //
 // Files are read by a process of its own, palpate_hdf5, whose memory and processor time are
 // limited: libhdf5 crashes and hangs on files that anybody can make. A program that does without

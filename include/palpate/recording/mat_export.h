@@ -1,5 +1,5 @@
 // A recording as a MAT file of version 5, which every MATLAB since 1996 opens, and Octave and
-// SciPy, too; docs/bridges.md has its structures. It is written only.
+// SciPy, too; docs/notes/exchange_formats.md has its structures. It is written only.
 #pragma once
 
 #include <filesystem>

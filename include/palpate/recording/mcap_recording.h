@@ -1,8 +1,8 @@
 // A recording as an MCAP file, the container of ROS 2 and Foxglove (specification: mcap.dev/spec);
-// docs/bridges.md has its topics. It holds all of a recording (frames, stamps, series, events,
-// hand, what was said of it) bit by bit, so that it can be read back, and beside that where it
-// comes from and series that were computed of its frames. MCAP files of other programs are read as
-// far as they have images with one value per pixel.
+// docs/notes/exchange_formats.md has its topics. It holds all of a recording (frames, stamps,
+// series, events, hand, what was said of it) bit by bit, so that it can be read back, and beside
+// that where it comes from and series that were computed of its frames. MCAP files of other
+// programs are read as far as they have images with one value per pixel.
 #pragma once
 
 #include <cstddef>

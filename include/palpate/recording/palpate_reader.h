@@ -1,5 +1,5 @@
-// Reads a native recording `*.palpate` (docs/palpate_format.md) with random access: the block index
-// lies in memory, blocks are read and checked on demand.
+// Reads a native recording `*.palpate` (docs/notes/palpate_format.md) with random access: the block
+// index lies in memory, blocks are read and checked on demand.
 //
 // A finished recording is opened read-only where it lies. An unfinished one (its writer died) is
 // copied with its rollback journal to a temporary folder and opened there; one that is being

@@ -1,5 +1,5 @@
-// The native recording `*.palpate`: one SQLite 3 file (docs/palpate_format.md). What writer, reader
-// and recovery agree on: names, codings, checksums, the bytes of a block.
+// The native recording `*.palpate`: one SQLite 3 file (docs/notes/palpate_format.md). What writer,
+// reader and recovery agree on: names, codings, checksums, the bytes of a block.
 //
 // A block holds consecutive items of one stream: frames, or samples of one series. Its data is, per
 // item and little-endian:

@@ -1,4 +1,4 @@
-// Writes a native recording `*.palpate` (docs/palpate_format.md) so that what was committed
+// Writes a native recording `*.palpate` (docs/notes/palpate_format.md) so that what was committed
 // survives a killed process and a full disk: rollback journal, synchronous=FULL, a commit every 100
 // ms at most.
 #pragma once

@@ -16,7 +16,7 @@ namespace palpate {
 
 // What was said of a recording as a whole when it was made: by the device about itself, by the
 // operator about the run. These are the keys and values of the table `meta` of a native recording
-// (docs/palpate_format.md), which an .h5 and an .mcap keep: "serial", "firmware", "settings"
+// (docs/notes/palpate_format.md), which an .h5 and an .mcap keep: "serial", "firmware", "settings"
 // (JSON), "operator", ..; a .dsa has none.
 using RecordingMeta = std::map<std::string, std::string>;
 

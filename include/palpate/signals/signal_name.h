@@ -1,5 +1,5 @@
 // The names of the signals of a recording, as formulas, the commands `derive`, `spectrum` and
-// `compare`, and the window write them (docs/analysis.md, "Names of signals"):
+// `compare`, and the window write them (docs/manual/columns.md, "Names of signals"):
 //   m1_mean      mean of matrix 1; also filtered_mean, min, max, sum, active, area_mm2
 //   m1_x         with readings: their sum along x; also y, z, and norm, the length of the three
 //   hand_sum     the same of the whole hand

@@ -1,5 +1,5 @@
 // The characteristic signals of a recording as a result table: one row for each frame and matrix.
-// docs/signals.md explains the columns.
+// docs/manual/columns.md explains the columns.
 #pragma once
 
 #include <cstddef>

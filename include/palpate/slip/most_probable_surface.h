@@ -4,10 +4,10 @@
 // As LearnedSurface, it is refined by every registered frame. It differs in the estimate of the
 // coefficients: all covariances of the readings count, and between the readings the prior says how
 // a contact with edges goes on. In the first frames of a contact with sharp edges the errors of
-// steps are 0.5 to 0.8 times as large (docs/slip.md); a frame costs more. Beyond the readings the
-// prior draws the surface to 0. So it must not be used for a contact that goes on outside of the
-// matrix, whose motion would seem to be determined: loadAtTwoSides() (contact_ends.h) tells where
-// it may.
+// steps are 0.5 to 0.8 times as large (docs/notes/slip.md); a frame costs more. Beyond the readings
+// the prior draws the surface to 0. So it must not be used for a contact that goes on outside of
+// the matrix, whose motion would seem to be determined: loadAtTwoSides() (contact_ends.h) tells
+// where it may.
 //
 // How uncertain a value is, for the weights of a registration, is followed per coefficient, as by a
 // Kalman filter with a diagonal covariance matrix: it begins larger between taxels, where taxels

@@ -1,5 +1,5 @@
 // Slip as result tables: one row for each frame and matrix with an active taxel, or one for each
-// slip. docs/slip.md explains the columns.
+// slip. docs/manual/columns.md explains the columns.
 #pragma once
 
 #include <cstdint>

@@ -6,9 +6,10 @@
 //
 // e is the logarithm of the likelihood ratio of slip to no slip, as a logistic regression estimates
 // it from the features of a frame. One step is made per stored frame (slip_windows.h): above 50
-// frames/s every 20 ms. The default weights were fitted to the recordings that docs/load_shift.md
-// names; fitSlipSequence() in slip_evaluation.h fits them. A feature depends on lengths in taxels,
-// on load ratios and on residuals per noise, and on no property of one hand.
+// frames/s every 20 ms. The default weights were fitted to the recordings that
+// docs/notes/load_shift.md names; fitSlipSequence() in slip_evaluation.h fits them. A feature
+// depends on lengths in taxels, on load ratios and on residuals per noise, and on no property of
+// one hand.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The names of groups, data sets and attributes in an HDF5 file of a recording (docs/bridges.md),
-// which writer and reader agree on. Private to this module.
+// The names of groups, data sets and attributes in an HDF5 file of a recording
+// (docs/notes/exchange_formats.md), which writer and reader agree on. Private to this module.
 #pragma once
 
 #include <cstddef>

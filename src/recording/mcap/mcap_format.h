@@ -1,5 +1,5 @@
 // The records of an MCAP file (mcap.dev/spec), which writer and reader agree on, and the topics of
-// a recording in one (docs/bridges.md). Private to this module.
+// a recording in one (docs/notes/exchange_formats.md). Private to this module.
 #pragma once
 
 #include <bit>

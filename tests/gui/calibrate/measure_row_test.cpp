@@ -188,7 +188,7 @@ TEST_F(MeasureRowTest, ItCanBeCancelled) {
   EXPECT_EQ(settings.value("calibrate/tare_seconds").toInt(), 60) << "remembered";
 }
 
-// The order of docs/keys.md: a message first.
+// The order of docs/manual/keys.md: a message first.
 TEST_F(MeasureRowTest, EscapeClosesAMessageBeforeItCancels) {
   find<QSpinBox>("tareMeasureSeconds")->setValue(60);
   showPage("Tare");

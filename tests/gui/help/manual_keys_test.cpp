@@ -1,4 +1,4 @@
-// docs/keys.md is the list that F1 shows, and docs/docks.md knows every dock.
+// docs/manual/keys.md is the list that F1 shows, and docs/manual/docks.md knows every dock.
 #include <QAction>
 #include <QDockWidget>
 #include <QLabel>
@@ -15,7 +15,7 @@ class ManualKeysTest : public WindowTest {
  protected:
   ManualKeysTest() { open({"good.dsa"}); }
   static std::string page(const char* name) {
-    return testing::readFile(testing::dataFolder().parent_path() / "docs" / name);
+    return testing::readFile(testing::dataFolder().parent_path() / "docs/manual" / name);
   }
 };
 
@@ -39,14 +39,15 @@ TEST_F(ManualKeysTest, ThePageOfKeysIsTheListOfF1) {
   const std::string text = page("keys.md");
   std::set<std::string> told;
   for (const std::string& row : rowsOf(dialogue)) {
-    EXPECT_NE(text.find(row + "\n"), std::string::npos) << "docs/keys.md lacks: " << row;
+    EXPECT_NE(text.find(row + "\n"), std::string::npos) << "docs/manual/keys.md lacks: " << row;
     told.insert(row);
   }
   EXPECT_GT(told.size(), 80u);
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("| ") && !line.starts_with("| key")) {
-      EXPECT_TRUE(told.contains(line)) << "docs/keys.md tells of what F1 doesn't show: " << line;
+      EXPECT_TRUE(told.contains(line))
+          << "docs/manual/keys.md tells of what F1 doesn't show: " << line;
     }
 }
 
@@ -67,12 +68,12 @@ TEST_F(ManualKeysTest, EveryDockIsDescribedWithItsKey) {
   const std::string text = page("docks.md");
   for (const QString& name : window().docks().names()) {
     EXPECT_NE(text.find("\n## " + name.toStdString() + "\n"), std::string::npos)
-        << "docs/docks.md has no section " << name.toStdString();
+        << "docs/manual/docks.md has no section " << name.toStdString();
     const auto* dock = window().findChild<QDockWidget*>(name);
     ASSERT_NE(dock, nullptr) << name.toStdString();
     const std::string key = dock->toggleViewAction()->shortcut().toString().toStdString();
     const std::string row = "](#" + name.toLower().toStdString() + ") | " + key + " |";
-    EXPECT_NE(text.find(row), std::string::npos) << "docs/docks.md: no row " << row;
+    EXPECT_NE(text.find(row), std::string::npos) << "docs/manual/docks.md: no row " << row;
   }
 }
 

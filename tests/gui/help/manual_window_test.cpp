@@ -36,24 +36,24 @@ class ManualWindowTest : public WindowTest {
 
 TEST_F(ManualWindowTest, BeginsWithItsContents) {
   EXPECT_EQ(manual_.page(), "README.md");
-  EXPECT_EQ(firstLine(), "The manual");
+  EXPECT_EQ(firstLine(), "Documentation of Palpate");
   const auto* contents = manual_.findChild<QTreeWidget*>();
-  EXPECT_EQ(contents->topLevelItemCount(),
-            QDir(QString::fromStdString(folder_.string())).entryList({"*.md"}).size());
+  const QDir manual(QString::fromStdString((folder_ / "manual").string()));
+  EXPECT_EQ(contents->topLevelItemCount(), 1 + manual.entryList({"*.md"}).size());
 }
 
 TEST_F(ManualWindowTest, FollowsLinksAndComesBack) {
   manual_.follow("docks.md#slip");
-  EXPECT_EQ(manual_.page(), "docks.md");
+  EXPECT_EQ(manual_.page(), "manual/docks.md");
   EXPECT_EQ(atTheTop(), "Slip");
   manual_.follow("#hand");
   EXPECT_EQ(atTheTop(), "Hand");
   const int place = scroll();
-  manual_.follow("tour.md");
-  EXPECT_EQ(manual_.page(), "tour.md");
+  manual_.follow("first_hour.md");
+  EXPECT_EQ(manual_.page(), "manual/first_hour.md");
   EXPECT_EQ(scroll(), 0);
   manual_.back();
-  EXPECT_EQ(manual_.page(), "docks.md");
+  EXPECT_EQ(manual_.page(), "manual/docks.md");
   EXPECT_EQ(scroll(), place);
   manual_.back();
   manual_.back();
@@ -61,6 +61,14 @@ TEST_F(ManualWindowTest, FollowsLinksAndComesBack) {
   manual_.back();
   manual_.forward();
   EXPECT_EQ(atTheTop(), "Slip");
+}
+
+TEST_F(ManualWindowTest, ANoteIsShownAndBackLeadsToTheManual) {
+  manual_.follow("docks.md");
+  manual_.follow("../notes/slip.md");
+  EXPECT_EQ(manual_.page(), "notes/slip.md");
+  manual_.back();
+  EXPECT_EQ(manual_.page(), "manual/docks.md");
 }
 
 TEST_F(ManualWindowTest, AFileOfTheSourceCodeIsSaidToBeOne) {
@@ -72,7 +80,7 @@ TEST_F(ManualWindowTest, AFileOfTheSourceCodeIsSaidToBeOne) {
 
 TEST_F(ManualWindowTest, EveryLinkOfEveryPageLeadsToItsHeading) {
   const ManualPages pages(folder_);
-  static const QRegularExpression link(R"(\]\(([a-z0-9_]*(?:\.md)?)#([^)\s]+)\))");
+  static const QRegularExpression link(R"(\]\(((?:\.\./)?[a-z0-9_/]*(?:\.md)?)#([^)\s]+)\))");
   int links = 0;
   for (const QString& name : pages.names()) {
     QFile file(QString::fromStdString((folder_ / name.toStdString()).string()));
@@ -80,7 +88,8 @@ TEST_F(ManualWindowTest, EveryLinkOfEveryPageLeadsToItsHeading) {
     auto found = link.globalMatch(QString::fromUtf8(file.readAll()));
     while (found.hasNext()) {
       const auto match = found.next();
-      const QString page = match.captured(1).isEmpty() ? name : match.captured(1);
+      const QString page =
+          match.captured(1).isEmpty() ? name : pages.target(match.captured(1), name);
       EXPECT_TRUE(pages.positionOf(page, match.captured(2)))
           << name.toStdString() << ": " << match.captured(0).toStdString();
       ++links;
@@ -90,7 +99,7 @@ TEST_F(ManualWindowTest, EveryLinkOfEveryPageLeadsToItsHeading) {
 }
 
 TEST_F(ManualWindowTest, ShowsPicturesNoWiderThanThePage) {
-  manual_.follow("tour.md");
+  manual_.follow("first_hour.md");
   int pictures = 0;
   for (QTextBlock block = browser().document()->begin(); block.isValid(); block = block.next())
     for (auto part = block.begin(); !part.atEnd(); ++part) {
@@ -138,23 +147,23 @@ TEST_F(ManualWindowTest, ItsTitleBarIsOnTheScreen) {
 TEST_F(ManualWindowTest, SearchGoesThroughAllPages) {
   auto* words = manual_.findChild<QLineEdit*>();
   QTest::keyClick(&manual_, Qt::Key_F, Qt::ControlModifier);
-  words->setText("kilopascal");
+  words->setText("newton");
   auto* found = manual_.findChild<QListWidget*>();
   EXPECT_TRUE(found->isVisible());
   ASSERT_GT(found->count(), 2);
-  EXPECT_FALSE(browser().extraSelections().isEmpty() && manual_.page() == "calibration.md");
+  EXPECT_FALSE(browser().extraSelections().isEmpty() && manual_.page() == "manual/forces.md");
   QTest::keyClick(words, Qt::Key_Return);
   EXPECT_EQ(found->currentRow(), 0);
   const auto marks = browser().extraSelections();
   ASSERT_FALSE(marks.isEmpty());
-  EXPECT_EQ(marks.front().cursor.selectedText().toLower(), "kilopascal");
+  EXPECT_EQ(marks.front().cursor.selectedText().toLower(), "newton");
   const int last = found->count() - 1;
   manual_.previousHit();
   EXPECT_EQ(found->currentRow(), last);
   EXPECT_TRUE(status().contains(QString("Place %1 of %1").arg(found->count())));
-  words->setText("no such words anywhere");
+  words->setText("newton xylophone");
   EXPECT_EQ(found->count(), 0);
-  EXPECT_TRUE(status().contains("Not found on any page"));
+  EXPECT_TRUE(status().contains("No page has all these words"));
   words->clear();
   EXPECT_TRUE(manual_.findChild<QTreeWidget*>()->isVisible());
   EXPECT_TRUE(browser().extraSelections().isEmpty());

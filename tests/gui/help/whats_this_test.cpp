@@ -60,10 +60,10 @@ TEST_F(WhatsThisWindowTest, ALinkOpensTheManualAtItsPage) {
   auto* manual = window().findChild<ManualWindow*>();
   ASSERT_NE(manual, nullptr);
   EXPECT_TRUE(manual->isVisible());
-  EXPECT_EQ(manual->page(), "docks.md");
-  QWhatsThisClickedEvent other("spectra.md");
+  EXPECT_EQ(manual->page(), "manual/docks.md");
+  QWhatsThisClickedEvent other("settings.md");
   QCoreApplication::sendEvent(dock, &other);
-  EXPECT_EQ(manual->page(), "spectra.md");
+  EXPECT_EQ(manual->page(), "manual/settings.md");
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST_F(MatricesFeatureTest, ALivePictureWithoutAFrameSaysWhyFromTheStart) {
   EXPECT_EQ(view().notice(), "") << "it has come";
 }
 
-// docs/live_window.md: "largest so far" never shrinks while connected.
+// docs/manual/window.md: "largest so far" never shrinks while connected.
 TEST_F(MatricesFeatureTest, TheLargestSoFarOutlivesALookAtARecording) {
   connectEmulated();
   windowState_->currentFrame.hold(true);  // what comes besides is not shown

@@ -61,8 +61,8 @@ HelpFeature::HelpFeature(WindowState& windowState, QWidget* window) : Feature(wi
       [pages = std::make_shared<ManualPages>(
            ManualPages::folderFor(windowState.environment.dataFolder))](const QString& dock) {
         const QString anchor = ManualPages::anchorOf(dock);
-        const QString text = pages->firstParagraph("docks.md", anchor);
-        return text.isEmpty() ? text : text + "\nMore of it: docks.md#" + anchor;
+        const QString text = pages->firstParagraph("manual/docks.md", anchor);
+        return text.isEmpty() ? text : text + "\nMore: docks.md#" + anchor;
       },
       [this](const QString& link) {
         showManual();

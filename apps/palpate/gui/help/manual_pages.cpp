@@ -5,16 +5,48 @@
 #include <QRegularExpression>
 #include <QTextBlock>
 #include <algorithm>
+#include <set>
 
 namespace palpate::gui {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kContentsPage = "README.md";
+constexpr const char* kManual = "manual/";
 
 QString readPage(const fs::path& path) {
   QFile file(QString::fromStdString(path.string()));
   return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+}
+
+// How much a word in a heading, in the title of a page, and in its text counts in a search.
+constexpr int kHeadingWorth = 10, kTitleWorth = 40, kMaxCounted = 15;
+
+// Where a word of a search begins in a text.
+struct WordPlace {
+  qsizetype position = 0;
+  std::size_t word = 0;  // which
+};
+
+// All places, in the order of the text. A word is found at the beginning of a word: "slip" in
+// "slipping", not in "nonslip".
+std::vector<WordPlace> placesOf(const QString& text, const QStringList& words) {
+  std::vector<WordPlace> places;
+  for (qsizetype i = 0; i < words.size(); ++i) {
+    const bool isWord = words[i].front().isLetterOrNumber();
+    for (qsizetype at = text.indexOf(words[i], 0, Qt::CaseInsensitive); at >= 0;
+         at = text.indexOf(words[i], at + words[i].size(), Qt::CaseInsensitive))
+      if (!isWord || at == 0 || !text[at - 1].isLetterOrNumber())
+        places.push_back({at, static_cast<std::size_t>(i)});
+  }
+  std::sort(places.begin(), places.end(), [](const WordPlace& a, const WordPlace& b) {
+    return a.position < b.position;
+  });
+  return places;
+}
+
+qsizetype lineStart(const QString& text, qsizetype position) {
+  return position == 0 ? 0 : text.lastIndexOf('\n', position - 1) + 1;
 }
 
 }  // namespace
@@ -28,17 +60,32 @@ fs::path ManualPages::folderFor(const fs::path& dataFolder) {
 }
 
 ManualPages::ManualPages(fs::path folder) : folder_(std::move(folder)) {
-  const QStringList all = QDir(QString::fromStdString(folder_.string()))
-                              .entryList({"*.md"}, QDir::Files | QDir::Readable, QDir::Name);
-  if (all.contains(kContentsPage)) names_.append(kContentsPage);
-  static const QRegularExpression link(R"(\]\(([a-z0-9_]+\.md)\))");
+  const QDir all(QString::fromStdString(folder_.string()));
+  if (all.exists(kContentsPage)) names_.append(kContentsPage);
+  static const QRegularExpression link(R"(\]\((manual/[a-z0-9_]+\.md))");
   auto links = link.globalMatch(readPage(folder_ / kContentsPage));
   while (links.hasNext()) {
     const QString name = links.next().captured(1);
-    if (all.contains(name) && !names_.contains(name)) names_.append(name);
+    if (all.exists(name) && !names_.contains(name)) names_.append(name);
   }
-  for (const QString& name : all)
-    if (!names_.contains(name)) names_.append(name);
+  const QStringList files =
+      QDir(all.filePath(kManual)).entryList({"*.md"}, QDir::Files | QDir::Readable, QDir::Name);
+  for (const QString& file : files)
+    if (const QString name = kManual + file; !names_.contains(name)) names_.append(name);
+}
+
+bool ManualPages::has(const QString& name) const {
+  if (names_.contains(name)) return true;
+  const bool below = !name.isEmpty() && !name.startsWith("..") && !QDir::isAbsolutePath(name);
+  const QDir folder(QString::fromStdString(folder_.string()));
+  return below && name.endsWith(".md") && folder.exists(name);
+}
+
+QString ManualPages::target(const QString& path, const QString& from) const {
+  const QString here = from.left(from.lastIndexOf('/') + 1);
+  for (const QString& start : {here, QString(kManual)})
+    if (const QString name = QDir::cleanPath(start + path); has(name)) return name;
+  return {};
 }
 
 QString ManualPages::markdown(const QString& name) const {
@@ -47,11 +94,6 @@ QString ManualPages::markdown(const QString& name) const {
   static const QRegularExpression comment("<!--.*?-->",
                                           QRegularExpression::DotMatchesEverythingOption);
   text.remove(comment);
-  if (name == kContentsPage) {
-    // Lists of Qt begin at 1 whatever the page says.
-    static const QRegularExpression number(R"(^\d+\. )", QRegularExpression::MultilineOption);
-    text.replace(number, "* ");
-  }
   return text;
 }
 
@@ -101,38 +143,52 @@ std::optional<int> ManualPages::positionOf(const QString& name, const QString& a
   return std::nullopt;
 }
 
-std::vector<ManualHit> ManualPages::search(const QString& words, std::size_t most) const {
-  const QString wanted = words.simplified();
+std::vector<ManualHit> ManualPages::search(const QString& words, std::size_t limit) const {
+  QStringList wanted = words.simplified().toLower().split(' ', Qt::SkipEmptyParts);
+  wanted.removeDuplicates();
   if (wanted.isEmpty()) return {};
-  std::vector<ManualHit> hits = searchPhrase(wanted, {}, most);
-  // Words that stand nowhere together are looked for in one paragraph.
-  if (const QStringList each = wanted.split(' '); hits.empty() && each.size() > 1)
-    hits = searchPhrase(each.front(), each.mid(1), most);
-  return hits;
-}
-
-std::vector<ManualHit> ManualPages::searchPhrase(const QString& wanted,
-                                                 const QStringList& others,
-                                                 std::size_t most) const {
-  std::vector<ManualHit> hits;
+  struct Found {
+    QString page;
+    int score = 0;
+    std::vector<WordPlace> places;  // in the order of the text
+  };
+  std::vector<Found> found;
   for (const QString& name : names_) {
-    const QString& text = page(name).text;
-    for (qsizetype at = text.indexOf(wanted, 0, Qt::CaseInsensitive); at >= 0;
-         at = text.indexOf(wanted, at + wanted.size(), Qt::CaseInsensitive)) {
-      if (hits.size() == most) return hits;
-      const qsizetype from = text.lastIndexOf('\n', at) + 1;
-      const qsizetype end = text.indexOf('\n', at);
-      const QString line = text.mid(from, end < 0 ? -1 : end - from);
-      if (!std::all_of(others.begin(), others.end(), [&](const QString& other) {
-            return line.contains(other, Qt::CaseInsensitive);
-          }))
-        continue;
-      hits.push_back({.page = name,
-                      .position = static_cast<int>(at),
-                      .length = static_cast<int>(wanted.size()),
-                      .title = title(name),
-                      .line = line,
-                      .inLine = static_cast<int>(at - from)});
+    Found each{.page = name, .places = placesOf(page(name).text, wanted)};
+    std::vector<int> times(static_cast<std::size_t>(wanted.size()));
+    for (const WordPlace& place : each.places) ++times[place.word];
+    if (std::count(times.begin(), times.end(), 0) > 0) continue;
+    for (const int count : times) each.score += std::min(count, kMaxCounted);
+    for (const ManualHeading& heading : page(name).headings) {
+      std::set<std::size_t> inHeading;
+      for (const WordPlace& place : placesOf(heading.title, wanted)) inHeading.insert(place.word);
+      each.score +=
+          static_cast<int>(inHeading.size()) * (heading.level == 1 ? kTitleWorth : kHeadingWorth);
+    }
+    found.push_back(std::move(each));
+  }
+  std::stable_sort(
+      found.begin(), found.end(), [](const Found& a, const Found& b) { return a.score > b.score; });
+  std::vector<ManualHit> hits;
+  for (const Found& each : found) {
+    const QString& text = page(each.page).text;
+    // The lines with most of the words.
+    std::map<qsizetype, std::set<std::size_t>> wordsOfLine;
+    for (const WordPlace& place : each.places)
+      wordsOfLine[lineStart(text, place.position)].insert(place.word);
+    std::size_t most = 0;
+    for (const auto& [from, inLine] : wordsOfLine) most = std::max(most, inLine.size());
+    for (const WordPlace& place : each.places) {
+      const qsizetype from = lineStart(text, place.position);
+      if (wordsOfLine.at(from).size() < most) continue;
+      if (hits.size() == limit) return hits;
+      const qsizetype end = text.indexOf('\n', place.position);
+      hits.push_back({.page = each.page,
+                      .position = static_cast<int>(place.position),
+                      .length = static_cast<int>(wanted[static_cast<qsizetype>(place.word)].size()),
+                      .title = title(each.page),
+                      .line = text.mid(from, end < 0 ? -1 : end - from),
+                      .inLine = static_cast<int>(place.position - from)});
     }
   }
   return hits;

@@ -1,5 +1,5 @@
-// The pages of the manual (docs/*.md) as the window shows them: their order, their headings with
-// the anchors that links name, and the search over all of them.
+// The pages of the manual (docs/README.md, docs/manual/*.md) as the window shows them: their order,
+// their headings with the anchors that links name, and the search over all of them.
 #pragma once
 
 #include <QString>
@@ -24,7 +24,7 @@ struct ManualHeading {
 };
 
 struct ManualHit {
-  // "docks.md"
+  // "manual/docks.md"
   QString page;
   // Where it is in the text of the page [characters].
   int position = 0;
@@ -36,20 +36,25 @@ struct ManualHit {
   int inLine = 0;
 };
 
+// A page is named by its path from the folder of the documentation: "README.md", "manual/docks.md".
 class ManualPages {
  public:
-  // The folder of the pages for a data folder: `docs` in it (an installation), else beside it (the
-  // sources). Doesn't need to exist.
+  // The folder of the documentation for a data folder: `docs` in it (an installation), else next to
+  // it (the sources). It need not exist.
   static std::filesystem::path folderFor(const std::filesystem::path& dataFolder);
 
   // A folder without pages gives a manual without pages.
   explicit ManualPages(std::filesystem::path folder);
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
-  // The file names, in the order in which README.md, which comes first, links to them; then the
-  // others by name.
+  // README.md, then the pages of the manual in the order in which README.md links to them, then the
+  // others by name. Other pages of the documentation (notes) can be shown, but are not listed.
   const QStringList& names() const noexcept { return names_; }
-  bool has(const QString& name) const { return names_.contains(name); }
+  // Whether it can be shown: a page of the manual, or another page in the folder.
+  bool has(const QString& name) const;
+  // The page to which `path` leads in a link on the page `from`: relative to that page, else to the
+  // manual. Empty: none.
+  QString target(const QString& path, const QString& from) const;
   // Fills `document` with a page; a page that doesn't exist leaves it empty.
   void fill(QTextDocument& document, const QString& name) const;
   // The first heading of the page; its file name where it has none.
@@ -57,9 +62,10 @@ class ManualPages {
   const std::vector<ManualHeading>& headings(const QString& name) const;
   // Where the heading with this anchor begins [characters]; nothing: there is none.
   std::optional<int> positionOf(const QString& name, const QString& anchor) const;
-  // Every place where `words` stand in this order, in either case, page after page; at most `most`.
-  // Where they stand so nowhere, the paragraphs that have all of them.
-  std::vector<ManualHit> search(const QString& words, std::size_t most = 500) const;
+  // The pages that contain all `words` (in any order and either case, as beginnings of words), the
+  // best first: words in headings count more, then their number. Of each page the places of the
+  // words in the lines that have most of them; at most `limit` places.
+  std::vector<ManualHit> search(const QString& words, std::size_t limit = 500) const;
   // The first paragraph below a heading, in plain text; empty: there is none.
   QString firstParagraph(const QString& name, const QString& anchor) const;
 
@@ -67,10 +73,6 @@ class ManualPages {
   static QString anchorOf(const QString& heading);
 
  private:
-  // The places of `wanted` in paragraphs that have all `others`.
-  std::vector<ManualHit> searchPhrase(const QString& wanted,
-                                      const QStringList& others,
-                                      std::size_t most) const;
   struct Page {
     QString text;
     std::vector<ManualHeading> headings;

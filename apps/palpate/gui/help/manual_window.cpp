@@ -71,6 +71,7 @@ ManualBrowser::ManualBrowser(const ManualPages& pages, QWidget* parent)
 }
 
 void ManualBrowser::showPage(const QString& name) {
+  page_ = name;
   document()->setDefaultFont(font());
   pages_.fill(*document(), name);
   document()->setDocumentMargin(kPageMargin);
@@ -89,8 +90,10 @@ void ManualBrowser::scrollTo(int position) {
 QVariant ManualBrowser::loadResource(int type, const QUrl& name) {
   if (type != QTextDocument::ImageResource) return {};
   if (!name.isRelative()) return {};  // nothing is fetched from a network
-  QImageReader reader(
-      QString::fromStdString((pages_.folder() / name.path().toStdString()).string()));
+  // Relative to the page.
+  const auto file =
+      (pages_.folder() / page_.toStdString()).parent_path() / name.path().toStdString();
+  QImageReader reader(QString::fromStdString(file.string()));
   const QSize size = reader.size();
   const int widest =
       std::clamp(viewport()->width() - 3 * kPageMargin, 2 * kPageMargin, kLargestPicture);
@@ -163,7 +166,9 @@ QWidget* ManualWindow::makeTop() {
   words_->setAccessibleName("Search all pages");
   words_->setClearButtonEnabled(true);
   words_->setMaximumWidth(320);
-  words_->setToolTip("Finds words on all pages; Enter or F3: next place, Shift+F3: previous place");
+  words_->setToolTip(
+      "Finds the pages with all these words, in any order; Enter or F3: next place, Shift+F3: "
+      "previous place");
   status_ = makeLabel(top, {}, "muted");
   top->setLayout(inRow({back_, forward_, {words_, 1}, {status_, 1}}, around(Space::kUsual)));
   connect(back_, &QToolButton::clicked, this, &ManualWindow::back);
@@ -257,13 +262,15 @@ void ManualWindow::follow(const QString& link) {
     if (!QDesktopServices::openUrl(url)) say("No program opens " + link);
     return;
   }
-  const QString page = url.path().isEmpty() ? page_ : url.path();
-  if (pages_.has(page)) return goTo(page, url.fragment());
-  const auto file = (pages_.folder() / page.toStdString()).lexically_normal();
+  const QString page = url.path().isEmpty() ? page_ : pages_.target(url.path(), page_);
+  if (!page.isEmpty()) return goTo(page, url.fragment());
+  const auto file =
+      ((pages_.folder() / page_.toStdString()).parent_path() / url.path().toStdString())
+          .lexically_normal();
   const QString path = QString::fromStdString(file.string());
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
-    say("Only in the source code of Palpate: " + QString(page).remove("../"));
+    say("Only in the source code of Palpate: " + url.path().remove("../"));
   else if (!QDesktopServices::openUrl(QUrl::fromLocalFile(path)))
     say("No program opens " + path);
 }
@@ -289,7 +296,7 @@ void ManualWindow::search() {
   left_->setCurrentWidget(words_->text().isEmpty() ? static_cast<QWidget*>(contents_) : results_);
   markHits();
   if (words_->text().isEmpty()) return say({});
-  say(hits_.empty() ? QString("Not found on any page")
+  say(hits_.empty() ? QString("No page has all these words")
                     : "Found at " + QString::fromStdString(counted(rowHits_.size(), "place")));
 }
 

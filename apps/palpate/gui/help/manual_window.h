@@ -1,5 +1,5 @@
-// The manual as a window of its own: contents, pages with pictures and links, and a search over all
-// pages. It stays open beside the window of the program.
+// The window of the manual: contents, pages with pictures and links, and a search over all pages.
+// It stays open next to the window of the program.
 #pragma once
 
 #include <QDialog>
@@ -32,17 +32,19 @@ class ManualBrowser : public QTextBrowser {
 
  private:
   const ManualPages& pages_;
+  QString page_;
 };
 
 class ManualWindow : public QDialog {
   Q_OBJECT
  public:
-  // `folder`: where the pages are.
+  // `folder`: that of the documentation.
   ManualWindow(const std::filesystem::path& folder, QWidget* parent);
 
-  // Follows a link as the pages write it: "docks.md#hand", "#hand", "https://..".
+  // Follows a link as the pages write it: "docks.md#hand", "../notes/slip.md", "#hand",
+  // "https://..".
   void follow(const QString& link);
-  // The page that is shown: "docks.md".
+  // The page that is shown: "manual/docks.md".
   const QString& page() const noexcept { return page_; }
 
  public slots:
