@@ -109,7 +109,7 @@ TEST(ComputedSeries, WithoutTheAreaOfTheIndenterOnlyPressuresAreKnown) {
 
 TEST(ComputedSeries, CentroidsAreInMillimetresFromTheFirstTaxel) {
   const Profile profile = withComputedSeries(recorded(), {});
-  const double pitchMm = profile.layout().matrix(0).pitchMm;
+  const double pitchMm = profile.layout().matrix(0).pitchMm.x;
   const Series x = read(profile, "m0_centroid_x_mm"), y = read(profile, "m0_centroid_y_mm");
   ASSERT_EQ(x.values.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) {
@@ -139,7 +139,7 @@ TEST(ComputedSeries, SlipIsInMillimetresAndMillimetresPerSecond) {
   const Series speed = read(profile, "m0_slip_speed_mm_s"), slip = read(profile, "m0_slip_mm");
   ASSERT_EQ(speed.values.size(), 10u);
   ASSERT_EQ(slip.values.size(), 10u);
-  const double pitchMm = source.layout().matrix(0).pitchMm;
+  const double pitchMm = source.layout().matrix(0).pitchMm.x;
   EXPECT_TRUE(std::isnan(speed.values[0])) << "there is no frame before";
   for (std::size_t i = 1; i < 10; ++i) {
     const SlipSample* sample = expected.at(0, i);
