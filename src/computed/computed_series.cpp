@@ -63,7 +63,7 @@ std::string missingForForces(const Profile& profile, const ComputedOptions& opti
 
 std::string missingForSpheres(const Profile& profile) {
   if (!hasGeometry(profile.hand()))
-    return "needs the geometry of the hand, which its description lacks (another_hand.md)";
+    return "needs the geometry of the hand, which its description lacks (own_array.md)";
   if (!profile.hand().axes.empty() && profile.numAngles() == 0)
     return "needs joint angles, which the recording lacks";
   try {

@@ -207,7 +207,7 @@ TEST(SignalKinds, ComponentsAreThoseOfReadingsOnly) {
   EXPECT_EQ(signalName(SignalKind::kNorm), "norm");
 }
 
-// docs/commands.md: the columns of palpate signals.
+// docs/manual/columns.md: the columns of palpate signals.
 TEST(SignalNames, AreThoseOfTheTables) {
   std::set<std::string_view> names;
   for (const SignalKind kind : kAllSignalKinds) {

@@ -62,7 +62,7 @@ OptionSpec timeOption() {
   return {"time",
           "WHICH",
           "times of frames and series: arrival (default), or fitted: the sender's clock, fitted to "
-          "it (docs/spectra.md)"};
+          "it (docs/manual/spectra.md)"};
 }
 
 TimeChoice timeChoiceOf(const CommandLine& given) {
