@@ -190,13 +190,12 @@ TEST_F(RemoteServerTest, AClientThatHangsHoldsNobodyUp) {
   EXPECT_TRUE(ask("status").at("ok").asBool());
 }
 
-// As many deaf clients as there is room for: the last one is answered as if it were alone.
 TEST_F(RemoteServerTest, StopIsAnsweredWhileOthersDoNotRead) {
   serve();
   std::string flood;
-  for (int i = 0; i < 500; ++i) flood += "status\n";
+  for (int i = 0; i < 500; ++i) flood += "help\n";
   std::list<RawClient> deaf;
-  for (int i = 0; i < 15; ++i) {
+  for (int i = 0; i < 4; ++i) {
     const RawClient& client = deaf.emplace_back(socket());
     while (client.send(flood, 20) > 0) {
     }
