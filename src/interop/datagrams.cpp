@@ -5,29 +5,23 @@
 namespace palpate {
 namespace {
 
-// What stands between the commas of an object or array, `text` without its brackets.
-std::vector<std::string_view> membersOf(std::string_view text) {
-  std::vector<std::string_view> members;
-  std::size_t begin = 0;
-  int depth = 0;
-  bool inText = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (inText) {
-      if (c == '\\') ++i;
-      inText = c != '"';
-    } else if (c == '"') {
-      inText = true;
-    } else if (c == '{' || c == '[') {
-      ++depth;
-    } else if (c == '}' || c == ']') {
-      --depth;
-    } else if (c == ',' && depth == 0) {
-      members.push_back(text.substr(begin, i - begin));
-      begin = i + 1;
-    }
+struct Member {
+  std::string_view text;
+  std::span<const JsonMember> inside;  // its own members or values
+};
+
+// The members of an object, or values of an array, that is a part of `object`.
+std::vector<Member> membersOf(const Member& whole, std::string_view object) {
+  std::vector<Member> members;
+  const auto end =
+      static_cast<std::size_t>(whole.text.data() - object.data()) + whole.text.size() - 1;
+  for (std::size_t i = 0, next = 0; i < whole.inside.size(); i = next) {
+    const auto& [depth, begin] = whole.inside[i];
+    for (next = i + 1; next < whole.inside.size() && whole.inside[next].depth > depth;) ++next;
+    const std::size_t memberEnd = next < whole.inside.size() ? whole.inside[next].begin - 1 : end;
+    members.push_back(
+        {object.substr(begin, memberEnd - begin), whole.inside.subspan(i + 1, next - i - 1)});
   }
-  if (begin < text.size()) members.push_back(text.substr(begin));
   return members;
 }
 
@@ -64,44 +58,42 @@ class ObjectParts {
 };
 
 // The values of `member`, "key":[..], as members of their own.
-void addValues(ObjectParts& parts, std::string_view member, std::size_t colon) {
-  const std::string_view key = member.substr(0, colon - 1);  // without its last quote
-  const std::string_view array = member.substr(colon + 2, member.size() - colon - 3);
+void addValues(ObjectParts& parts, const Member& member, std::string_view object) {
+  const std::string key(member.text.substr(0, member.text.find("\":")));  // without its last quote
   std::size_t index = 0;
-  for (const std::string_view value : membersOf(array)) {
-    if (value != "null")
-      parts.add(std::string(key) + "[" + std::to_string(index) + "]\":" + std::string(value));
+  for (const Member& value : membersOf(member, object)) {
+    if (value.text != "null")
+      parts.add(key + "[" + std::to_string(index) + "]\":" + std::string(value.text));
     ++index;
   }
 }
 
 // Divides `member`, "series":{"wrist":{..},..}, into objects of the same keys: between series, and
 // within one that is too long for a part of its own.
-void addSeries(ObjectParts& parts, std::string_view member, std::size_t colon) {
-  const std::string begin = std::string(member.substr(0, colon + 1)) + "{";
+void addSeries(ObjectParts& parts, const Member& member, std::string_view object) {
+  const std::string begin(member.text.substr(0, member.text.find('{') + 1));
   std::string chunk;  // of whole series, or the beginning of one, without its end
   const auto fits = [&](const std::string& text) { return parts.fits(begin + text + "}}"); };
   const auto finish = [&](const char* end) {
     if (!chunk.empty()) parts.add(begin + chunk + end);
     chunk.clear();
   };
-  for (const std::string_view series :
-       membersOf(member.substr(colon + 2, member.size() - colon - 3))) {
-    const std::string whole = (chunk.empty() ? "" : ",") + std::string(series);
+  for (const Member& series : membersOf(member, object)) {
+    const std::string whole = (chunk.empty() ? "" : ",") + std::string(series.text);
     if (fits(chunk + whole)) {
       chunk += whole;
       continue;
     }
     finish("}");
-    if (fits(std::string(series))) {
-      chunk = series;
+    if (fits(std::string(series.text))) {
+      chunk = series.text;
       continue;
     }
-    const std::size_t open = series.find(":{") + 2;
-    const std::string name(series.substr(0, open));
-    for (const std::string_view column : membersOf(series.substr(open, series.size() - open - 1))) {
-      if (!chunk.empty() && !fits(chunk + "," + std::string(column))) finish("}}");
-      chunk += (chunk.empty() ? name : ",") + std::string(column);
+    const std::string name(series.text.substr(0, series.text.find('{') + 1));
+    for (const Member& column : membersOf(series, object)) {
+      const std::string text(column.text);
+      if (!chunk.empty() && !fits(chunk + "," + text)) finish("}}");
+      chunk += (chunk.empty() ? name : ",") + text;
     }
     finish("}}");
   }
@@ -110,25 +102,27 @@ void addSeries(ObjectParts& parts, std::string_view member, std::size_t colon) {
 
 }  // namespace
 
-std::vector<std::string> signalDatagrams(std::string_view object, std::size_t maxBytes) {
-  if (object.size() <= maxBytes || object.size() < 2) return {std::string(object)};
-  const std::vector<std::string_view> members = membersOf(object.substr(1, object.size() - 2));
+std::vector<std::string> signalDatagrams(std::string_view object,
+                                         std::span<const JsonMember> members,
+                                         std::size_t maxBytes) {
+  if (object.size() <= maxBytes) return {std::string(object)};
+  const std::vector<Member> all = membersOf({object, members}, object);
+  const auto isInAll = [](const Member& member) {
+    return member.text.starts_with("\"t\":") || member.text.starts_with("\"sequence\":");
+  };
   std::string head = "{";
-  for (const std::string_view member : members)
-    if (member.starts_with("\"t\":") || member.starts_with("\"sequence\":"))
-      head += (head.size() > 1 ? "," : "") + std::string(member);
+  for (const Member& member : all)
+    if (isInAll(member)) head += (head.size() > 1 ? "," : "") + std::string(member.text);
   ObjectParts parts(std::move(head), maxBytes);
   for (const bool arrays : {true, false}) {
-    for (const std::string_view member : members) {
-      if (member.starts_with("\"t\":") || member.starts_with("\"sequence\":")) continue;
-      const std::size_t colon = member.find("\":") + 1;
-      if (member.substr(colon + 1).starts_with('[') != arrays) continue;
-      if (arrays && !parts.fits(member))
-        addValues(parts, member, colon);
-      else if (member.starts_with("\"series\":") && !parts.fits(member))
-        addSeries(parts, member, colon);
+    for (const Member& member : all) {
+      if (isInAll(member) || member.text.ends_with(']') != arrays) continue;
+      if (arrays && !parts.fits(member.text))
+        addValues(parts, member, object);
+      else if (member.text.starts_with("\"series\":") && !parts.fits(member.text))
+        addSeries(parts, member, object);
       else
-        parts.add(member);
+        parts.add(member.text);
     }
   }
   return parts.take();

@@ -2,25 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <deque>
-#include <list>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
-#include <boost/asio/dispatch.hpp>
-#include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <fcntl.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
@@ -29,15 +24,14 @@
 
 #include "interop/foxglove_request.h"
 #include "interop/foxglove_subscriber.h"
+#include "interop/outlet_server.h"
 
 namespace palpate {
 namespace {
-namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 using asio::ip::tcp;
-using BoostError = boost::system::error_code;
 
 constexpr std::size_t kMostHeaderBytes = 8192;
 constexpr std::size_t kMostClientBytes = 256U << 10;
@@ -45,8 +39,6 @@ constexpr std::size_t kMostClientBytes = 256U << 10;
 constexpr std::size_t kMostHandshakes = 64;
 // Messages that may wait for the server's thread: a second of 60 channels at 30 Hz.
 constexpr std::size_t kMostPosted = 2048;
-constexpr auto kGoodbye = std::chrono::milliseconds(40);
-constexpr auto kAcceptRest = std::chrono::milliseconds(100);
 constexpr auto kSilence = std::chrono::seconds(60);
 
 std::string advertisement(const std::vector<FoxgloveChannel>& channels) {
@@ -68,31 +60,39 @@ struct FoxgloveServer::Impl {
   class Session;
 
   Impl(FoxgloveServerOptions given, std::vector<FoxgloveChannel> list)
-      : options(std::move(given)),
+      : options(checked(std::move(given))),
         channels(std::move(list)),
+        info(Json::object()
+                 .set("op", "serverInfo")
+                 .set("name", options.name)
+                 .set("capabilities", Json::array())
+                 .set("supportedEncodings", Json::array().push("json"))
+                 .set("metadata", Json::object())
+                 .text(-1)),
+        advertised(advertisement(channels)),
         subscribers(channels.size()),
-        latest(channels.size()) {
+        latest(channels.size()),
+        server(listen(), [this](FileDescriptor socket) { accept(std::move(socket)); }) {
+    server.start();
+  }
+
+  static FoxgloveServerOptions checked(FoxgloveServerOptions options) {
     if (options.maxClients < 1 || options.maxClients > 1000)
       throw std::invalid_argument("FoxgloveServerOptions: maxClients must be 1..1000");
     if (!(options.handshakeS > 0.0 && options.handshakeS <= 3600.0))
       throw std::invalid_argument("FoxgloveServerOptions: handshakeS must be in (0, 3600]");
-    info = Json::object()
-               .set("op", "serverInfo")
-               .set("name", options.name)
-               .set("capabilities", Json::array())
-               .set("supportedEncodings", Json::array().push("json"))
-               .set("metadata", Json::object())
-               .text(-1);
-    advertised = advertisement(channels);
-    listen();
+    return options;
   }
 
-  void listen() {
+  // Sets `protocol` and `port`.
+  FileDescriptor listen() {
     const std::string place = options.address + ":" + std::to_string(options.port);
     BoostError failure;
     const auto address = asio::ip::make_address(options.address, failure);
     if (failure) throw Error("'" + options.address + "' is not a numeric address");
     const tcp::endpoint endpoint(address, options.port);
+    asio::io_context context;
+    tcp::acceptor acceptor(context);
     acceptor.open(endpoint.protocol(), failure);
     if (!failure) acceptor.set_option(asio::socket_base::reuse_address(true), failure);
     if (!failure) acceptor.bind(endpoint, failure);
@@ -102,18 +102,17 @@ struct FoxgloveServer::Impl {
     if (failure == asio::error::access_denied)
       throw Error(place + ": this port is the system's: choose one above 1023");
     if (failure) throw Error(place + ": can't listen: " + failure.message());
+    protocol = endpoint.protocol();
     port = acceptor.local_endpoint().port();
+    FileDescriptor listener(::fcntl(acceptor.native_handle(), F_DUPFD_CLOEXEC, 0));
+    if (listener.get() < 0 || ::fcntl(listener.get(), F_SETFL, O_NONBLOCK) != 0)
+      throw Error(place + ": can't listen: the system has no descriptor left");
+    return listener;
   }
 
-  void start();
-  void accept();
+  void accept(FileDescriptor socket);
   void makeRoom();
-  void stop();
-  void run() noexcept;
   void sendPosted();
-  void ended(const std::shared_ptr<Session>& session);
-
-  std::set<std::string> refusedOrigins;  // those that were told
 
   void refuse(const std::string& why) {
     const std::lock_guard lock(mutex);
@@ -145,7 +144,8 @@ struct FoxgloveServer::Impl {
 
   const FoxgloveServerOptions options;
   const std::vector<FoxgloveChannel> channels;
-  std::string info, advertised;
+  const std::string info, advertised;
+  tcp protocol = tcp::v4();
   std::uint16_t port = 0;
 
   mutable std::mutex mutex;  // protects the next three
@@ -153,16 +153,11 @@ struct FoxgloveServer::Impl {
   std::deque<FoxgloveMessage> posted;
   FoxgloveServerStats stats;
 
-  // Its handlers own sessions, whose destructors use the members above.
-  asio::io_context context{1};
-  tcp::acceptor acceptor{context};
-  asio::steady_timer timer{context};
   // Used by the server's thread only.
-  std::list<std::shared_ptr<Session>> sessions;  // the oldest first
-  std::vector<FoxgloveMessage> latest;           // of latched channels
-  bool stopping = false;
+  std::set<std::string> refusedOrigins;  // those that were told
+  std::vector<FoxgloveMessage> latest;   // of latched channels
 
-  std::thread thread;
+  OutletServer<Session> server;
 };
 
 // One connection: the handshake, then messages in both directions.
@@ -209,18 +204,19 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
       return;
     }
     if (std::exchange(closing_, true)) return;
-    stream_.async_close(websocket::close_code::going_away,
-                        [self = shared_from_this()](BoostError) { self->server_.ended(self); });
+    stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](BoostError) {
+      self->server_.server.ended(self.get());
+    });
   }
 
  private:
   void onRequest(BoostError error) {
-    if (error == asio::error::operation_aborted) return server_.ended(shared_from_this());
+    if (error == asio::error::operation_aborted) return server_.server.ended(this);
     if (error) {
       server_.refuse(error == beast::error::timeout
                          ? "a client did not finish its handshake in time"
                          : "a connection was no HTTP request");
-      return server_.ended(shared_from_this());
+      return server_.server.ended(this);
     }
     const auto& request = parser_.get();
     const auto text = [](beast::string_view view) { return std::string(view.data(), view.size()); };
@@ -231,9 +227,9 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
     for (auto [at, end] = request.equal_range(http::field::sec_websocket_protocol); at != end; ++at)
       handshake.protocols += (handshake.protocols.empty() ? "" : ",") + text(at->value());
     handshake.clients = static_cast<std::size_t>(
-        std::count_if(server_.sessions.begin(), server_.sessions.end(), [](const auto& session) {
-          return session->admitted();
-        }));
+        std::count_if(server_.server.sessions().begin(),
+                      server_.server.sessions().end(),
+                      [](const auto& session) { return session->admitted(); }));
     handshake.maxClients = server_.options.maxClients;
     const FoxgloveReply reply = replyTo(handshake, server_.options.origins);
     if (reply.status == kForbidden) server_.tellOrigin(handshake.origin, reply.text);
@@ -259,7 +255,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
                         beast::get_lowest_layer(self->stream_)
                             .socket()
                             .shutdown(tcp::socket::shutdown_send, self->ignored_);
-                        self->server_.ended(self);
+                        self->server_.server.ended(self.get());
                       });
   }
 
@@ -279,7 +275,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
     stream_.async_accept(parser_.get(), [self = shared_from_this()](BoostError error) {
       if (error) {
         self->server_.refuse("a WebSocket handshake failed: " + error.message());
-        return self->server_.ended(self);
+        return self->server_.server.ended(self.get());
       }
       self->connected_ = true;
       self->server_.join();
@@ -292,7 +288,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
 
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](BoostError error, std::size_t) {
-      if (error) return self->server_.ended(self);
+      if (error) return self->server_.server.ended(self.get());
       const std::string text = beast::buffers_to_string(self->buffer_.data());
       self->buffer_.consume(self->buffer_.size());
       self->subscriber_.take(self->stream_.got_text(), text, self->server_.latest);
@@ -316,7 +312,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
     stream_.async_write(buffers, [self = shared_from_this()](BoostError error, std::size_t) {
       const bool isMessage = self->sending_->binary;
       self->sending_.reset();
-      if (error) return self->server_.ended(self);
+      if (error) return self->server_.server.ended(self.get());
       if (isMessage) self->server_.count(&FoxgloveServerStats::sent);
       self->write();
     });
@@ -335,47 +331,18 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
   std::optional<FoxgloveOutgoing> sending_;
 };
 
-void FoxgloveServer::Impl::start() {
-  accept();
-  thread = std::thread([this] { run(); });
-}
-
-// An exception of a handler ends only what this handler did: most likely memory was exhausted. The
-// process that moves a hand continues.
-void FoxgloveServer::Impl::run() noexcept {
-  while (true) {
-    try {
-      context.run();
-      return;
-    } catch (...) {
-      continue;
-    }
-  }
-}
-
-void FoxgloveServer::Impl::accept() {
-  acceptor.async_accept([this](BoostError error, tcp::socket socket) {
-    if (stopping || error == asio::error::operation_aborted) return;
-    if (error) {  // the system has no descriptor left
-      timer.expires_after(kAcceptRest);
-      timer.async_wait([this](BoostError cancelled) {
-        if (!cancelled && !stopping) accept();
-      });
-      return;
-    }
-    try {
-      makeRoom();
-      const auto session = std::make_shared<Session>(*this, std::move(socket));
-      sessions.push_back(session);
-      session->start();
-    } catch (...) {
-      refuse("no memory for another client");
-    }
-    accept();
-  });
+void FoxgloveServer::Impl::accept(FileDescriptor socket) try {
+  makeRoom();
+  const auto session =
+      std::make_shared<Session>(*this, tcp::socket(server.context(), protocol, socket.release()));
+  server.add(session);
+  session->start();
+} catch (...) {
+  refuse("no memory for another client");
 }
 
 void FoxgloveServer::Impl::makeRoom() {
+  const auto& sessions = server.sessions();
   const auto isUnfinished = [](const auto& each) { return !each->admitted(); };
   const auto unfinished = std::count_if(sessions.begin(), sessions.end(), isUnfinished);
   if (static_cast<std::size_t>(unfinished) < kMostHandshakes) return;
@@ -383,12 +350,7 @@ void FoxgloveServer::Impl::makeRoom() {
   refuse("an unfinished handshake gave way to a new connection: there were " +
          std::to_string(unfinished));
   oldest->close();
-  ended(oldest);
-}
-
-void FoxgloveServer::Impl::ended(const std::shared_ptr<Session>& session) {
-  sessions.remove(session);
-  if (stopping && sessions.empty()) timer.cancel();
+  server.ended(oldest.get());
 }
 
 // Sends what was posted up to now. What is posted meanwhile waits until the thread has served its
@@ -401,7 +363,7 @@ void FoxgloveServer::Impl::sendPosted() {
   }
   for (const FoxgloveMessage& message : messages) {
     if (channels[message.channel].latched) latest[message.channel] = message;
-    for (const auto& session : sessions) {
+    for (const auto& session : server.sessions()) {
       try {
         session->publish(message);
       } catch (...) {
@@ -411,28 +373,10 @@ void FoxgloveServer::Impl::sendPosted() {
   }
 }
 
-// Called on the server's thread.
-void FoxgloveServer::Impl::stop() {
-  stopping = true;
-  BoostError ignored;
-  acceptor.close(ignored);
-  timer.expires_after(kGoodbye);
-  timer.async_wait([this](BoostError) { context.stop(); });
-  const std::vector<std::shared_ptr<Session>> now(sessions.begin(), sessions.end());
-  for (const auto& session : now) session->close();
-  if (sessions.empty()) timer.cancel();
-}
-
 FoxgloveServer::FoxgloveServer(FoxgloveServerOptions options, std::vector<FoxgloveChannel> channels)
-    : impl_(std::make_unique<Impl>(std::move(options), std::move(channels))) {
-  impl_->start();
-}
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(channels))) {}
 
-FoxgloveServer::~FoxgloveServer() {
-  asio::post(impl_->context, [impl = impl_.get()] { impl->stop(); });
-  impl_->thread.join();
-  impl_->sessions.clear();
-}
+FoxgloveServer::~FoxgloveServer() = default;
 
 std::uint16_t FoxgloveServer::port() const noexcept { return impl_->port; }
 
@@ -462,7 +406,7 @@ void FoxgloveServer::publish(std::size_t channel, std::int64_t timeUs, std::stri
     impl_->posted.push_back(std::move(next));
     if (impl_->posted.size() > 1) return;  // the thread has been called already
   }
-  asio::post(impl_->context, [impl = impl_.get()] { impl->sendPosted(); });
+  asio::post(impl_->server.context(), [impl = impl_.get()] { impl->sendPosted(); });
 }
 
 FoxgloveServerStats FoxgloveServer::stats() const {

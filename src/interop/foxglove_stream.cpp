@@ -1,28 +1,23 @@
 #include "palpate/interop/foxglove_stream.h"
 
-#include <cstdlib>
 #include <utility>
 
 #include "palpate/core/number_text.h"
 #include "palpate/model/gap_detector.h"
 
 namespace palpate {
-namespace {
-
-constexpr std::int64_t kFoxgloveLinkIntervalUs = 250'000;
-
-}  // namespace
 
 struct FoxgloveStream::Open {
-  Open(const HandDescription& hand, FoxgloveOptions options)
-      : messages(hand, options.image), server(std::move(options.server), messages.channels()) {}
+  Open(const HandDescription& hand, FoxgloveOptions options, LinkHealthQuery askLink)
+      : messages(hand, options.image),
+        server(std::move(options.server), messages.channels()),
+        link(std::move(askLink)) {}
 
   FoxgloveMessages messages;
   FoxgloveServer server;
   std::uint64_t sequence = 0;
   bool shapesSent = false;
-  std::optional<LinkHealth> link;
-  std::int64_t askedUs = 0;    // stamp of the frame when link was updated
+  RecentLink link;
   std::int64_t anglesUs = -1;  // stamp of the angles that were sent last
   GapDetector gaps;
   std::optional<std::int64_t> frameUs;  // stamp of the last frame
@@ -36,7 +31,7 @@ FoxgloveStream::~FoxgloveStream() = default;
 // The old server ends before the new one listens, because both may have the same port.
 void FoxgloveStream::switchOn(FoxgloveOptions options) {
   switchOff();
-  auto open = std::make_unique<Open>(hand_, std::move(options));
+  auto open = std::make_unique<Open>(hand_, std::move(options), askLink_);
   const std::lock_guard lock(mutex_);
   open_ = std::move(open);
 }
@@ -76,15 +71,6 @@ std::string FoxgloveStream::geometryProblem() const {
   return open_ ? open_->messages.geometryProblem() : std::string();
 }
 
-const LinkHealth* FoxgloveStream::linkAt(Open& open, std::int64_t hostUs) {
-  if (!askLink_) return nullptr;
-  if (!open.link || std::abs(hostUs - open.askedUs) >= kFoxgloveLinkIntervalUs) {
-    open.link = askLink_();
-    open.askedUs = hostUs;
-  }
-  return &*open.link;
-}
-
 void FoxgloveStream::send(const LiveResults& results) {
   const std::lock_guard lock(mutex_);
   if (!open_) return;
@@ -108,7 +94,7 @@ void FoxgloveStream::send(const LiveResults& results) {
   if (server.wanted(messages.signalsChannel()))
     server.publish(messages.signalsChannel(),
                    nowUs,
-                   messages.signalObject(results, sequence, linkAt(*open_, nowUs)));
+                   messages.signalObject(results, sequence, open_->link.at(nowUs)));
   // Angles come less often than frames, or more often: each sample is sent once.
   if (const auto joints = messages.jointsChannel(); joints && results.angles &&
                                                     results.angles->hostUs != open_->anglesUs &&

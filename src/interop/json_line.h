@@ -9,21 +9,29 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "palpate/core/number_text.h"
+#include "palpate/interop/signal_json.h"
 
 namespace palpate {
 
 class JsonLine {
  public:
-  explicit JsonLine(std::string& out) : out_(out) { out_ += '{'; }
+  // Places of members are appended to `members`, unless it is null.
+  explicit JsonLine(std::string& out, std::vector<JsonMember>* members = nullptr)
+      : out_(out), start_(out.size()), members_(members) {
+    out_ += '{';
+  }
 
   void begin(std::string_view key) {
     name(key);
     out_ += '{';
     first_ = true;
+    ++depth_;
   }
   void end() {
+    --depth_;
     out_ += '}';
     first_ = false;
   }
@@ -55,6 +63,7 @@ class JsonLine {
     for (const double value : values) {
       if (!first) out_ += ',';
       first = false;
+      note(depth_ + 1);
       if (std::isfinite(value))
         appendNumber(out_, value);
       else
@@ -67,12 +76,19 @@ class JsonLine {
   void name(std::string_view key) {
     if (!first_) out_ += ',';
     first_ = false;
+    note(depth_);
     out_ += '"';
     out_ += key;
     out_ += "\":";
   }
+  void note(int depth) {
+    if (members_) members_->push_back({depth, out_.size() - start_});
+  }
 
   std::string& out_;
+  const std::size_t start_;
+  std::vector<JsonMember>* members_;
+  int depth_ = 0;  // of the members that are written now
   bool first_ = true;
 };
 

@@ -1,12 +1,13 @@
 #include "palpate/interop/remote_client.h"
 
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <stdexcept>
+#include <utility>
 
-#include <poll.h>
-#include <sys/socket.h>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
@@ -15,51 +16,44 @@
 
 namespace palpate {
 namespace {
-using SteadyTime = std::chrono::steady_clock;
+namespace asio = boost::asio;
 constexpr std::size_t kLongestAnswer = 1u << 20;  // [bytes]; usual answers have some hundred
 }  // namespace
 
 struct RemoteClient::Impl {
-  [[noreturn]] void gone() const {
-    throw FileError(path, "the remote-controlled program has ended");
-  }
+  explicit Impl(std::filesystem::path socketPath)
+      : path(std::move(socketPath)),
+        socket(context, asio::local::stream_protocol(), connectTo(path).release()) {}
 
-  void await(short events, SteadyTime::time_point end) const {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(end - SteadyTime::now()).count();
-    pollfd waiting{socket.get(), events, 0};
-    const int ready = left > 0 ? ::poll(&waiting, 1, static_cast<int>(left)) : 0;
-    if (ready < 0 && errno != EINTR) gone();
-    if (ready == 0)
+  // Sends `text` and receives into `received` up to a line end; gives up after `timeout`.
+  void exchange(const std::string& text, std::chrono::milliseconds timeout) {
+    boost::system::error_code failure = asio::error::timed_out;
+    // Where sending fails, the server may have sent the reason before it ended.
+    asio::async_write(socket, asio::buffer(text), [&](boost::system::error_code, std::size_t) {
+      asio::async_read_until(
+          socket,
+          asio::dynamic_buffer(received, kLongestAnswer),
+          '\n',
+          [&](boost::system::error_code error, std::size_t) { failure = error; });
+    });
+    context.restart();
+    context.run_for(timeout);
+    if (!context.stopped()) {
+      boost::system::error_code ignored;
+      socket.close(ignored);
+      context.run();  // ends what refers to `text`
       throw FileError(path, "no answer in time; the request 'status' shows what it does");
-  }
-
-  void send(std::string_view bytes, SteadyTime::time_point end) const {
-    while (!bytes.empty()) {
-      const ssize_t n =
-          ::send(socket.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-      if (n > 0)
-        bytes.remove_prefix(static_cast<std::size_t>(n));
-      else if (errno == EAGAIN || errno == EINTR)
-        await(POLLOUT, end);
-      else
-        return;  // the server may have sent the reason before it ended
     }
+    if (failure == asio::error::not_found) noPalpate();
+    if (failure) throw FileError(path, "the remote-controlled program has ended");
   }
 
   [[noreturn]] void noPalpate() const {
     throw FileError(path, "this isn't Palpate: another program listens on this socket");
   }
 
-  std::string receiveLine(SteadyTime::time_point end) {
-    while (received.find('\n') == std::string::npos) {
-      if (received.size() > kLongestAnswer) noPalpate();
-      await(POLLIN, end);
-      std::array<char, 4096> bytes{};
-      const ssize_t n = ::recv(socket.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
-      if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) gone();
-      if (n > 0) received.append(bytes.data(), static_cast<std::size_t>(n));
-    }
+  // Takes the first line out of `received`.
+  std::string takeLine() {
     const auto at = received.find('\n');
     std::string line = received.substr(0, at);
     received.erase(0, at + 1);
@@ -72,23 +66,21 @@ struct RemoteClient::Impl {
   }
 
   std::filesystem::path path;
-  FileDescriptor socket;
+  asio::io_context context;
+  asio::local::stream_protocol::socket socket;
   std::string received;
 };
 
-RemoteClient::RemoteClient(std::filesystem::path socket) : impl_(std::make_unique<Impl>()) {
-  impl_->socket = connectTo(socket);
-  impl_->path = std::move(socket);
-}
+RemoteClient::RemoteClient(std::filesystem::path socket)
+    : impl_(std::make_unique<Impl>(std::move(socket))) {}
 
 RemoteClient::~RemoteClient() = default;
 
 std::string RemoteClient::ask(std::string_view request, std::chrono::milliseconds timeout) {
   if (request.find('\n') != std::string_view::npos)
     throw std::invalid_argument("RemoteClient: a request is one line");
-  const auto end = SteadyTime::now() + timeout;
-  impl_->send(std::string(request) + "\n", end);
-  return impl_->receiveLine(end);
+  impl_->exchange(std::string(request) + "\n", timeout);
+  return impl_->takeLine();
 }
 
 }  // namespace palpate

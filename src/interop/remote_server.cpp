@@ -1,25 +1,19 @@
 #include "palpate/interop/remote_server.h"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <list>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <utility>
-#include <vector>
 
-#include <poll.h>
-#include <sys/eventfd.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/write.hpp>
 
 #include "palpate/core/error.h"
 
+#include "interop/outlet_server.h"
 #include "interop/remote_socket.h"
 
 namespace palpate {
@@ -28,72 +22,14 @@ using RemoteServerSteadyTime = std::chrono::steady_clock;
 using RemoteServerVerb = RemoteRequest::Verb;
 
 constexpr std::size_t kReadBytes = 4096;
-constexpr int kRestMs = 100;  // pause when the system has no descriptor left
 
-// Queue of answers for the server's thread; answers may come from any thread at any time.
-class AnswerBox {
- public:
-  struct Item {
-    std::uint64_t client = 0;
-    RemoteAnswer answer;
-  };
-  AnswerBox() : wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-    if (wake_.get() < 0) throw Error("remote control: the system has no descriptor left");
-  }
-  void put(std::uint64_t client, RemoteAnswer answer) {
-    const std::lock_guard lock(mutex_);
-    items_.push_back({client, std::move(answer)});
-    ring();
-  }
-  std::vector<Item> take() {
-    const std::lock_guard lock(mutex_);
-    std::uint64_t rung = 0;
-    [[maybe_unused]] const ssize_t read = ::read(wake_.get(), &rung, sizeof rung);
-    return std::exchange(items_, {});
-  }
-  void ring() {
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const ssize_t written = ::write(wake_.get(), &one, sizeof one);
-  }
-  int descriptor() const noexcept { return wake_.get(); }
-
- private:
-  FileDescriptor wake_;
-  std::mutex mutex_;
-  std::vector<Item> items_;
-};
-
-// Ensures that an answer is given exactly once: when the last copy is destroyed without one, it
-// sends an error.
-class PendingAnswer {
- public:
-  PendingAnswer(std::weak_ptr<AnswerBox> box, std::uint64_t client)
-      : box_(std::move(box)), client_(client) {}
-  ~PendingAnswer() { give(RemoteAnswer::refused("failed", "the request was not carried out")); }
-  PendingAnswer(const PendingAnswer&) = delete;
-  PendingAnswer& operator=(const PendingAnswer&) = delete;
-  void give(RemoteAnswer answer) {
-    if (given_.exchange(true)) return;
-    if (const auto box = box_.lock()) box->put(client_, std::move(answer));
-  }
-
- private:
-  std::weak_ptr<AnswerBox> box_;
-  std::uint64_t client_;
-  std::atomic<bool> given_ = false;
-};
-
-struct Client {
-  FileDescriptor socket;
-  std::uint64_t id = 0;
-  RequestLines lines;
-  std::string out;                       // unsent part of the last answer
-  std::optional<RemoteRequest> pending;  // request that waits for its answer
-  bool ended = false;                    // nothing more is sent
-  RemoteServerSteadyTime::time_point active = RemoteServerSteadyTime::now();
-
-  bool reads() const { return !ended && !pending && out.empty(); }
-};
+RemoteAnswer remoteHelp() {
+  Json verbs = Json::array();
+  for (const RemoteServerVerb verb : allRemoteVerbs()) verbs.push(nameOf(verb));
+  RemoteAnswer answer;
+  answer.fields.set("requests", std::move(verbs)).set("protocol", 1);
+  return answer;
+}
 
 }  // namespace
 
@@ -105,114 +41,177 @@ std::filesystem::path usualRemoteSocket() {
 }
 
 struct RemoteServer::Impl {
-  Impl(std::filesystem::path path, RemoteTarget& who, RemoteServerOptions given)
-      : target(who), options(std::move(given)), listener(std::move(path)) {}
+  class Session;
+  class PendingAnswer;
+  // The way to the server's thread, from any thread at any time.
+  struct AnswerBox {
+    std::mutex mutex;
+    asio::io_context* context = nullptr;  // null: the server has ended
+  };
 
-  void run(const std::stop_token& stop) {
-    while (!stop.stop_requested()) {
-      try {
-        await();
-        for (AnswerBox::Item& item : box->take()) deliver(item);
-        const std::lock_guard lock(mutex);
-        stats.clients = clients.size();
-      } catch (...) {
-        resting = true;  // most likely out of memory: the process that moves a hand continues
-      }
-    }
-    for (Client& client : clients)
-      if (client.pending) {
-        client.out += answerLine(RemoteAnswer::refused("shutting_down", "remote control ends"),
-                                 nameOf(client.pending->verb)) +
-                      "\n";
-        write(client);
-      }
-    clients.clear();
+  Impl(std::filesystem::path path, RemoteTarget& who, RemoteServerOptions given)
+      : target(who),
+        options(std::move(given)),
+        place(std::move(path)),
+        server(place.takeListener(), [this](FileDescriptor socket) { accept(std::move(socket)); }) {
+    box->context = &server.context();
+    server.start();
+  }
+  ~Impl() {
+    server.stop();
+    const std::lock_guard lock(box->mutex);
+    box->context = nullptr;
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void accept(FileDescriptor socket);
+  bool makeRoom();
+
+  void count(std::uint64_t RemoteServerStats::*counter) {
+    const std::lock_guard lock(mutex);
+    ++(stats.*counter);
+  }
+  void countClients() {
+    const std::lock_guard lock(mutex);
+    stats.clients = server.sessions().size();
   }
 
-  void await() {
-    std::vector<pollfd> waiting{{box->descriptor(), POLLIN, 0},
-                                {resting ? -1 : listener.descriptor(), POLLIN, 0}};
-    for (const Client& client : clients)
-      waiting.push_back(
-          {client.socket.get(),
-           static_cast<short>((client.reads() ? POLLIN : 0) | (client.out.empty() ? 0 : POLLOUT)),
-           0});
-    ::poll(waiting.data(), waiting.size(), resting ? kRestMs : -1);
-    resting = false;
-    std::size_t next = 2;
-    for (auto client = clients.begin(); client != clients.end(); ++next)
-      client = isServed(*client, waiting[next].revents) ? std::next(client) : clients.erase(client);
-    if (waiting[1].revents != 0) accept();
+  RemoteTarget& target;
+  const RemoteServerOptions options;
+  ListeningSocket place;
+  const std::shared_ptr<AnswerBox> box = std::make_shared<AnswerBox>();
+  mutable std::mutex mutex;  // protects stats
+  RemoteServerStats stats;
+  OutletServer<Session> server;
+};
+
+// Ensures that an answer is given exactly once: when the last copy is destroyed without one, it
+// sends an error.
+class RemoteServer::Impl::PendingAnswer {
+ public:
+  PendingAnswer(std::shared_ptr<AnswerBox> box, std::weak_ptr<Session> session)
+      : box_(std::move(box)), session_(std::move(session)) {}
+  ~PendingAnswer() { give(RemoteAnswer::refused("failed", "the request was not carried out")); }
+  PendingAnswer(const PendingAnswer&) = delete;
+  PendingAnswer& operator=(const PendingAnswer&) = delete;
+  void give(RemoteAnswer answer);
+
+ private:
+  const std::shared_ptr<AnswerBox> box_;
+  const std::weak_ptr<Session> session_;
+  std::atomic<bool> given_ = false;
+};
+
+// One client: reads the next request only when the previous one is answered.
+class RemoteServer::Impl::Session : public std::enable_shared_from_this<Session> {
+ public:
+  Session(Impl& server, FileDescriptor socket)
+      : server_(server),
+        socket_(server.server.context(), asio::local::stream_protocol(), socket.release()) {
+    socket_.non_blocking(true);
+  }
+
+  void start() {
+    // Notices a client that leaves while nothing is read from it.
+    socket_.async_wait(Socket::wait_error, [self = shared_from_this()](BoostError error) {
+      if (error) return;
+      self->hasLeft_ = true;
+      if (!self->reading_) self->end();
+    });
+    processRequests();
+  }
+
+  // Empty while it waits for an answer of the target.
+  std::optional<RemoteServerSteadyTime::time_point> silentSince() const {
+    return pending_ ? std::nullopt : std::optional(active_);
+  }
+
+  void deliver(const RemoteAnswer& given) {
+    if (!pending_ || !socket_.is_open()) return;  // the client has left meanwhile
+    const RemoteRequest request = *std::exchange(pending_, std::nullopt);
+    try {
+      if (server_.options.onAnswer && request.verb != RemoteServerVerb::kStatus)
+        server_.options.onAnswer(request, given);
+    } catch (...) {
+      // The callback may fail: the client receives its answer nevertheless.
+    }
+    guarded([&] { answer(given, nameOf(request.verb)); });
+  }
+
+  void close() {
+    if (pending_) {
+      const std::string line =
+          answerLine(RemoteAnswer::refused("shutting_down", "remote control ends"),
+                     nameOf(pending_->verb)) +
+          "\n";
+      BoostError ignored;
+      socket_.write_some(asio::buffer(line), ignored);
+    }
+    end();
+  }
+
+ private:
+  using Socket = asio::local::stream_protocol::socket;
+
+  void end() {
+    BoostError ignored;
+    socket_.close(ignored);
+    server_.server.ended(this);
+    server_.countClients();
   }
 
   // An exception while serving a client closes only that client.
-  bool isServed(Client& client, short events) {
+  template <typename Step>
+  void guarded(const Step& step) {
     try {
-      return serve(client, events);
+      step();
     } catch (...) {
-      return false;
+      end();
     }
   }
 
-  // Returns false when the client is to be closed.
-  bool serve(Client& client, short events) {
-    if ((events & POLLOUT) != 0 && !write(client)) return false;
-    if ((events & POLLIN) != 0 && !read(client)) return false;
-    if ((events & (POLLHUP | POLLERR | POLLNVAL)) != 0 && (events & POLLIN) == 0) return false;
-    return processRequests(client);
-  }
-
-  bool read(Client& client) const {
-    std::array<char, kReadBytes> bytes{};
-    const ssize_t n = ::recv(client.socket.get(), bytes.data(), bytes.size(), 0);
-    if (n < 0) return errno == EAGAIN || errno == EINTR;
-    client.active = RemoteServerSteadyTime::now();
-    client.ended = n == 0;
-    client.lines.push({bytes.data(), static_cast<std::size_t>(n)});
-    return true;
-  }
-
-  static bool write(Client& client) {
-    const ssize_t n = ::send(
-        client.socket.get(), client.out.data(), client.out.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-    if (n < 0) return errno == EAGAIN || errno == EINTR;
-    client.active = RemoteServerSteadyTime::now();
-    client.out.erase(0, static_cast<std::size_t>(n));
-    return true;
-  }
-
-  // Processes requests until one has to wait; returns false when the client is to be closed.
-  bool processRequests(Client& client) {
-    while (!client.pending && client.out.empty()) {
-      const auto line = client.lines.next();
-      if (!line) return !client.ended;
+  // Processes requests until one has to wait for its answer, or an answer for its client.
+  void processRequests() {
+    while (!pending_ && out_.empty()) {
+      const auto line = lines_.next();
+      if (!line) return ended_ ? end() : read();
       const ReadRequest read = line->tooLong ? readRequest(std::string(kMaxRequestBytes + 1, 'x'))
                                              : readRequest(line->text);
       if (!read.request) {
-        const std::lock_guard lock(mutex);
-        ++stats.refused;
-      }
-      if (!read.request) {
-        if (!answer(client, read.refusal, {})) return false;
+        server_.count(&RemoteServerStats::refused);
+        answer(read.refusal, {});
       } else if (read.request->verb == RemoteServerVerb::kHelp) {
-        if (!answer(client, help(), nameOf(RemoteServerVerb::kHelp))) return false;
+        answer(remoteHelp(), nameOf(RemoteServerVerb::kHelp));
       } else {
-        ask(client, *read.request);
+        ask(*read.request);
       }
     }
-    return true;
+    if (hasLeft_) end();
   }
 
-  void ask(Client& client, const RemoteRequest& request) {
-    {
-      const std::lock_guard lock(mutex);
-      ++stats.requests;
-    }
-    client.pending = request;
-    const auto pending = std::make_shared<PendingAnswer>(box, client.id);
+  void read() {
+    socket_.async_read_some(asio::buffer(bytes_),
+                            [self = shared_from_this()](BoostError error, std::size_t n) {
+                              self->reading_ = false;
+                              if (error && error != asio::error::eof) return self->end();
+                              self->active_ = RemoteServerSteadyTime::now();
+                              self->ended_ = error == asio::error::eof;
+                              self->guarded([&] {
+                                self->lines_.push({self->bytes_.data(), n});
+                                self->processRequests();
+                              });
+                            });
+    reading_ = true;
+  }
+
+  void ask(const RemoteRequest& request) {
+    server_.count(&RemoteServerStats::requests);
+    pending_ = request;
+    const auto pending = std::make_shared<PendingAnswer>(server_.box, weak_from_this());
     try {
-      target.carryOut(request,
-                      [pending](RemoteAnswer answer) { pending->give(std::move(answer)); });
+      server_.target.carryOut(request,
+                              [pending](RemoteAnswer answer) { pending->give(std::move(answer)); });
     } catch (const std::exception& failure) {
       pending->give(RemoteAnswer::refused("failed", failure.what()));
     } catch (...) {
@@ -220,88 +219,65 @@ struct RemoteServer::Impl {
     }
   }
 
-  static RemoteAnswer help() {
-    Json verbs = Json::array();
-    for (const RemoteServerVerb verb : allRemoteVerbs()) verbs.push(nameOf(verb));
-    RemoteAnswer answer;
-    answer.fields.set("requests", std::move(verbs)).set("protocol", 1);
-    return answer;
+  void answer(const RemoteAnswer& answer, std::string_view command) {
+    out_ = answerLine(answer, command) + "\n";
+    asio::async_write(
+        socket_, asio::buffer(out_), [self = shared_from_this()](BoostError error, std::size_t) {
+          if (error) return self->end();
+          self->active_ = RemoteServerSteadyTime::now();
+          self->out_.clear();
+          self->guarded([&] { self->processRequests(); });
+        });
   }
 
-  static bool answer(Client& client, const RemoteAnswer& answer, std::string_view command) {
-    client.out += answerLine(answer, command) + "\n";
-    return write(client);
-  }
-
-  void deliver(const AnswerBox::Item& item) {
-    const auto client = std::find_if(
-        clients.begin(), clients.end(), [&](const Client& each) { return each.id == item.client; });
-    if (client == clients.end() || !client->pending) return;  // the client has left meanwhile
-    const RemoteRequest request = *std::exchange(client->pending, std::nullopt);
-    try {
-      if (options.onAnswer && request.verb != RemoteServerVerb::kStatus)
-        options.onAnswer(request, item.answer);
-    } catch (...) {
-      // The callback may fail: the client has received its answer nevertheless.
-    }
-    try {
-      if (answer(*client, item.answer, nameOf(request.verb)) && processRequests(*client)) return;
-    } catch (...) {
-      // Most likely out of memory: this client gets no answer.
-    }
-    clients.erase(client);
-  }
-
-  void accept() {
-    FileDescriptor socket = listener.accept();
-    if (socket.get() < 0) {
-      resting = errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == ENOBUFS;
-      if (errno == EACCES) turnAway();
-      return;
-    }
-    if (clients.size() >= options.maxClients && !makeRoom()) {
-      Client rejected;
-      rejected.socket = std::move(socket);
-      answer(rejected, RemoteAnswer::refused("busy", "too many clients: close one"), {});
-      return turnAway();
-    }
-    Client client;
-    client.socket = std::move(socket);
-    client.id = ++lastId;
-    clients.push_back(std::move(client));
-    const std::lock_guard lock(mutex);
-    ++stats.accepted;
-  }
-
-  void turnAway() {
-    const std::lock_guard lock(mutex);
-    ++stats.rejectedClients;
-  }
-
-  // Closes the client that was silent for the longest time, if that is long enough.
-  bool makeRoom() {
-    const auto limit = RemoteServerSteadyTime::now() - std::chrono::duration<double>(options.idleS);
-    auto longest = clients.end();
-    for (auto each = clients.begin(); each != clients.end(); ++each)
-      if (!each->pending && each->active < limit &&
-          (longest == clients.end() || each->active < longest->active))
-        longest = each;
-    if (longest == clients.end()) return false;
-    clients.erase(longest);
-    return true;
-  }
-
-  RemoteTarget& target;
-  const RemoteServerOptions options;
-  const ListeningSocket listener;
-  const std::shared_ptr<AnswerBox> box = std::make_shared<AnswerBox>();
-  std::list<Client> clients;  // used by the server's thread only, as the following members
-  std::uint64_t lastId = 0;
-  bool resting = false;
-  mutable std::mutex mutex;  // protects stats
-  RemoteServerStats stats;
-  std::jthread thread;
+  Impl& server_;
+  Socket socket_;
+  std::array<char, kReadBytes> bytes_{};
+  RequestLines lines_;
+  std::string out_;                       // the answer that is being sent
+  std::optional<RemoteRequest> pending_;  // request that waits for its answer
+  bool reading_ = false;
+  bool ended_ = false;    // the client sends nothing more
+  bool hasLeft_ = false;  // nor does it receive anything
+  RemoteServerSteadyTime::time_point active_ = RemoteServerSteadyTime::now();
 };
+
+void RemoteServer::Impl::PendingAnswer::give(RemoteAnswer answer) {
+  if (given_.exchange(true)) return;
+  const std::lock_guard lock(box_->mutex);
+  if (!box_->context) return;
+  asio::post(*box_->context, [session = session_, answer = std::move(answer)] {
+    if (const auto open = session.lock()) open->deliver(answer);
+  });
+}
+
+void RemoteServer::Impl::accept(FileDescriptor socket) {
+  if (!isOfThisUser(socket.get())) return count(&RemoteServerStats::rejectedClients);
+  if (server.sessions().size() >= options.maxClients && !makeRoom()) {
+    const std::string line =
+        answerLine(RemoteAnswer::refused("busy", "too many clients: close one"), {}) + "\n";
+    [[maybe_unused]] const ssize_t sent =
+        ::send(socket.get(), line.data(), line.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    return count(&RemoteServerStats::rejectedClients);
+  }
+  const auto session = std::make_shared<Session>(*this, std::move(socket));
+  server.add(session);
+  count(&RemoteServerStats::accepted);
+  countClients();
+  session->start();
+}
+
+// Closes the client that was silent for the longest time, if that is long enough.
+bool RemoteServer::Impl::makeRoom() {
+  const auto limit = RemoteServerSteadyTime::now() - std::chrono::duration<double>(options.idleS);
+  std::shared_ptr<Session> longest;
+  for (const auto& each : server.sessions()) {
+    const auto since = each->silentSince();
+    if (since && *since < limit && (!longest || *since < *longest->silentSince())) longest = each;
+  }
+  if (longest) longest->close();
+  return longest != nullptr;
+}
 
 RemoteServer::RemoteServer(std::filesystem::path socket,
                            RemoteTarget& target,
@@ -311,19 +287,11 @@ RemoteServer::RemoteServer(std::filesystem::path socket,
   if (!(options.idleS >= 0.0))
     throw std::invalid_argument("RemoteServerOptions: idleS must be >= 0");
   impl_ = std::make_unique<Impl>(std::move(socket), target, std::move(options));
-  impl_->thread =
-      std::jthread([impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
 }
 
-RemoteServer::~RemoteServer() {
-  impl_->thread.request_stop();
-  impl_->box->ring();
-  impl_->thread.join();
-}
+RemoteServer::~RemoteServer() = default;
 
-const std::filesystem::path& RemoteServer::socket() const noexcept {
-  return impl_->listener.path();
-}
+const std::filesystem::path& RemoteServer::socket() const noexcept { return impl_->place.path(); }
 
 RemoteServerStats RemoteServer::stats() const {
   const std::lock_guard lock(impl_->mutex);

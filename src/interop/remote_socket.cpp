@@ -102,17 +102,11 @@ ListeningSocket::~ListeningSocket() {
     ::unlink(path_.c_str());
 }
 
-FileDescriptor ListeningSocket::accept() const {
-  FileDescriptor client(::accept4(socket_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (client.get() < 0) return client;
+bool isOfThisUser(int socket) noexcept {
   ucred peer{};
   socklen_t size = sizeof peer;
-  if (::getsockopt(client.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
-      (peer.uid == ::geteuid() || peer.uid == 0))
-    return client;
-  client = FileDescriptor();
-  errno = EACCES;
-  return client;
+  return ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
+         (peer.uid == ::geteuid() || peer.uid == 0);
 }
 
 FileDescriptor connectTo(const fs::path& path) {

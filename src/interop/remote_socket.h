@@ -4,7 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
-#include <string>
+#include <utility>
 
 #include <sys/types.h>
 
@@ -20,11 +20,8 @@ class ListeningSocket {
   ~ListeningSocket();
   ListeningSocket(const ListeningSocket&) = delete;
   ListeningSocket& operator=(const ListeningSocket&) = delete;
-  int descriptor() const noexcept { return socket_.get(); }
   const std::filesystem::path& path() const noexcept { return path_; }
-  // The next client, non-blocking; -1: none (errno contains the reason). A client of another user
-  // is rejected: -1, errno EACCES.
-  FileDescriptor accept() const;
+  FileDescriptor takeListener() noexcept { return std::move(socket_); }
 
  private:
   std::filesystem::path path_;
@@ -33,6 +30,9 @@ class ListeningSocket {
   dev_t device_ = 0;
   ino_t inode_ = 0;
 };
+
+// Whether the program at the other end belongs to this user, or to root.
+bool isOfThisUser(int socket) noexcept;
 
 // Throws FileError with advice.
 FileDescriptor connectTo(const std::filesystem::path& path);

@@ -89,8 +89,9 @@ void addLink(JsonLine& json, const LinkHealth& link) {
 void appendSignalJson(std::string& out,
                       const LiveResults& results,
                       std::uint64_t sequence,
-                      const LinkHealth* link) {
-  JsonLine json(out);
+                      const LinkHealth* link,
+                      std::vector<JsonMember>* members) {
+  JsonLine json(out, members);
   json.number("t", static_cast<double>(results.frame->hostUs) / kUsPerS);
   json.integer("sequence", static_cast<std::int64_t>(sequence));
   if (results.frame->deviceUs) json.integer("device_ms", floorMs(*results.frame->deviceUs));

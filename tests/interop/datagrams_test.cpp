@@ -46,11 +46,18 @@ LiveResults largeResults(std::size_t numMatrices, std::size_t numAxes) {
   return results;
 }
 
-std::string wholeText(const LiveResults& results) {
+struct Whole {
   std::string text;
+  std::vector<JsonMember> members;
+  std::vector<std::string> datagrams() const { return signalDatagrams(text, members); }
+};
+
+Whole wholeOf(const LiveResults& results) {
+  Whole whole{"before", {}};  // places are those of the object, not of the text it is appended to
   const LinkHealth link;
-  appendSignalJson(text, results, 7, &link);
-  return text;
+  appendSignalJson(whole.text, results, 7, &link, &whole.members);
+  whole.text.erase(0, 6);
+  return whole;
 }
 
 // What a receiver knows after all parts.
@@ -70,29 +77,29 @@ Parsed unionOf(const std::vector<std::string>& parts) {
 }
 
 TEST(Datagrams, SignalsThatFitStayOneObject) {
-  std::string text;
-  appendSignalJson(text, testing::sampleResults(), 3);
-  ASSERT_LE(text.size(), kMaxDatagramBytes);
-  EXPECT_EQ(signalDatagrams(text), std::vector<std::string>{text});
+  Whole whole;
+  appendSignalJson(whole.text, testing::sampleResults(), 3, nullptr, &whole.members);
+  ASSERT_LE(whole.text.size(), kMaxDatagramBytes);
+  EXPECT_EQ(whole.datagrams(), std::vector<std::string>{whole.text});
 }
 
 TEST(Datagrams, PartsOfSignalsAreTogetherTheWholeObject) {
   for (const std::size_t numMatrices : {1u, 6u, 40u}) {
     const LiveResults results = largeResults(numMatrices, 7);
-    const std::string text = wholeText(results);
-    const std::vector<std::string> parts = signalDatagrams(text);
+    const Whole whole = wholeOf(results);
+    const std::vector<std::string> parts = whole.datagrams();
     EXPECT_EQ(parts.size() > 1, numMatrices > 1);
     for (const std::string& part : parts) EXPECT_LE(part.size(), kMaxDatagramBytes);
-    EXPECT_EQ(unionOf(parts), Parsed::parse(text)) << numMatrices << " matrices";
+    EXPECT_EQ(unionOf(parts), Parsed::parse(whole.text)) << numMatrices << " matrices";
   }
 }
 
 TEST(Datagrams, ALongArrayIsDividedIntoItsValues) {
-  const std::string text = wholeText(largeResults(2, 300));
-  const std::vector<std::string> parts = signalDatagrams(text);
+  const Whole object = wholeOf(largeResults(2, 300));
+  const std::vector<std::string> parts = object.datagrams();
   for (const std::string& part : parts) EXPECT_LE(part.size(), kMaxDatagramBytes);
   Parsed all = unionOf(parts);
-  Parsed whole = Parsed::parse(text);
+  Parsed whole = Parsed::parse(object.text);
   for (std::size_t i = 0; i < 300; ++i) {
     const std::string key = "angles_deg[" + std::to_string(i) + "]";
     if (i == 2) {
@@ -120,11 +127,11 @@ TEST(Datagrams, LargeSeriesAreDividedBetweenTheirColumns) {
     results.further.push_back(
         {std::make_shared<const SeriesDescription>(std::move(series)), std::move(sample)});
   }
-  const std::string text = wholeText(results);
-  const Parsed whole = Parsed::parse(text);
+  const Whole given = wholeOf(results);
+  const Parsed whole = Parsed::parse(given.text);
   Parsed series = Parsed::object();
   std::size_t numWithSeries = 0;
-  for (const std::string& part : signalDatagrams(text)) {
+  for (const std::string& part : given.datagrams()) {
     EXPECT_LE(part.size(), kMaxDatagramBytes);
     const Parsed object = Parsed::parse(part);
     EXPECT_EQ(object.at("sequence"), 7);

@@ -71,6 +71,35 @@ TEST(LiveStream, AsksForTheLinkFourTimesASecondAtMost) {
   EXPECT_EQ(asked, 5);
 }
 
+TEST(LiveStream, DatagramsHoldWhatOneTextHolds) {
+  const LiveResults results = sampleResults();
+  for (const StreamKind kind : kAllStreamKinds) {
+    std::string whole;
+    appendStreamed(whole, kind, results, 4, nullptr);
+    const auto parts = streamedDatagrams(kind, results, 4, nullptr);
+    if (kind == StreamKind::kSignals) {
+      EXPECT_EQ(parts, std::vector<std::string>{whole});
+    } else {
+      EXPECT_EQ(parts.size(), 2u);
+      EXPECT_EQ(Json::parse(parts[1]).at("header").text(), Json::parse(whole).at("header").text());
+    }
+  }
+}
+
+TEST(RecentLink, AsksAgainAfterAQuarterOfASecond) {
+  EXPECT_EQ(RecentLink({}).at(0), nullptr);
+  int asked = 0;
+  RecentLink link([&asked] {
+    LinkHealth health;
+    health.lost = static_cast<std::uint64_t>(++asked);
+    return health;
+  });
+  for (const std::int64_t us : {1'000'000, 1'249'999, 1'250'000, 1'000'001})
+    ASSERT_NE(link.at(us), nullptr);
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(link.at(1'000'000)->lost, 3u);  // an earlier time counts as well
+}
+
 TEST(LiveStream, RefusesPortZero) {
   LiveStream stream;
   EXPECT_THROW(stream.switchOn(StreamKind::kSignals, 0), std::invalid_argument);

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include <sys/stat.h>
 
@@ -14,6 +15,7 @@
 #include "interop/raw_client.h"
 #include "testing/process_facts.h"
 #include "testing/testing.h"
+#include "testing/time_limit.h"
 
 namespace palpate::remote_server_test {
 namespace {
@@ -186,6 +188,55 @@ TEST_F(RemoteServerTest, AClientThatHangsHoldsNobodyUp) {
   for (std::size_t now = 1; now > 0 && taken < enough; taken += now) now = deaf.send(flood, 50);
   EXPECT_LT(taken, enough);
   EXPECT_TRUE(ask("status").at("ok").asBool());
+}
+
+TEST_F(RemoteServerTest, StopIsAnsweredWhileOthersDoNotRead) {
+  serve();
+  std::string flood;
+  for (int i = 0; i < 500; ++i) flood += "help\n";
+  std::list<RawClient> deaf;
+  for (int i = 0; i < 4; ++i) {
+    const RawClient& client = deaf.emplace_back(socket());
+    while (client.send(flood, 20) > 0) {
+    }
+  }
+  RemoteClient client(socket());
+  for (int i = 0; i < 100; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_TRUE(Json::parse(client.ask("stop", 5000ms)).at("ok").asBool());
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, timeLimit(100ms));
+  }
+}
+
+// What the sanitizers judge: answers from another thread to clients that leave, and to a server
+// that ends.
+TEST_F(RemoteServerTest, EndsWhileAnswersAreGiven) {
+  for (int round = 0; round < 20; ++round) {
+    serve();
+    std::list<RawClient> clients;
+    for (std::size_t i = 0; i < 10; ++i) {
+      clients.emplace_back(socket()).send("start a\nlabel b\nstart c\n");
+      ASSERT_TRUE(soon([&] { return target_.waiting() == i + 1; }));
+    }
+    clients.pop_front();
+    std::thread answers([&] {
+      for (int i = 0; i < 10; ++i) target_.answerOne();
+    });
+    server_.reset();
+    answers.join();
+    for (RawClient& client : clients) EXPECT_TRUE(client.ended());
+    target_.forgetAll();
+  }
+}
+
+// The request of a client that leaves at once is carried out.
+TEST_F(RemoteServerTest, WhatAClientAskedBeforeItLeftIsDone) {
+  serve();
+  for (std::size_t i = 0; i < 50; ++i) {
+    RawClient(socket()).send("start a\n");
+    ASSERT_TRUE(soon([&] { return target_.waiting() == i + 1; }));
+  }
+  ASSERT_TRUE(soon([&] { return server_->stats().clients == 0; }));
 }
 
 TEST_F(RemoteServerTest, AFarTooLongLineIsSaidAndSkipped) {

@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <palpate/interop/signal_json.h>
 #include <palpate/model/tactile_frame.h>
 
 namespace palpate {
@@ -20,10 +22,11 @@ constexpr std::size_t kMaxDatagramBytes = 1400;
 // order. Only two are divided where they do not fit into one datagram. The values of an array are
 // then keys of their own, "angles_deg[0]", "angles_deg[1]", .. (the names that PlotJuggler gives to
 // values of an array); null has no key. "series" comes in several objects, each with some of the
-// series, or some columns of one. An object that fits is returned as it is. `object` must be one of
-// appendSignalJson(). Any other key makes a part of its own where it is longer than `maxBytes`;
-// those of a frame are at most about 900 bytes long.
+// series, or some columns of one. An object that fits is returned as it is. `object` and
+// `members` are those of appendSignalJson(). Any other key makes a part of its own where it is
+// longer than `maxBytes`; those of a frame are at most about 900 bytes long.
 std::vector<std::string> signalDatagrams(std::string_view object,
+                                         std::span<const JsonMember> members,
                                          std::size_t maxBytes = kMaxDatagramBytes);
 
 // The frame as messages schunk_sdh/TactileSensor (recording/tactile_sensor_json.h) with the same

@@ -7,15 +7,14 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
-#include <palpate/capture/link_health.h>
 #include <palpate/interop/foxglove_messages.h>
 #include <palpate/interop/foxglove_server.h>
+#include <palpate/interop/recent_link.h>
 #include <palpate/live/live_results.h>
 #include <palpate/model/event.h>
 #include <palpate/model/hand_description.h>
@@ -30,9 +29,7 @@ struct FoxgloveOptions {
 // Every function may be called from any thread.
 class FoxgloveStream {
  public:
-  // Called by send(), at most four times per second of the frames' time while a client reads the
-  // signals; may be empty.
-  using LinkHealthQuery = std::function<LinkHealth()>;
+  // `askLink` is called by send() while a client reads the signals.
   explicit FoxgloveStream(HandDescription hand, LinkHealthQuery askLink = {});
   ~FoxgloveStream();
 
@@ -55,7 +52,6 @@ class FoxgloveStream {
 
  private:
   struct Open;
-  const LinkHealth* linkAt(Open& open, std::int64_t hostUs);
 
   const HandDescription hand_;
   const LinkHealthQuery askLink_;

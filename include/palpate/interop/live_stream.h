@@ -8,14 +8,14 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include <palpate/capture/link_health.h>
 #include <palpate/interop/datagram_sender.h>
+#include <palpate/interop/recent_link.h>
 #include <palpate/live/live_results.h>
 
 namespace palpate {
@@ -29,19 +29,23 @@ constexpr std::uint16_t usualPort(StreamKind kind) {
   return kind == StreamKind::kSignals ? 9870 : 9871;
 }
 
-// Appends the content of a stream for one frame, without a line end.
+// A stream is these two encoders. Appends its content for one frame, without a line end.
 void appendStreamed(std::string& out,
                     StreamKind kind,
                     const LiveResults& results,
                     std::uint64_t sequence,
                     const LinkHealth* link);
+// The same content as datagrams (datagrams.h).
+std::vector<std::string> streamedDatagrams(StreamKind kind,
+                                           const LiveResults& results,
+                                           std::uint64_t sequence,
+                                           const LinkHealth* link);
 
 // Every function may be called from any thread.
 class LiveStream {
  public:
-  // Called on the processing thread, four times a second while signals are sent; may be empty.
-  using LinkHealthQuery = std::function<LinkHealth()>;
-  explicit LiveStream(LinkHealthQuery askLink = {}) : askLink_(std::move(askLink)) {}
+  // `askLink` is called on the processing thread while signals are sent.
+  explicit LiveStream(LinkHealthQuery askLink = {}) : link_(std::move(askLink)) {}
 
   // Takes effect with the next frame; counters restart. Throws std::invalid_argument (port 0),
   // DeviceError.
@@ -59,14 +63,10 @@ class LiveStream {
     std::unique_ptr<DatagramSender> sender;  // null when off
     std::uint64_t sequence = 0;
   };
-  const LinkHealth* linkAt(std::int64_t hostUs);
 
-  const LinkHealthQuery askLink_;
   mutable std::mutex mutex_;
   std::array<Stream, kAllStreamKinds.size()> streams_;
-  std::optional<LinkHealth> link_;
-  std::int64_t askedUs_ = 0;  // stamp of the frame when link_ was updated
-  std::string text_;
+  RecentLink link_;
 };
 
 }  // namespace palpate
