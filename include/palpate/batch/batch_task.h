@@ -12,11 +12,11 @@
 #include <palpate/batch/batch_run.h>
 #include <palpate/batch/export_extras.h>
 #include <palpate/batch/grasp_files.h>
+#include <palpate/core/result_table.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/time_base.h>
 #include <palpate/recognition/feature_table.h>
 #include <palpate/recognition/grasp_segments.h>
-#include <palpate/core/result_table.h>
 #include <palpate/recording/recording.h>
 #include <palpate/signals/signal_rows.h>
 #include <palpate/slip/slip_rows.h>
@@ -62,7 +62,7 @@ struct GraspRowsOptions {
 // Its work throws FileError for the rule `study` where the hand names no pads that pinch.
 RecordingTable graspsOf(const GraspRowsOptions& options);
 
-// Writes the table of each recording, in the form of the result's ending: .csv or .json.
+// Writes the table of each recording, in the form of the result's ending (result_file.h).
 BatchTask tableTask(const RecordingTable& table);
 inline BatchTask signalsTask(const SignalRowsOptions& options) {
   return tableTask(signalsOf(options));
