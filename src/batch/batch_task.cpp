@@ -8,6 +8,7 @@
 #include "palpate/recognition/filtered_recording.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_losses.h"
+#include "palpate/recording/result_file.h"
 #include "palpate/signals/signal_filter.h"
 #include "palpate/signals/signal_rows.h"
 #include "palpate/slip/slip_rows.h"
@@ -169,17 +170,18 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
 RecordingTable signalsOf(const SignalRowsOptions& options) {
   options.filters.validate();
   SignalFilter(options.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
-  return {.options = "signals; " + recipeText(options.filters) + "; smooth " +
-                     recipeText(options.smooth) + matrixText(options.matrix) +
-                     timesText(options.times),
-          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile = filteredBy(
-                options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
+  return {
+      .options = "signals; " + recipeText(options.filters) + "; smooth " +
+                 recipeText(options.smooth) + matrixText(options.matrix) + timesText(options.times),
+      .of =
+          [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+            const Profile profile =
+                filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
             requireMatrix(file, profile.layout(), options.matrix);
             requireBelowHalfRate(options.smooth, profile, file);
             return signalTable(profile, options, partOf(progress, 0.5, 1.0));
           },
-          .unitsRow = options.unitsRow};
+      .unitsRow = options.unitsRow};
 }
 
 RecordingTable slipOf(const SlipRowsOptions& options) {
@@ -187,12 +189,13 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
   return {.options = std::string("slip") + (options.segments ? "; segments" : "") + "; " +
                      passText(options.pass) + matrixText(options.matrix) +
                      filtersText(options.filters) + timesText(options.times),
-          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile = filteredBy(
-                options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
-            requireThere(file, profile, options);
-            return slipTable(profile, options, partOf(progress, 0.3, 1.0));
-          },
+          .of =
+              [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+                const Profile profile = filteredBy(
+                    options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
+                requireThere(file, profile, options);
+                return slipTable(profile, options, partOf(progress, 0.3, 1.0));
+              },
           .rowNoun = options.segments ? "slip" : "row",
           .unitsRow = options.unitsRow};
 }
@@ -229,10 +232,7 @@ BatchTask tableTask(const RecordingTable& table) {
             const std::unique_ptr<ResultTable> rows =
                 table.of(item.source, recording, partOf(progress, 0.4, 1.0));
             const std::size_t count =
-                writeTableFile(*rows,
-                               item.target,
-                               overwrite,
-                               {.form = tableFormOf(item.target), .unitsRow = table.unitsRow});
+                writeResult(*rows, item.target, overwrite, {.unitsRow = table.unitsRow});
             BatchAnswer answer{.said = table.rowNoun.empty()
                                            ? counted(recording.profile.numFrames(), "frame")
                                            : counted(count, table.rowNoun),
@@ -260,8 +260,7 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
                               ? FileError(item.source, "has no grasp with features").what()
                               : table.problems.front());
             for (FeatureRow& row : table.rows) row.className = classIn(item);
-            const std::size_t count = writeTableFile(
-                *featureTable(table), item.target, overwrite, {.form = tableFormOf(item.target)});
+            const std::size_t count = writeResult(*featureTable(table), item.target, overwrite);
             BatchAnswer answer{.said = counted(count, "grasp")};
             if (!table.problems.empty()) answer.problem = table.problems.front();
             return answer;

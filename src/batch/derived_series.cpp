@@ -1,137 +1,127 @@
 #include "palpate/batch/derived_series.h"
 
-#include <limits>
-#include <optional>
-#include <span>
+#include <cstdint>
 #include <string>
 #include <utility>
 
+#include "palpate/signals/characteristic_signals.h"
 #include "palpate/signals/signal_rows.h"
 #include "palpate/slip/slip_rows.h"
+#include "palpate/slip/slip_segments.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-
-// Reads the frames of a profile one after the other.
-class FrameSeries : public ExportedSeries {
- public:
-  FrameSeries(const Profile& profile, std::string name)
-      : profile_(profile), name_(std::move(name)) {}
-
-  const std::string& name() const override { return name_; }
-  const std::vector<Column>& columns() const override { return columns_; }
-  std::size_t numRows() const override { return profile_.numFrames(); }
-  bool next(std::int64_t& timeUs, std::span<double> values) override {
-    if (index_ >= profile_.numFrames()) return false;
-    profile_.readFrame(index_++, frame_);
-    timeUs = frame_.hostUs;
-    fill(frame_, values);
-    return true;
-  }
-
- protected:
-  virtual void fill(const TactileFrame& frame, std::span<double> values) = 0;
-
-  const Profile profile_;
-  std::vector<Column> columns_;
-
- private:
-  const std::string name_;
-  TactileFrame frame_;
-  std::size_t index_ = 0;
+// A frame, with a value of each matrix.
+template <typename Value>
+struct FrameRow {
+  std::int64_t timeUs = 0;  // [us since 1970]
+  std::vector<Value> values;
 };
 
-// "m3/dx", "whole/mean": a column of a matrix, or of all of them.
-Column groupColumn(std::size_t matrix, std::size_t numMatrices, const ResultColumn& column) {
-  const std::string group = matrix < numMatrices ? "m" + std::to_string(matrix) : "whole";
-  return {group + "/" + column.name, column.unit};
+template <typename Value>
+std::vector<ColumnOf<FrameRow<Value>>> timeColumn() {
+  return {columnOf<FrameRow<Value>>(
+      "time_us", "us", "host time, since 1970", &FrameRow<Value>::timeUs)};
 }
 
-class SignalsSeries final : public FrameSeries {
- public:
-  explicit SignalsSeries(const Profile& profile) : FrameSeries(profile, "signals") {
-    const std::vector<ColumnOf<SignalValues>> ofMatrix = signalColumns(profile.hand().unit, true);
-    const std::size_t numMatrices = profile.layout().numMatrices();
-    for (std::size_t m = 0; m <= numMatrices; ++m)
-      for (const SignalKind kind : kindsOf(m))
-        columns_.push_back(groupColumn(m, numMatrices, columnNamed(ofMatrix, signalName(kind)).column));
-  }
+// Appends the columns of a value: "m3/dx", "whole/mean".
+template <typename Value>
+void appendGroup(std::vector<ColumnOf<FrameRow<Value>>>& columns,
+                 const std::string& group,
+                 std::size_t value,
+                 std::vector<ColumnOf<Value>> ofValue) {
+  for (ColumnOf<Value>& each : ofValue) each.column.name = group + "/" + each.column.name;
+  appendColumns(columns, ofValue, [value](const FrameRow<Value>& row) -> const Value& {
+    return row.values[value];
+  });
+}
 
- private:
-  void fill(const TactileFrame& frame, std::span<double> values) override {
-    allSignals(frame, rows_);
-    std::size_t at = 0;
-    for (std::size_t m = 0; m < rows_.size(); ++m)
-      for (const SignalKind kind : kindsOf(m)) values[at++] = valueOf(rows_[m], kind);
-  }
+std::string groupOf(std::size_t matrix) { return "m" + std::to_string(matrix); }
+
+std::unique_ptr<ExportedSeries> signalSeries(const Profile& profile) {
+  using Row = FrameRow<CharacteristicSignals>;
+  const std::vector<ColumnOf<SignalValues>> described = signalColumns(profile.hand().unit, true);
+  const auto columnsOfKinds = [&](bool withComponents) {
+    std::vector<ColumnOf<CharacteristicSignals>> columns;
+    for (const SignalKind kind : signalKinds(withComponents))
+      columns.push_back({columnNamed(described, signalName(kind)).column,
+                         [kind](const auto& signals) { return Cell(valueOf(signals, kind)); }});
+    return columns;
+  };
+  std::vector<ColumnOf<Row>> columns = timeColumn<CharacteristicSignals>();
+  const std::size_t numMatrices = profile.layout().numMatrices();
+  for (std::size_t m = 0; m < numMatrices; ++m)
+    appendGroup(columns, groupOf(m), m, columnsOfKinds(profile.givesReadings()));
   // The whole hand has no components.
-  std::span<const SignalKind> kindsOf(std::size_t m) const {
-    return signalKinds(profile_.givesReadings() && m < profile_.layout().numMatrices());
-  }
+  appendGroup(columns, "whole", numMatrices, columnsOfKinds(false));
+  auto table = std::make_unique<RowTable<Row>>(
+      "signals",
+      std::move(columns),
+      [profile, frame = TactileFrame(), index = std::size_t{0}](std::vector<Row>& rows) mutable {
+        if (index == profile.numFrames()) return false;
+        profile.readFrame(index++, frame);
+        rows.push_back({frame.hostUs, {}});
+        allSignals(frame, rows.back().values);
+        return true;
+      });
+  return std::make_unique<ExportedSeries>(std::move(table), profile.numFrames());
+}
 
-  std::vector<CharacteristicSignals> rows_;
-};
+// Of a matrix that is not touched only `active` and `slipping` are known.
+ColumnOf<SlipDetection> whereTouched(ColumnOf<SlipDetection> of) {
+  if (of.column.name == "active" || of.column.name == "slipping") return of;
+  return {of.column, [cell = of.cell](const SlipDetection& detection) {
+            return detection.motion.active == 0 ? Cell() : cell(detection);
+          }};
+}
 
-class SlipRowSeries final : public FrameSeries {
- public:
-  SlipRowSeries(const Profile& profile, const SlipDetectorOptions& options)
-      : FrameSeries(profile, "slip"), detector_(profile.hand(), options) {
-    const std::vector<ColumnOf<SlipDetection>> all = slipColumns();
-    for (const char* name : {"active",
-                             "dx",
-                             "dy",
-                             "ref_dx",
-                             "ref_dy",
-                             "rotation_deg",
-                             "ref_rotation_deg",
-                             "confidence",
-                             "p_moved",
-                             "state",
-                             "slipping"})
-      ofMatrix_.push_back(columnNamed(all, name));
-    const std::size_t numMatrices = profile.layout().numMatrices();
-    for (std::size_t m = 0; m < numMatrices; ++m)
-      for (const ColumnOf<SlipDetection>& each : ofMatrix_)
-        columns_.push_back(groupColumn(m, numMatrices, each.column));
-  }
-
- private:
-  void fill(const TactileFrame& frame, std::span<double> values) override {
-    if (const auto sample = profile_.angleSampleAt(frame.hostUs); sample != sample_) {
-      sample_ = sample;
-      jointsDeg_ = sample ? profile_.angles(*sample).values : std::vector<double>{};
-    }
-    std::size_t at = 0;
-    for (const SlipDetection& detection : detector_.update(frame, jointsDeg_))
-      for (const ColumnOf<SlipDetection>& each : ofMatrix_)
-        values[at++] = valueOfColumn(each, detection);
-  }
-
-  // Of a matrix that is not touched only `active` and `slipping` are known.
-  static double valueOfColumn(const ColumnOf<SlipDetection>& each, const SlipDetection& detection) {
-    const std::string& name = each.column.name;
-    if (detection.motion.active == 0 && name != "active" && name != "slipping") return kNotKnown;
-    // A text has no number.
-    if (name == "state") return static_cast<double>(detection.state);
-    return numberOf(each.cell(detection));
-  }
-
-  SensorSlipDetector detector_;
-  std::vector<ColumnOf<SlipDetection>> ofMatrix_;
-  std::optional<std::size_t> sample_;
-  std::vector<double> jointsDeg_;
-};
+std::unique_ptr<ExportedSeries> slipSeries(const Profile& profile,
+                                           const DerivedSeriesOptions& options) {
+  using Row = FrameRow<SlipDetection>;
+  const std::vector<ColumnOf<SlipDetection>> all = slipColumns();
+  std::vector<ColumnOf<SlipDetection>> ofMatrix;
+  for (const char* name : {"active",
+                           "dx",
+                           "dy",
+                           "ref_dx",
+                           "ref_dy",
+                           "rotation_deg",
+                           "ref_rotation_deg",
+                           "confidence",
+                           "p_moved",
+                           "state",
+                           "slipping"})
+    ofMatrix.push_back(whereTouched(
+        std::string_view(name) == "state"
+            ? columnOf<SlipDetection>("state",
+                                      "",
+                                      "what the contact does, 0 invalid to 5 slip",
+                                      [](const auto& v) { return static_cast<int>(v.state); })
+            : columnNamed(all, name)));
+  std::vector<ColumnOf<Row>> columns = timeColumn<SlipDetection>();
+  for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
+    appendGroup(columns, groupOf(m), m, ofMatrix);
+  auto table = std::make_unique<RowTable<Row>>(
+      "slip",
+      std::move(columns),
+      [run = std::make_shared<SlipRun>(
+           profile, SlipRunOptions{.detector = options.detector, .threads = options.threads})](
+          std::vector<Row>& rows) {
+        if (!run->next()) return false;
+        rows.push_back({run->timeUs(), run->detections()});
+        return true;
+      });
+  return std::make_unique<ExportedSeries>(std::move(table), profile.numFrames());
+}
 
 }  // namespace
 
 std::vector<std::unique_ptr<ExportedSeries>> derivedSeries(const Profile& profile,
                                                            const DerivedSeriesOptions& options) {
   std::vector<std::unique_ptr<ExportedSeries>> series;
-  if (options.withSignals) series.push_back(std::make_unique<SignalsSeries>(profile));
-  if (options.withSlip)
-    series.push_back(std::make_unique<SlipRowSeries>(profile, options.detector));
+  if (options.withSignals) series.push_back(signalSeries(profile));
+  if (options.withSlip) series.push_back(slipSeries(profile, options));
   return series;
 }
 

@@ -7,28 +7,40 @@
 #include <tuple>
 
 #include "palpate/core/error.h"
+#include "palpate/core/parallel.h"
 #include "palpate/core/progress.h"
 
 namespace palpate {
+namespace {
+
+constexpr std::size_t kMaxBlockFrames = 1024;
+constexpr std::size_t kMaxBlockBytes = 16u << 20;
+
+}  // namespace
 
 SlipRun::SlipRun(Profile profile, const SlipRunOptions& options, UnreadableSamples* unreadable)
     : profile_(std::move(profile)),
       unreadable_(unreadable),
-      detector_(profile_.hand(), options.detector) {
+      detector_(profile_.hand(), options.detector),
+      threads_(options.threads) {
+  if (threads_ != 1)
+    maxSteps_ = std::clamp<std::size_t>(
+        kMaxBlockBytes / (profile_.layout().numCells() * sizeof(float) + 1), 1, kMaxBlockFrames);
+  block_.resize(maxSteps_);
   if (options.detector.reference != SlipReference::kGiven) return;
   reference_ = options.referenceFrame;
   if (*reference_ >= profile_.numFrames())
     throw std::invalid_argument("SlipRun: referenceFrame is " + std::to_string(*reference_) +
                                 " of " + std::to_string(profile_.numFrames()));
   try {
-    profile_.readFrame(*reference_, values_);
+    profile_.readFrame(*reference_, block_[0].values);
   } catch (const Error& error) {
     throw Error(std::string("the reference frame can't be read: ") + error.what());
   }
 }
 
-void SlipRun::takeAngles() {
-  const auto sample = profile_.angleSampleAt(values_.hostUs);
+void SlipRun::takeAngles(std::int64_t timeUs) {
+  const auto sample = profile_.angleSampleAt(timeUs);
   if (sample == sample_) return;
   sample_ = sample;
   try {
@@ -39,16 +51,55 @@ void SlipRun::takeAngles() {
   }
 }
 
-bool SlipRun::next() {
+// Reads the next frame; false after the last one.
+bool SlipRun::read(Step& step) {
+  step.isAfterLoss = false;
   for (; upcoming_ < profile_.numFrames(); ++upcoming_) {
-    if (profile_.readFrame(upcoming_, values_, unreadable_)) break;
-    detector_.setLoss();
+    if (profile_.readFrame(upcoming_, step.values, unreadable_)) break;
+    step.isAfterLoss = true;
   }
   if (upcoming_ == profile_.numFrames()) return false;
-  frame_ = upcoming_++;
-  takeAngles();
-  detector_.update(values_, jointsDeg_);
-  if (reference_ == frame_) detector_.setReference();
+  step.frame = upcoming_++;
+  takeAngles(step.values.hostUs);
+  step.jointsDeg = jointsDeg_;
+  step.detections.resize(profile_.layout().numMatrices());
+  return true;
+}
+
+// The matrices don't depend on each other: this is the same for any number of threads.
+void SlipRun::detect(std::size_t matrix) {
+  SlipDetector& detector = detector_.matrix(matrix);
+  for (std::size_t i = 0; i < numSteps_; ++i) {
+    Step& step = block_[i];
+    if (step.isAfterLoss) detector.setLoss();
+    const TactileFrame& values = step.values;
+    detector.update(values.matrix(matrix), values.hostUs, step.jointsDeg);
+    if (reference_ == step.frame) detector.setReference();
+    step.detections[matrix] = detector.last();
+  }
+}
+
+void SlipRun::readBlock() {
+  if (failure_) std::rethrow_exception(failure_);
+  numSteps_ = at_ = 0;
+  try {
+    while (numSteps_ < maxSteps_ && read(block_[numSteps_])) ++numSteps_;
+  } catch (...) {
+    failure_ = std::current_exception();
+    if (numSteps_ == 0) throw;
+  }
+  const std::size_t numMatrices = profile_.layout().numMatrices();
+  if (threads_ == 1)
+    for (std::size_t m = 0; m < numMatrices; ++m) detect(m);
+  else
+    forEachInParallel(
+        numMatrices, [this](std::size_t m) { detect(m); }, {}, threads_);
+}
+
+bool SlipRun::next() {
+  if (at_ == numSteps_) readBlock();
+  if (at_ == numSteps_) return false;
+  ++at_;
   return true;
 }
 

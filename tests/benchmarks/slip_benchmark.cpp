@@ -1,5 +1,6 @@
 // Slip of six loaded matrices, translation and rotation together, per frame. Beside each other:
-// every method, and what the study's program did for `alcazar`: two full convolutions.
+// every method, and what the study's program did for `alcazar`: two full convolutions; and the
+// detection in a recording on one thread, two, and all.
 #include <cmath>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "palpate/device/sdh2.h"
 #include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/slip/slip_segments.h"
 #include "palpate/slip/slip_tracker.h"
 
 namespace palpate::slip_benchmark {
@@ -93,6 +96,28 @@ void studyConvolutionsOfSixMatrices(benchmark::State& state) {
   }
 }
 BENCHMARK(studyConvolutionsOfSixMatrices)->Unit(benchmark::kMicrosecond);
+
+// The slip of a recording: every matrix loaded, 2000 frames, by the number of threads (0: all).
+void slipRun(benchmark::State& state) {
+  const std::vector<TactileFrame> frames = wandering();
+  ProfileBuilder builder(sdh2().layout);
+  constexpr std::size_t kFrames = 2000;
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    const std::size_t at = i % (2 * frames.size());
+    builder.addFrame(1'000'000 + 31'500 * static_cast<std::int64_t>(i),
+                     frames[at < frames.size() ? at : 2 * frames.size() - 1 - at].values);
+  }
+  const Profile profile = builder.finish({});
+  for (auto _ : state)
+    runSlipDetector(profile,
+                    {.threads = static_cast<std::size_t>(state.range(0))},
+                    [](std::size_t, std::int64_t, const std::vector<SlipDetection>& detections) {
+                      benchmark::DoNotOptimize(detections.data());
+                    });
+  state.SetBytesProcessed(static_cast<std::int64_t>(static_cast<std::size_t>(state.iterations()) *
+                                                    kFrames * profile.layout().numCells() * 2));
+}
+BENCHMARK(slipRun)->Arg(1)->Arg(2)->Arg(0)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace palpate::slip_benchmark

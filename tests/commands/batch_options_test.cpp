@@ -110,7 +110,12 @@ TEST_F(BatchOptionsTest, BadInputGetsOneLine) {
   expectOneLineError(palpate({"signals", in(), "-o", in("made/{name}.csv")}), 1, {"lies in"});
   expectOneLineError(
       palpate({"signals", in(), "-o", out("{hand}.csv")}), 2, {"{hand} isn't known"});
-  expectOneLineError(palpate({"signals", in(), "-o", out("{name}.npz")}), 2, {"must end in .csv"});
+  expectOneLineError(palpate({"signals", in(), "-o", out("{name}.txt")}),
+                     2,
+                     {"must end in .csv, .json, .npz, .mat, .h5, .hdf5, .mcap"});
+  expectOneLineError(palpate({"signals", in(), "--units-row", "-o", out("{name}.npz")}),
+                     2,
+                     {"--units-row is for .csv"});
   expectOneLineError(palpate({"convert", in(), "-o", out("{name}.txt")}), 2, {".palpate"});
   expectOneLineError(palpate({"signals", in(), "--resume"}), 2, {"--resume needs -o"});
   expectOneLineError(palpate({"convert", in("a.dsa"), "-o", out("{name}.npz"), "--from", "3"}),

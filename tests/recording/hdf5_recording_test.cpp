@@ -17,6 +17,7 @@
 
 #include "imports/import_samples.h"
 #include "recording/palpate_samples.h"
+#include "recording/series_samples.h"
 #include "testing/testing.h"
 
 namespace palpate::hdf5_recording_test {
@@ -26,28 +27,6 @@ namespace fs = std::filesystem;
 using testing::TemporaryFolder;
 
 const Event kOddEvent{5, 9, "note", 1, std::string("a\0b\xC0 \xC3\xBC", 7), "{\"k\":1}"};
-
-// Rows of a recording's frames, one column.
-class Ramp final : public ExportedSeries {
- public:
-  explicit Ramp(std::size_t rows) : rows_(rows) {}
-  const std::string& name() const override { return name_; }
-  const std::vector<Column>& columns() const override { return columns_; }
-  std::size_t numRows() const override { return rows_; }
-  bool next(std::int64_t& timeUs, std::span<double> values) override {
-    if (index_ == rows_) return false;
-    timeUs = 1000 + static_cast<std::int64_t>(index_);
-    values[0] = 0.5 * static_cast<double>(index_);
-    values[1] = -static_cast<double>(index_++);
-    return true;
-  }
-
- private:
-  std::string name_ = "signals";
-  std::vector<Column> columns_{{"m0/mean", "counts"}, {"m0/active", "taxels"}};
-  std::size_t rows_;
-  std::size_t index_ = 0;
-};
 
 // Two pads and four axes. Every third frame is filtered, some values of which are below zero.
 Profile randomProfile(std::uint32_t seed, bool floats, std::size_t frames) {
@@ -111,7 +90,7 @@ void expectSame(const Profile& a, const Profile& b) {
 void write(const Profile& profile, const fs::path& path, const Hdf5WriteOptions& options = {}) {
   ExportExtras extras;
   extras.provenance = {"palpate 9", "a.dsa", "00ff", "median:size=3", "", "pads"};
-  extras.series.push_back(std::make_unique<Ramp>(profile.numFrames()));
+  extras.series.push_back(testing::rampSeries(profile.numFrames(), 1000));
   const std::vector<Event> events{kOddEvent, {7, 7, "mark", {}, "", ""}};
   writeHdf5({profile, events, {{"operator", "A. B."}, {"frames", "99"}}, extras},
             path,
@@ -384,21 +363,13 @@ TEST(Hdf5Recording, aFileThatAnotherProgramWritesIsNotReplaced) {
 }
 
 TEST(Hdf5Recording, cancellingAndASeriesThatFailsLeaveNothing) {
-  class Failing final : public ExportedSeries {
-   public:
-    const std::string& name() const override { return name_; }
-    const std::vector<Column>& columns() const override { return columns_; }
-    std::size_t numRows() const override { return 5000; }
-    bool next(std::int64_t&, std::span<double>) override { throw FormatError("a.dsa", "damaged"); }
-
-   private:
-    std::string name_ = "slip";
-    std::vector<Column> columns_{{"m0/dx", "taxels"}};
+  const auto fails = [](std::size_t) -> testing::SeriesRow {
+    throw FormatError("a.dsa", "damaged");
   };
   const TemporaryFolder folder;
   const Profile profile = randomProfile(1, false, 5000);
   ExportExtras extras;
-  extras.series.push_back(std::make_unique<Failing>());
+  extras.series.push_back(testing::seriesOf(5000, fails));
   EXPECT_THROW(writeHdf5({profile, {}, {}, extras}, folder / "a.h5"), FormatError);
   EXPECT_THROW(writeHdf5({profile, {}, {}, ExportExtras{}},
                          folder / "a.h5",

@@ -12,6 +12,7 @@
 
 #include "imports/import_samples.h"
 #include "recording/palpate_samples.h"
+#include "recording/series_samples.h"
 #include "testing/testing.h"
 
 namespace palpate::mat_export_test {
@@ -34,29 +35,13 @@ Profile pads(std::size_t frames, float offset = 0.0F) {
   return builder.finish({});
 }
 
-class Rows final : public ExportedSeries {
- public:
-  const std::string& name() const override { return name_; }
-  const std::vector<Column>& columns() const override { return columns_; }
-  std::size_t numRows() const override { return 4; }
-  bool next(std::int64_t& timeUs, std::span<double> values) override {
-    if (index_ == 4) return false;
-    timeUs = 100 + index_;
-    values[0] = 1.5 * index_;
-    values[1] = -index_++;
-    return true;
-  }
-
- private:
-  std::string name_ = "signals";
-  std::vector<Column> columns_{{"m0/mean", "counts"}, {"m0/active", "taxels"}};
-  int index_ = 0;
-};
-
 void write(const Profile& profile, const fs::path& path) {
   ExportExtras extras;
   extras.provenance = {"palpate 9", "a.dsa", "00ff", "", "", "pad"};
-  extras.series.push_back(std::make_unique<Rows>());
+  extras.series.push_back(testing::seriesOf(4, [](std::size_t i) {
+    const auto row = static_cast<double>(i);
+    return testing::SeriesRow{100 + static_cast<std::int64_t>(i), 1.5 * row, -row};
+  }));
   const std::vector<Event> events{{5, 9, "note", 0, "\xC3\xBC \xF0\x9F\x98\x80", ""}};
   writeMat({profile, events, {{"operator", "A. B."}}, extras}, path);
 }

@@ -17,6 +17,7 @@
 
 #include "imports/import_samples.h"
 #include "recording/palpate_samples.h"
+#include "recording/series_samples.h"
 #include "testing/testing.h"
 
 namespace palpate::mcap_recording_test {
@@ -30,28 +31,6 @@ using testing::TemporaryFolder;
 const Event kOddEvent{
     5, 9, "note", 1, std::string("a\0b\xC0 \xC3\xBC \xF4\x8F\xBC\x80", 12), "{\"k\":1}"};
 const std::vector<Event> kEvents{kOddEvent, {7, 7, "gap", {}, "", ""}};
-
-// Rows of a recording's frames, two columns.
-class Ramp final : public ExportedSeries {
- public:
-  explicit Ramp(std::size_t rows) : rows_(rows) {}
-  const std::string& name() const override { return name_; }
-  const std::vector<Column>& columns() const override { return columns_; }
-  std::size_t numRows() const override { return rows_; }
-  bool next(std::int64_t& timeUs, std::span<double> values) override {
-    if (index_ == rows_) return false;
-    timeUs = 1'600'000'000'000'000 + static_cast<std::int64_t>(index_);
-    values[0] = 0.5 * static_cast<double>(index_);
-    values[1] = -static_cast<double>(index_++);
-    return true;
-  }
-
- private:
-  std::string name_ = "signals";
-  std::vector<Column> columns_{{"m0/mean", "counts"}, {"m0/active", "taxels"}};
-  std::size_t rows_;
-  std::size_t index_ = 0;
-};
 
 std::shared_ptr<const SensorLayout> twoPads() {
   MatrixLayout first = MatrixLayout::full(3, 5, 1.25);
@@ -135,7 +114,7 @@ void write(const Profile& profile,
            const McapWriteOptions& options = smallChunks()) {
   ExportExtras extras;
   extras.provenance = {"palpate 9", "a.dsa", "00ff", "median:size=3", "", "pads"};
-  extras.series.push_back(std::make_unique<Ramp>(profile.numFrames()));
+  extras.series.push_back(testing::rampSeries(profile.numFrames(), 1'600'000'000'000'000));
   writeMcap({profile, kEvents, {{"operator", "A. B.\xFF"}, {"frames", "99"}}, extras},
             path,
             Overwrite::kReplace,
@@ -675,21 +654,13 @@ TEST(McapRecording, aFullDiskIsAnErrorAndLeavesNothing) {
 }
 
 TEST(McapRecording, cancellingAndASeriesThatFailsLeaveNothing) {
-  class Failing final : public ExportedSeries {
-   public:
-    const std::string& name() const override { return name_; }
-    const std::vector<Column>& columns() const override { return columns_; }
-    std::size_t numRows() const override { return 5000; }
-    bool next(std::int64_t&, std::span<double>) override { throw FormatError("a.dsa", "damaged"); }
-
-   private:
-    std::string name_ = "slip";
-    std::vector<Column> columns_{{"m0/dx", "taxels"}};
+  const auto fails = [](std::size_t) -> testing::SeriesRow {
+    throw FormatError("a.dsa", "damaged");
   };
   const TemporaryFolder folder;
   const Profile profile = randomProfile(1, false, 5000);
   ExportExtras extras;
-  extras.series.push_back(std::make_unique<Failing>());
+  extras.series.push_back(testing::seriesOf(5000, fails));
   EXPECT_THROW(writeMcap({profile, {}, {}, extras}, folder / "a.mcap"), FormatError);
   EXPECT_THROW(writeMcap({profile, {}, {}, ExportExtras{}},
                          folder / "a.mcap",

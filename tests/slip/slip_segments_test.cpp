@@ -8,9 +8,11 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/emulator/synthetic_profile.h"
 #include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/slip/slip_rows.h"
 
 #include "testing/damaged_profile.h"
 #include "testing/testing.h"
@@ -103,6 +105,59 @@ TEST(PassSlip, TakesTheFrameThatIsGivenAsReference) {
   EXPECT_THROW(runSlipDetector(slipping(), options, [](auto, auto, const auto&) {}),
                std::invalid_argument);
   EXPECT_THROW(findSlips(slipping(), {}, [](double) { return false; }), Cancelled);
+}
+
+// The results of each frame as text, with all digits.
+std::vector<std::string> rowsOf(const Profile& profile,
+                                const SlipRunOptions& options,
+                                UnreadableSamples* unreadable = nullptr) {
+  std::vector<std::string> rows;
+  runSlipDetector(
+      profile,
+      options,
+      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections) {
+        std::string& row = rows.emplace_back(std::to_string(frame) + " " + std::to_string(timeUs));
+        RowTable<SlipDetection> table("", slipColumns(), detections);
+        writeTableText(table, {}, [&](const std::string& text) { row += text; });
+      },
+      {},
+      unreadable);
+  return rows;
+}
+
+TEST(PassSlip, GivesTheSameOnSeveralThreads) {
+  for (const SlipReference reference :
+       {SlipReference::kFirst, SlipReference::kWhenAtRest, SlipReference::kGiven})
+    for (const bool isDamaged : {false, true}) {
+      SlipRunOptions options;
+      options.detector.reference = reference;
+      options.referenceFrame = 44;
+      const Profile profile = isDamaged ? testing::withDamage(slipping(), 45, 46) : slipping();
+      UnreadableSamples one, several;
+      const std::vector<std::string> expected = rowsOf(profile, options, &one);
+      options.threads = 3;
+      EXPECT_EQ(rowsOf(profile, options, &several), expected);
+      EXPECT_EQ(several.count, one.count);
+    }
+}
+
+TEST(PassSlip, SeveralThreadsReadMoreThanABlock) {
+  const Profile profile = synthesize({.durationS = 90.0, .grasps = 3, .noiseCounts = 4.0});
+  ASSERT_GT(profile.numFrames(), 2100U);
+  const std::vector<std::string> expected = rowsOf(profile, {});
+  EXPECT_EQ(rowsOf(profile, {.threads = 0}), expected);
+}
+
+// The rows in front of the frame are there, as with one thread.
+TEST(PassSlip, SeveralThreadsThrowAtTheFrameThatCannotBeRead) {
+  const Profile damaged = testing::withDamage(slipping(), 45, 46);
+  SlipRun run(damaged, {.threads = 2});
+  for (std::size_t i = 0; i < 45; ++i) {
+    ASSERT_TRUE(run.next());
+    EXPECT_EQ(run.frame(), i);
+  }
+  EXPECT_THROW(run.next(), Error);
+  EXPECT_THROW(run.next(), Error);
 }
 
 // Without it nothing would be compared with a reference, and no row would say so.

@@ -6,6 +6,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
 #include "palpate/recognition/feature_table.h"
+#include "palpate/recording/result_file.h"
 
 #include "commands/batch_options.h"
 #include "commands/command_line.h"
@@ -64,9 +65,8 @@ int featuresCommand(const Arguments& words) {
   if (set) options.set = *featureSetNamed(*set);
   options.filters = recipeOf(given);
   if (given.has("output"))
-    return runBatchCommand(given,
-                           batchTemplateOf(given, {".csv", ".json"}),
-                           featuresTask(options.set, options.filters));
+    return runBatchCommand(
+        given, batchTemplateOf(given, resultEndings()), featuresTask(options.set, options.filters));
   refuseBatchOptions(given);
   FeatureTable table = gather(given, options);
 

@@ -27,6 +27,7 @@ void takeWords(const CommandLine& given, SlipRowsOptions& options) {
   }
   options.filters = recipeOf(given);
   options.times = timeChoiceOf(given);
+  options.pass.threads = given.has("output") ? 1 : 0;  // of -o: recordings at the same time
 }
 
 }  // namespace
@@ -66,9 +67,8 @@ int slipCommand(const Arguments& words) {
                   "threshold of the rotation",
                   rule.rotationDeg,
                   rule.kRotationDeg),
-            bound("segments",
-                  "a row per slip: frames, matrix, length of the path",
-                  options.segments),
+            bound(
+                "segments", "a row per slip: frames, matrix, length of the path", options.segments),
             timeOption()})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "palpate/core/file_name.h"
+#include "palpate/recording/result_file.h"
+
 #include "commands/batch_options.h"
 #include "commands/export_options.h"
 #include "commands/recording_list.h"
@@ -48,8 +51,12 @@ void writeTable(const CommandLine& given, ResultTable& table) {
 int runTableCommand(const CommandLine& given, const RecordingTable& table) {
   RecordingTable chosen = table;
   chosen.unitsRow = given.has("units-row");
-  if (given.has("output"))
-    return runBatchCommand(given, batchTemplateOf(given, {".csv", ".json"}), tableTask(chosen));
+  if (given.has("output")) {
+    const BatchTemplate names = batchTemplateOf(given, resultEndings());
+    if (chosen.unitsRow && lowerEndingOf("x" + names.ending()) != ".csv")
+      throw UsageError("--units-row is for .csv; other forms have the units with their columns");
+    return runBatchCommand(given, names, tableTask(chosen));
+  }
   refuseBatchOptions(given);
   return writeTables(recordingsIn(given.words()),
                      given.quiet(),

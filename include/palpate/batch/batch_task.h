@@ -62,7 +62,7 @@ struct GraspRowsOptions {
 // Its work throws FileError for the rule `study` where the hand names no pads that pinch.
 RecordingTable graspsOf(const GraspRowsOptions& options);
 
-// Writes the table of each recording, in the form of the result's ending: .csv or .json.
+// Writes the table of each recording, in the form of the result's ending (result_file.h).
 BatchTask tableTask(const RecordingTable& table);
 inline BatchTask signalsTask(const SignalRowsOptions& options) {
   return tableTask(signalsOf(options));

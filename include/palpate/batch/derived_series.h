@@ -12,6 +12,7 @@
 // not known, and everything but `active` and `slipping` of a matrix that is not touched, is NaN.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct DerivedSeriesOptions {
   // As the views of the window have it: the method `contest`, the reference is taken when the
   // contact is at rest.
   SlipDetectorOptions detector = {};
+  std::size_t threads = 0;  // of slip, as SlipRunOptions::threads
 };
 
 // Returns the chosen series over all frames of the profile, signals first. Each reads the frames by

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -14,13 +15,16 @@
 namespace palpate {
 
 struct SlipRunOptions {
-  SlipDetectorOptions detector;
+  SlipDetectorOptions detector = {};
   // With SlipReference::kGiven: the frame that becomes the reference.
   std::size_t referenceFrame = 0;
+  // Threads that detect, each the slip of a matrix; 0: as many as the machine runs at once. The
+  // results are the same. With more than one, frames are read ahead (at most 1024, or 16 MB).
+  std::size_t threads = 1;
 };
 
-// Runs the slip detector over a profile, frame by frame. Joint angles of the profile are used if it
-// has any.
+// Runs the slip detectors of all matrices over a profile. Joint angles of the profile are used if
+// it has any.
 class SlipRun {
  public:
   // With `unreadable`, frames that can't be read because the recording is damaged are added to it
@@ -32,21 +36,39 @@ class SlipRun {
   // unless there is `unreadable`.
   bool next();
   // The frame that was taken, its time [us since 1970], and a result per matrix.
-  std::size_t frame() const noexcept { return frame_; }
-  std::int64_t timeUs() const noexcept { return values_.hostUs; }
-  const std::vector<SlipDetection>& detections() const noexcept { return detector_.last(); }
+  std::size_t frame() const noexcept { return block_[at_ - 1].frame; }
+  std::int64_t timeUs() const noexcept { return block_[at_ - 1].values.hostUs; }
+  const std::vector<SlipDetection>& detections() const noexcept {
+    return block_[at_ - 1].detections;
+  }
 
  private:
-  void takeAngles();
+  struct Step {
+    std::size_t frame = 0;
+    bool isAfterLoss = false;
+    TactileFrame values;
+    std::vector<double> jointsDeg;
+    std::vector<SlipDetection> detections;
+  };
+
+  bool read(Step& step);
+  void readBlock();
+  void detect(std::size_t matrix);
+  void takeAngles(std::int64_t timeUs);
 
   Profile profile_;
   std::optional<std::size_t> reference_;
   UnreadableSamples* unreadable_;
   SensorSlipDetector detector_;
-  TactileFrame values_;
+  std::size_t threads_;
+  std::size_t maxSteps_ = 1;
   std::vector<double> jointsDeg_;
   std::optional<std::size_t> sample_;
-  std::size_t frame_ = 0, upcoming_ = 0;
+  std::size_t upcoming_ = 0;
+  std::vector<Step> block_;  // the first `numSteps_` were read and detected
+  std::size_t numSteps_ = 0;
+  std::size_t at_ = 0;          // steps of the block that were taken
+  std::exception_ptr failure_;  // thrown behind the block
 };
 
 // The same over all frames: `sink` receives each in order. Throws Cancelled, and as SlipRun.

@@ -13,6 +13,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/utf8.h"
 
 namespace palpate {
 namespace {
@@ -86,35 +87,12 @@ void matWriteElement(const MatSink& sink, std::uint32_t type, const std::string&
   matWritePadding(sink, data.size());
 }
 
-// UTF-8 as units of UTF-16; what is no UTF-8, or above U+FFFF, becomes U+FFFD.
+// UTF-8 as units of UTF-16; what is no UTF-8, or above U+FFFF, becomes U+FFFD: readers count
+// letters in units (MATLAB) or in code points (SciPy), which are the same below U+10000 only.
 std::u16string utf16(std::string_view text) {
-  constexpr char16_t kReplacement = 0xFFFD;
   std::u16string units;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto first = static_cast<unsigned char>(text[i++]);
-    const int more = first < 0x80                    ? 0
-                     : first >= 0xC2 && first < 0xE0 ? 1
-                     : first >= 0xE0 && first < 0xF0 ? 2
-                     : first >= 0xF0 && first < 0xF5 ? 3
-                                                     : -1;
-    if (more < 0) {
-      units += kReplacement;
-      continue;
-    }
-    char32_t code = more == 0 ? first : first & (0x3Fu >> more);
-    int found = 0;
-    while (found < more && i < text.size() &&
-           (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) {
-      code = code << 6 | (static_cast<unsigned char>(text[i++]) & 0x3Fu);
-      ++found;
-    }
-    const bool overlong = (more == 2 && code < 0x800) || (more == 3 && code < 0x10000);
-    const bool surrogate = code >= 0xD800 && code < 0xE000;
-    // Readers count letters in units (MATLAB) or in code points (SciPy): these are the same below
-    // U+10000 only.
-    const bool readable = found == more && !overlong && !surrogate && code < 0x10000;
-    units += readable ? static_cast<char16_t>(code) : kReplacement;
-  }
+  for (const char32_t code : codePointsOf(text))
+    units += code < 0x10000 ? static_cast<char16_t>(code) : u'\xFFFD';
   return units;
 }
 

@@ -11,12 +11,16 @@
 
 namespace palpate::hdf5_layout {
 
-constexpr const char* kFormat = "palpate";  // value of the attribute `format`
+constexpr const char* kFormat = "palpate";             // value of the attribute `format`
+constexpr const char* kTableFormat = "palpate table";  // the same of a result table
 constexpr std::int64_t kUnfilteredLayoutVersion = 1;
 constexpr std::int64_t kFilteredLayoutVersion = 2;
 constexpr std::int64_t kSeriesLayoutVersion = 3;
 constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
 constexpr std::int32_t kNoMatrix = std::numeric_limits<std::int32_t>::min();
+// Cells of a result table that aren't known.
+constexpr std::int64_t kUnknownInteger = std::numeric_limits<std::int64_t>::min();
+constexpr std::uint8_t kUnknownFlag = 255;
 
 // HDF5 leaves the first bytes of a file to the program that writes it (user block). They hold a
 // checksum of all bytes behind them, because the library is not safe against a damaged file.

@@ -1,23 +1,17 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <new>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include <hdf5.h>
-#include <hdf5_hl.h>
-#include <zlib.h>
-
 #include "palpate/core/error.h"
-#include "palpate/core/ordered_work.h"
 #include "palpate/core/time.h"
 #include "palpate/model/active_taxels.h"
 #include "palpate/recording/hdf5_recording.h"
 
+#include "recording/hdf5/hdf5_arrays.h"
 #include "recording/hdf5/hdf5_layout.h"
-#include "recording/hdf5/hdf5_output.h"
 #include "recording/profile_meta.h"
 #include "recording/running_series.h"
 #include "recording/sample_columns.h"
@@ -25,69 +19,21 @@
 namespace palpate {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
-using Shape = std::vector<hsize_t>;
-
 constexpr std::size_t kMaxChunkBytes = 256u << 10;
 constexpr std::size_t kMaxChunkFrames = 1024;
 constexpr std::size_t kMaxChunkRows = 4096;
-constexpr std::size_t kMostWaitingChunks = 48;
 
-// The kinds of numbers that are written.
-struct NumberType {
-  hid_t stored;
-  std::size_t bytes;
-};
-NumberType u8() { return {H5T_STD_U8LE, 1}; }
-NumberType u16() { return {H5T_STD_U16LE, 2}; }
-NumberType i32() { return {H5T_STD_I32LE, 4}; }
-NumberType i64() { return {H5T_STD_I64LE, 8}; }
-NumberType f32() { return {H5T_IEEE_F32LE, 4}; }
-NumberType f64() { return {H5T_IEEE_F64LE, 8}; }
-
-// An array in the file whose first axis is cut into chunks, and where wanted its second one.
-struct ChunkedArray {
-  Hdf5Id id;
-  NumberType type{};
-  Shape shape;
-  Shape chunk;
-};
-
-template <typename Number>
-void put(Bytes& bytes, std::size_t index, Number value) {
-  std::memcpy(bytes.data() + index * sizeof value, &value, sizeof value);
-}
-
-// The bytes that HDF5's filters `shuffle` and `deflate` make of a chunk: the first bytes of all
-// elements, then the second ones, and so on, compressed as a zlib stream.
-Bytes shuffledAndDeflated(const Bytes& raw, std::size_t elementBytes, int level) {
-  Bytes shuffled(raw.size());
-  const std::size_t count = raw.size() / elementBytes;
-  for (std::size_t byte = 0; byte < elementBytes; ++byte)
-    for (std::size_t i = 0; i < count; ++i)
-      shuffled[byte * count + i] = raw[i * elementBytes + byte];
-  uLongf size = compressBound(static_cast<uLong>(raw.size()));
-  Bytes packed(size);
-  if (compress2(packed.data(), &size, shuffled.data(), static_cast<uLong>(raw.size()), level) !=
-      Z_OK)
-    throw std::bad_alloc();
-  packed.resize(size);
-  return packed;
-}
-
-class Hdf5Writer {
+class Hdf5Writer : Hdf5Arrays {
  public:
   Hdf5Writer(const RecordingContent& content,
              const std::filesystem::path& path,
              Overwrite overwrite,
              const Progress& progress,
              const Hdf5WriteOptions& options)
-      : content_(content),
+      : Hdf5Arrays(path, overwrite, options),
+        content_(content),
         profile_(content.profile),
-        progress_(progress),
-        options_(options),
-        out_(path, overwrite),
-        work_(otherThreads(options.threads), kMostWaitingChunks) {}
+        progress_(progress) {}
 
   void write() {
     {
@@ -107,11 +53,10 @@ class Hdf5Writer {
                    hdf5_layout::seriesValues(i),
                    writtenSamples(profile_, i));
     writeFrames();
-    work_.finishAll();
+    finishChunks();
     writeVersion();
     series_.clear();
-    arrays_.clear();
-    out_.commit();
+    commit();
   }
 
  private:
@@ -124,89 +69,6 @@ class Hdf5Writer {
 
   // -- Objects of the file; the lock is held. --
 
-  Hdf5Id makeGroup(const std::string& name) {
-    Hdf5Id group(H5Gcreate2(out_.file(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                 H5Gclose);
-    out_.require(group.ok());
-    return group;
-  }
-
-  template <typename Value>
-  void attribute(hid_t object, const char* name, const Value& value) {
-    out_.require(writeHdf5Attribute(object, name, value));
-  }
-
-  // A small array, stored as it is.
-  Hdf5Id smallArray(const std::string& name,
-                    const NumberType& type,
-                    const Shape& shape,
-                    const void* values) {
-    const Hdf5Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                       H5Sclose);
-    Hdf5Id set(H5Dcreate2(out_.file(),
-                          name.c_str(),
-                          type.stored,
-                          space.get(),
-                          H5P_DEFAULT,
-                          plainProperties().get(),
-                          H5P_DEFAULT),
-               H5Dclose);
-    out_.require(set.ok());
-    const bool any = std::find(shape.begin(), shape.end(), 0) == shape.end();
-    out_.require(!any ||
-                 H5Dwrite(set.get(), type.stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
-    return set;
-  }
-
-  Hdf5Id textArray(const std::string& name, const std::vector<std::string>& texts) {
-    std::vector<std::string> stored;
-    for (const std::string& text : texts) stored.push_back(hdf5StoredText(text));
-    std::vector<const char*> pointers;
-    for (const std::string& text : stored) pointers.push_back(text.c_str());
-    const Hdf5Id type = hdf5TextType();
-    return smallArray(name, {type.get(), 0}, {texts.size()}, pointers.data());
-  }
-
-  // Properties of a data set that depend on no time.
-  static Hdf5Id plainProperties() {
-    Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(properties.get(), 0);
-    return properties;
-  }
-
-  // An array of chunks that are written whole; `fill` is its value where none was written.
-  ChunkedArray& chunkedArray(const std::string& name,
-                             const NumberType& type,
-                             Shape shape,
-                             Shape chunk,
-                             std::optional<std::int64_t> fill = {}) {
-    Shape most = shape;
-    most[0] = H5S_UNLIMITED;
-    const auto rank = static_cast<int>(shape.size());
-    const Hdf5Id space(H5Screate_simple(rank, shape.data(), most.data()), H5Sclose);
-    const Hdf5Id properties = plainProperties();
-    H5Pset_chunk(properties.get(), rank, chunk.data());
-    H5Pset_shuffle(properties.get());
-    H5Pset_deflate(properties.get(), static_cast<unsigned>(options_.level));
-    if (fill) H5Pset_fill_value(properties.get(), H5T_NATIVE_INT64, &*fill);
-    Hdf5Id set(H5Dcreate2(out_.file(),
-                          name.c_str(),
-                          type.stored,
-                          space.get(),
-                          H5P_DEFAULT,
-                          properties.get(),
-                          H5P_DEFAULT),
-               H5Dclose);
-    out_.require(set.ok());
-    return *arrays_.emplace_back(std::make_unique<ChunkedArray>(
-        ChunkedArray{std::move(set), type, std::move(shape), std::move(chunk)}));
-  }
-
-  void makeScale(hid_t set, const char* name) { out_.require(H5DSset_scale(set, name) >= 0); }
-  void attachScale(hid_t set, hid_t scale, unsigned axis) {
-    out_.require(H5DSattach_scale(set, scale, axis) >= 0);
-  }
-
   // The stamps of a series, as the scale of its first axis.
   ChunkedArray& timeArray(const std::string& group, std::size_t count, std::size_t perChunk) {
     ChunkedArray& times = chunkedArray(group + "/time_us", i64(), {count}, {perChunk});
@@ -214,33 +76,6 @@ class Hdf5Writer {
     attribute(times.id.get(), "epoch", std::string("1970-01-01T00:00:00Z"));
     makeScale(times.id.get(), "time");
     return times;
-  }
-
-  // -- Chunks --
-
-  // Compresses a chunk on some thread and writes it in the order of these calls.
-  void addChunk(ChunkedArray& array, Shape offset, Bytes raw) {
-    struct Chunk {
-      Shape offset;
-      Bytes raw;
-      Bytes packed;
-    };
-    auto chunk = std::make_shared<Chunk>(Chunk{std::move(offset), std::move(raw), {}});
-    const std::size_t bytes = array.type.bytes;
-    work_.add(
-        [chunk, bytes, level = options_.level] {
-          chunk->packed = shuffledAndDeflated(chunk->raw, bytes, level);
-          chunk->raw = {};
-        },
-        [this, chunk, set = array.id.get()] {
-          const auto lock = hdf5Lock();
-          out_.require(H5Dwrite_chunk(set,
-                                      H5P_DEFAULT,
-                                      0,
-                                      chunk->offset.data(),
-                                      chunk->packed.size(),
-                                      chunk->packed.data()) >= 0);
-        });
   }
 
   // -- Parts of the recording --
@@ -621,11 +456,7 @@ class Hdf5Writer {
   const RecordingContent& content_;
   const Profile& profile_;
   const Progress& progress_;
-  const Hdf5WriteOptions options_;
-  Hdf5Output out_;
-  std::vector<std::unique_ptr<ChunkedArray>> arrays_;
   bool anyFiltered_ = false;  // frames that were written so far
-  OrderedWork work_;
   std::vector<WrittenSeries> series_;
 };
 

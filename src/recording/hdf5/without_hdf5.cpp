@@ -1,15 +1,28 @@
-// The function of hdf5_recording.h that writes, in a program that does without HDF5.
+// The functions that write HDF5, in a program that does without it.
 #include "palpate/core/error.h"
 #include "palpate/recording/hdf5_recording.h"
 
+#include "recording/result_writers.h"
+
 namespace palpate {
+namespace {
+
+[[noreturn]] void throwWithoutHdf5(const std::filesystem::path& path) {
+  throw FileError(path, "HDF5 can't be written here: name a file that ends in .h5 or .hdf5");
+}
+
+}  // namespace
 
 void writeHdf5(const RecordingContent&,
                const std::filesystem::path& path,
                Overwrite,
                const Progress&,
                const Hdf5WriteOptions&) {
-  throw FileError(path, "HDF5 can't be written here: name a file that ends in .h5 or .hdf5");
+  throwWithoutHdf5(path);
+}
+
+std::size_t writeHdf5Table(ResultTable&, const std::filesystem::path& path, Overwrite) {
+  throwWithoutHdf5(path);
 }
 
 }  // namespace palpate

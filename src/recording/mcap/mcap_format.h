@@ -2,6 +2,7 @@
 // a recording in one (docs/notes/exchange_formats.md). Private to this module.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -54,6 +55,12 @@ inline std::string imageTopic(std::size_t matrix) { return "/tactile/m" + std::t
 
 constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
 constexpr std::int32_t kNoMatrix = std::numeric_limits<std::int32_t>::min();
+
+// Time of a record [ns since 1970]; at the ends of its range it stays there.
+constexpr std::uint64_t timeNs(std::int64_t timeUs) {
+  constexpr std::int64_t kMaxUs = std::numeric_limits<std::int64_t>::max() / 1000;
+  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(timeUs, 0, kMaxUs)) * 1000;
+}
 
 // zlib's CRC-32 of more bytes.
 std::uint32_t addToCrc(std::uint32_t crc, std::string_view bytes) noexcept;

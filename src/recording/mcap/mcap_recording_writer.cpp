@@ -21,12 +21,6 @@ namespace {
 
 using McapTexts = McapFileWriter::Texts;
 
-// Time of a record [ns since 1970]; at the ends of its range it stays there.
-std::uint64_t mcapTimeNs(std::int64_t timeUs) {
-  constexpr std::int64_t kMaxUs = INT64_MAX / 1000;
-  return static_cast<std::uint64_t>(std::clamp<std::int64_t>(timeUs, 0, kMaxUs)) * 1000;
-}
-
 // A profile of ROS 2 asks for this key.
 McapTexts withQos(McapTexts metadata) {
   metadata["offered_qos_profiles"] = "";
@@ -195,7 +189,7 @@ std::uint16_t McapRecordingWriter::beginSeries(const std::string& name,
 void McapRecordingWriter::addValues(std::uint16_t channel,
                                     std::int64_t timeUs,
                                     std::span<const double> values) {
-  std::string& out = file_.beginMessage(channel, mcapTimeNs(timeUs));
+  std::string& out = file_.beginMessage(channel, mcap_format::timeNs(timeUs));
   CdrWriter cdr(out);
   cdr.number(timeUs);
   cdr.sequence(values);
@@ -213,7 +207,7 @@ void McapRecordingWriter::addImage(std::size_t matrix, const TactileFrame& frame
   const MatrixLayout& layout = hand_.layout->matrix(matrix);
   const std::size_t cells = layout.numCells();
   const std::size_t pixelBytes = counts ? sizeof(std::uint16_t) : sizeof(float);
-  std::string& out = file_.beginMessage(imageChannels_[matrix], mcapTimeNs(frame.hostUs));
+  std::string& out = file_.beginMessage(imageChannels_[matrix], mcap_format::timeNs(frame.hostUs));
   McapImage image;
   image.timeUs = frame.hostUs;
   image.rows = static_cast<std::uint32_t>(layout.rows);
@@ -250,7 +244,7 @@ void McapRecordingWriter::addFrame(const TactileFrame& frame) {
   // Earlier programs would read the values below 0 of filtered frames as 0: the record again, with
   // the version that they refuse, is the one that counts.
   if (!frame.filtered.empty()) requireVersion(mcap_format::kFilteredLayoutVersion);
-  std::string& out = file_.beginMessage(frames_, mcapTimeNs(frame.hostUs));
+  std::string& out = file_.beginMessage(frames_, mcap_format::timeNs(frame.hostUs));
   CdrWriter cdr(out);
   cdr.number(frame.hostUs);
   cdr.number(frame.deviceUs ? floorMs(*frame.deviceUs) : mcap_format::kNoDeviceTime);
@@ -281,7 +275,7 @@ void McapRecordingWriter::addSample(const Sample& sample) {
   const SampleChannel& channel = known->second;
   if (sample.values.size() != channel.width)
     throw std::invalid_argument("McapRecordingWriter: another number of values");
-  std::string& out = file_.beginMessage(channel.id, mcapTimeNs(sample.hostUs));
+  std::string& out = file_.beginMessage(channel.id, mcap_format::timeNs(sample.hostUs));
   CdrWriter cdr(out);
   cdr.number(sample.hostUs);
   cdr.number(sample.deviceUs.value_or(mcap_format::kNoDeviceTime));
@@ -295,7 +289,7 @@ void McapRecordingWriter::addAngles(const Sample& angles) {
   if (angles.values.size() != numAngles_)
     throw std::invalid_argument("McapRecordingWriter: another number of angles");
   addValues(*angles_, angles.hostUs, angles.values);
-  std::string& out = file_.beginMessage(jointStates_, mcapTimeNs(angles.hostUs));
+  std::string& out = file_.beginMessage(jointStates_, mcap_format::timeNs(angles.hostUs));
   CdrWriter cdr(out);
   cdr.time(angles.hostUs);
   out += jointNames_;
@@ -317,7 +311,7 @@ void McapRecordingWriter::addTemperatures(const Sample& temperatures) {
 }
 
 void McapRecordingWriter::addEvent(const Event& event) {
-  std::string& out = file_.beginMessage(events_, mcapTimeNs(event.tUs));
+  std::string& out = file_.beginMessage(events_, mcap_format::timeNs(event.tUs));
   {
     CdrWriter cdr(out);
     cdr.number(event.tUs);
@@ -328,7 +322,7 @@ void McapRecordingWriter::addEvent(const Event& event) {
     cdr.text(mcapSafeText(event.json));
   }
   file_.endMessage();
-  std::string& shown = file_.beginMessage(log_, mcapTimeNs(event.tUs));
+  std::string& shown = file_.beginMessage(log_, mcap_format::timeNs(event.tUs));
   CdrWriter cdr(shown);
   cdr.time(event.tUs);
   cdr.number(mcapLogLevel(event.kind));
