@@ -98,8 +98,8 @@ TableTextOptions tableTextOf(const CommandLine& given) {
   return {.form = form, .unitsRow = unitsRow};
 }
 
-ResultOutput::ResultOutput(const CommandLine& given) : quiet_(given.quiet()) {
-  if (const auto out = given.text("output"))
+ResultOutput::ResultOutput(const CommandLine& given, bool outputTaken) : quiet_(given.quiet()) {
+  if (const auto out = given.text("output"); out && !outputTaken)
     file_.emplace(*out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
 }
 
@@ -120,8 +120,8 @@ void ResultOutput::finish() {
   out_.finish();
 }
 
-void printJson(const CommandLine& given, const Json& json) {
-  ResultOutput out(given);
+void printJson(const CommandLine& given, const Json& json, bool outputTaken) {
+  ResultOutput out(given, outputTaken);
   out.write(json.text() + "\n");
   out.finish();
 }

@@ -44,8 +44,9 @@ TableTextOptions tableTextOf(const CommandLine& given);
 // names on standard output.
 class ResultOutput {
  public:
-  // Throws FileError, also when the file exists and --force is missing.
-  explicit ResultOutput(const CommandLine& given);
+  // Throws FileError, also when the file exists and --force is missing. `outputTaken`: -o is
+  // something else, the result goes to standard output.
+  explicit ResultOutput(const CommandLine& given, bool outputTaken = false);
   void write(const std::string& text);  // throws OutputError, FileError
   void flush();                         // what is for standard output
   void finish();
@@ -56,7 +57,7 @@ class ResultOutput {
   std::optional<OutputFile> file_;
 };
 // An object as the whole result.
-void printJson(const CommandLine& given, const Json& json);
+void printJson(const CommandLine& given, const Json& json, bool outputTaken = false);
 
 // Writes the rows of tables with the same columns as one table.
 class TableOutput {
