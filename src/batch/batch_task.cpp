@@ -169,7 +169,7 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
 RecordingTable signalsOf(const SignalRowsOptions& options) {
   options.filters.validate();
   SignalFilter(options.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
-  return {.options = "signals; " + recipeText(options.filters) + "; smooth " +
+  return {.options = (options.centres ? "centres; " : "signals; ") + recipeText(options.filters) + "; smooth " +
                      recipeText(options.smooth) + matrixText(options.matrix) +
                      timesText(options.times),
           .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {

@@ -23,6 +23,7 @@
 namespace palpate {
 
 enum class CellKind { kInteger, kNumber, kFlag, kText };
+const char* nameOf(CellKind kind) noexcept;  // "integer", "number", "flag", "text"
 
 // The value of a column in a row, of the column's kind; nothing where it isn't known.
 using Cell = std::variant<std::monostate, std::int64_t, double, bool, std::string>;
