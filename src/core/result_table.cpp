@@ -50,7 +50,9 @@ void appendJsonCell(std::string& text, const Cell& cell, const ResultColumn& col
     text += "null";
 }
 
-const char* nameOf(CellKind kind) {
+}  // namespace
+
+const char* nameOf(CellKind kind) noexcept {
   switch (kind) {
     case CellKind::kInteger:
       return "integer";
@@ -63,8 +65,6 @@ const char* nameOf(CellKind kind) {
   }
   return "text";
 }
-
-}  // namespace
 
 double numberOf(const Cell& cell) {
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);

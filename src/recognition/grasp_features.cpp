@@ -1,6 +1,8 @@
 #include "palpate/recognition/grasp_features.h"
 
 #include <array>
+#include <span>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/recognition/contact_statistics.h"
@@ -76,6 +78,71 @@ std::string_view featureUnit(FeatureSet set, std::string_view name) noexcept {
   if (set == FeatureSet::kBest) return {};
   if (name.starts_with("angle_")) return "deg";
   return name.ends_with("_row") || name.ends_with("_column") ? "taxels" : std::string_view();
+}
+
+std::string featureMeaning(FeatureSet set, std::string_view name) {
+  using Meaning = std::pair<std::string_view, const char*>;
+  static constexpr Meaning kOfPads[] = {
+      {"size_z", "40 ln(1 + D / 40), D: distance of the pads on the plateau in mm"},
+      {"ln_major", "ln(l + 0.15), l: larger principal second moment of the pressure in taxel^2"},
+      {"ln_minor", "the same of the smaller moment"},
+      {"share_1", "part of the pressure on the strongest taxel"},
+      {"share_4", "part of the pressure on the 4 strongest taxels"},
+      {"share_9", "part of the pressure on the 9 strongest taxels"},
+      {"skew", "how far the contact lies across rows and columns"},
+      {"entropy", "- sum p ln p, p: part of the pressure on a taxel"},
+      {"ln_active", "ln(active taxels + 1)"},
+      {"ln_sum", "ln(sum of the values)"},
+      {"closing_mm", "how far the pads close while the load rises"}};
+  static constexpr Meaning kOfSession[] = {{"row", "row of the centroid"},
+                                           {"column", "column of the centroid"},
+                                           {"ln_sum", "ln(sum of the values)"},
+                                           {"ln_peak", "ln(largest value)"},
+                                           {"ln_major", "larger principal second moment, as above"},
+                                           {"ln_minor", "the smaller one"}};
+  static constexpr Meaning kOfHand[] = {
+      {"ln_sum", "ln(s + 0.001), s: sum of all taxels as a part of full scale"},
+      {"ln_peak", "ln(p + 0.001), p: largest value as a part of full scale"},
+      {"ln_active", "ln(active taxels + 1)"},
+      {"touched", "number of matrices with an active taxel"}};
+  static constexpr Meaning kOfMatrix[] = {
+      {"share", "part of the sum"},
+      {"active", "part of its taxels that is active"},
+      {"column", "centroid, -1 at the first column, 1 at the last one"},
+      {"row", "centroid, -1 at the first row, 1 at the last one"},
+      {"major", "ln((l + 0.15) / 0.15), l: larger second moment of the load in taxel^2"},
+      {"minor", "the same of the smaller moment"}};
+  static constexpr Meaning kOfStudy[] = {
+      {"diameter", "smallest diameter of the sphere around the contact centroids"},
+      {"compressibility", "how far the pads come nearer from initial_frame to end_frame"}};
+  const auto found = [](std::span<const Meaning> meanings, std::string_view what) {
+    for (const auto& [known, meaning] : meanings)
+      if (known == what) return std::string(meaning);
+    return std::string();
+  };
+  const auto underscore = name.find('_');
+  const std::string_view head = name.substr(0, underscore);
+  const std::string_view tail =
+      underscore == std::string_view::npos ? std::string_view() : name.substr(underscore + 1);
+  const bool isOfMatrix = head.size() > 1 && head.front() == 'm' &&
+                          head.find_first_not_of("0123456789", 1) == std::string_view::npos;
+  const auto ofMatrix = [&](std::span<const Meaning> meanings) {
+    const std::string meaning = found(meanings, tail);
+    return meaning.empty() ? meaning : meaning + ", matrix " + std::string(head.substr(1));
+  };
+  if (set == FeatureSet::kStatistics) return isOfMatrix ? ofMatrix(kOfMatrix) : found(kOfHand, name);
+  if (set == FeatureSet::kStudy) {
+    if (head == "std")
+      return "standard deviation of the active taxels in end_frame, matrix " + std::string(tail);
+    if (isOfMatrix && tail.size() == 3 && tail.front() == 'T')
+      return "Chebyshev moment of order " + std::string(tail.substr(1, 1)) + " along x, " +
+             std::string(tail.substr(2)) + " along y, matrix " + std::string(head.substr(1));
+    return found(kOfStudy, name);
+  }
+  if (set == FeatureSet::kSession && head == "angle")
+    return "angle of axis " + std::string(tail) + ", median over the plateau";
+  if (set == FeatureSet::kSession && isOfMatrix) return ofMatrix(kOfSession);
+  return found(kOfPads, name);
 }
 
 std::string_view sessionSetWarning() noexcept {

@@ -218,6 +218,23 @@ std::optional<SeriesColumn> columnOf(const Profile& profile, const SeriesChoice&
   return SeriesColumn{*series, static_cast<std::size_t>(column - columns.begin())};
 }
 
+std::string seriesUnit(const Profile& profile, const SeriesChoice& choice) {
+  if (const auto column = columnOf(profile, choice))
+    return profile.series()[column->series].columns[column->column].unit;
+  switch (choice.kind) {
+    case ProfileSeriesKind::kForce:
+      return "N";
+    case ProfileSeriesKind::kTaxels:
+      return profile.hand().unit;
+    case ProfileSeriesKind::kMatrix:
+      return choice.signal == SignalKind::kActive ? "taxels"
+             : choice.signal == SignalKind::kArea ? "mm^2"
+                                                  : profile.hand().unit;
+    default:
+      return {};
+  }
+}
+
 double valueIn(const Sample& sample, const SeriesColumn& column) {
   constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
   if (column.column >= sample.values.size()) return kNotKnown;

@@ -4,6 +4,7 @@
 
 #include "palpate/model/matrix_rows.h"
 #include "palpate/model/timing.h"
+#include "palpate/signals/centre_rows.h"
 #include "palpate/signals/characteristic_signals.h"
 
 namespace palpate {
@@ -98,6 +99,7 @@ std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit, bool 
 std::unique_ptr<ResultTable> signalTable(const Profile& profile,
                                          const SignalRowsOptions& options,
                                          const Progress& progress) {
+  if (options.centres) return centreTable(profile, options.matrix, progress);
   if (options.smooth.dependsOnRate()) options.smooth.validateForRate(timingOf(profile).rateHz);
   return std::make_unique<RowTable<Row>>(
       "signals",

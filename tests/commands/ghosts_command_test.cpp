@@ -96,7 +96,7 @@ TEST(GhostsCommand, CountsTheGhostsOfARecording) {
 
   const auto json = palpate({"ghosts", in, "--filter", "temporal-min:window=2", "--json"});
   ASSERT_EQ(json.exitCode, 0) << json.err;
-  const Json report = Json::parse(json.out).at(std::size_t{0});
+  const Json report = Json::parse(json.out).at("reports").at(std::size_t{0});
   EXPECT_EQ(report.at("matrices").at(1).at("false_taxels").at("before").asInteger(), 2);
   EXPECT_EQ(report.at("matrices").at(1).at("frames_with_false").at("after").asInteger(), 0);
   EXPECT_EQ(report.at("matrices").at(3).at("scattered").at("after").asInteger(), 5);
@@ -155,7 +155,7 @@ TEST(GhostsCommand, EmulatedHandsHaveContactsToLose) {
 
   std::vector<std::string> json = ask;
   json.emplace_back("--json");
-  const Json list = Json::parse(palpate(json).out);
+  const Json list = Json::parse(palpate(json).out).at("reports");
   ASSERT_EQ(list.size(), 2u);
   const Json contacts = list.at(std::size_t{1}).at("contact_list");
   EXPECT_EQ(static_cast<double>(contacts.size()), number(rows[1], "contacts"));

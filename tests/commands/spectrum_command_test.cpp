@@ -203,7 +203,7 @@ TEST(SpectrumCommand, RefusesWrongUsageAndTooLittle) {
   expectOneLineError(with({"--window", "1"}), 2, {"window"});
   expectOneLineError(with({"--window", "16", "--overlap", "16"}), 2, {"overlap", "15"});
   expectOneLineError(with({"--signal", "mean"}), 2, {"--signal"});
-  expectOneLineError(with({"--from", "20"}), 2, {"from", "19"});
+  expectOneLineError(with({"--from", "20"}), 1, {"no frame 20", "only 0..19"});
   expectOneLineError(with({"--from", "5", "--to", "4"}), 2, {"--from"});
   expectOneLineError(palpate({"spectrum", file}), 2, {"--matrix", "--signal"});
   expectOneLineError(palpate({"spectrum", file, "--matrix", "1", "--x", "2"}), 2, {"--y"});

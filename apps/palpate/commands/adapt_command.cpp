@@ -96,11 +96,13 @@ int adaptCommand(const Arguments& words) {
   model.madeAt = utcStamp();
   saveModel(model, *out, overwrite);
   if (!model.offset.trusted) sayLine("no answer will be sure with it: " + model.offset.text());
-  printObject(Json::object()
-                  .set("model", *out)
-                  .set("session_offset", offsetJson(model.offset, model.sessionZero))
-                  .set("text", model.offset.text())
-                  .set("classes", std::move(classes)));
+  printJson(given,
+            Json::object()
+                .set("model", *out)
+                .set("session_offset", offsetJson(model.offset, model.sessionZero))
+                .set("text", model.offset.text())
+                .set("classes", std::move(classes)),
+            true);
   return code;
 }
 

@@ -1,54 +1,24 @@
 // The command `palpate calibrate apply FILE --calibration C.json` converts a recording to pressures
 // [kPa] and forces [N], frame by frame.
 #include <cstdio>
+#include <memory>
+#include <vector>
 
+#include "palpate/calibration/pressure_rows.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
-#include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
-#include "palpate/core/time.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
 #include "commands/calibrated_frames.h"
+#include "commands/export_options.h"
 #include "commands/recording_list.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
-
-constexpr const char* kCalibrateApplyColumns =
-    "frame,time_ms,matrix,active,K,pressure_kpa,pressure_sd_kpa,force_n,force_sd_n,in_range,"
-    "temperature_known,"
-    "saturated\n";
-
-void calibrateApplyAppendRow(std::string& line,
-                             std::size_t frame,
-                             std::size_t matrix,
-                             const PressureFrame& pressures) {
-  const MatrixPressure& p = pressures.matrices[matrix];
-  line.clear();
-  for (const std::int64_t whole : {static_cast<std::int64_t>(frame),
-                                   pressures.hostUs / kUsPerMs,
-                                   static_cast<std::int64_t>(matrix),
-                                   static_cast<std::int64_t>(p.active)}) {
-    appendNumber(line, whole);
-    line += ',';
-  }
-  for (const double value : {p.staticResponseCounts, p.kpa, p.sdKpa}) {
-    appendNumber(line, value);
-    line += ',';
-  }
-  for (const double value : {p.forceN, p.sdForceN}) {
-    if (pressures.areaKnown) appendNumber(line, value);
-    line += ',';
-  }
-  for (const bool flag : {p.inRange, p.temperatureKnown, p.saturated}) {
-    line += flag ? '1' : '0';
-    line += ',';
-  }
-  line.back() = '\n';
-}
 
 // Copies joint angles and temperatures, so that the new recording is complete.
 void copyState(const Profile& profile, ProfileBuilder& builder) {
@@ -67,6 +37,9 @@ int calibrateApply(const Arguments& words) {
        "OUT",
        "write the pressure of every taxel [kPa] as a recording: .palpate, .dsa, .npz, .csv"});
   options.push_back({"force", "", "replace OUT"});
+  options.push_back(unitsRowOption());
+  options.push_back({"json", "", "one object of JSON instead of CSV"});
+  options.push_back(timeColumnOption());
   const CommandLine given(
       {.synopsis = "palpate calibrate apply FILE --calibration C.json [-o OUT.palpate]",
        .purpose =
@@ -86,6 +59,9 @@ int calibrateApply(const Arguments& words) {
     throw UsageError("--calibration C.json is missing; 'palpate calibrate pressure' makes one");
   const std::filesystem::path file = given.words().front();
   const auto outPath = given.text("output");
+  if (outPath && (given.has("json") || given.has("units-row") || given.has("time-column")))
+    throw UsageError("--json, --units-row and --time-column are of the table: leave out -o");
+  const TableTextOptions text = outPath ? TableTextOptions() : tableTextOf(given);
   if (outPath) requireOther(file, *outPath);
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Recording recording = openReported(file, progress, given.quiet());
@@ -96,28 +72,35 @@ int calibrateApply(const Arguments& words) {
   for (const std::string& sentence : frames.assumptions())
     if (!given.quiet() || (noForces && sentence == kUnknownAreaText))
       std::fprintf(stderr, "palpate: %s\n", escapedLine(sentence).c_str());
-  StandardOutput out;
-  if (!outPath) out.write(kCalibrateApplyColumns);
   ProfileBuilder builder(profile.hand());
-  std::size_t beyond = 0, touched = 0;
-  std::string line;
+  std::size_t beyond = 0, touched = 0, at = 0;
   TactileFrame frame;
   const Progress report = progress.callback();
-  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    reportProgress(report, i, profile.numFrames());
-    profile.readFrame(i, frame);
+  using Row = MatrixRow<TouchedPressure>;
+  const auto more = [&](std::vector<Row>& rows) {
+    if (at == profile.numFrames()) return false;
+    reportProgress(report, at, profile.numFrames());
+    profile.readFrame(at, frame);
     const PressureFrame& pressures = frames.of(frame);
-    for (std::size_t m = 0; m < pressures.matrices.size(); ++m) {
-      if (pressures.matrices[m].active == 0) continue;
-      ++touched;
-      beyond += pressures.matrices[m].inRange ? 0 : 1;
-      if (outPath) continue;
-      calibrateApplyAppendRow(line, i, m, pressures);
-      out.write(line);
-    }
+    appendPressures(at++, pressures, rows);
+    touched += rows.size();
+    for (const Row& row : rows) beyond += row.value.pressure.inRange ? 0 : 1;
     if (outPath) builder.addFrame(frame.hostUs, pressures.kpa, frame.deviceUs);
+    return true;
+  };
+  if (outPath) {
+    for (std::vector<Row> rows; more(rows);) rows.clear();
+  } else {
+    StandardOutput out;
+    writeTableText(*withTimeColumn(given,
+                                   file,
+                                   recording,
+                                   std::make_unique<RowTable<Row>>(
+                                       "pressures", pressureColumns(), more)),
+                   text,
+                   [&](const std::string& lines) { out.write(lines); });
+    out.finish();
   }
-  out.finish();
   progress.wipe();
   if (beyond > 0 && !given.quiet())
     std::fprintf(

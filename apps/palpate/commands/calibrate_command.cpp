@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "palpate/calibration/calibration.h"
-#include "palpate/core/escaped_line.h"
-#include "palpate/core/output_file.h"
 #include "palpate/core/time.h"
 
 #include "commands/calibrate_commands.h"
@@ -86,20 +84,6 @@ Json provenance(const std::string& kind) {
       .set("format_version", Calibration::kFormatVersion)
       .set("program_version", PALPATE_VERSION)
       .set("made_at", utcStamp());
-}
-
-void printJson(const CommandLine& given, const Json& json, bool outputWritten) {
-  const std::string text = json.text() + "\n";
-  if (const auto out = given.text("output"); out && !outputWritten) {
-    OutputFile file(*out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
-    file.write(text);
-    file.commit();
-    if (!given.quiet()) std::printf("%s\n", escapedLine(*out).c_str());
-    return;
-  }
-  StandardOutput out;
-  out.write(text);
-  out.finish();
 }
 
 }  // namespace palpate::commands

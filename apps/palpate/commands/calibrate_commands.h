@@ -11,6 +11,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 
@@ -31,7 +32,5 @@ StepLoss lossGiven(const CommandLine& given);
 // The common first members of the JSON of one kind: the kind, format version, program version, and
 // time of creation.
 Json provenance(const std::string& kind);
-// Prints the JSON to standard output, or writes it into the file of -o unless `outputWritten`.
-void printJson(const CommandLine& given, const Json& json, bool outputWritten = false);
 
 }  // namespace palpate::commands

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "palpate/calibration/noise_floor.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/output_file.h"
 #include "palpate/recording/recording.h"

@@ -5,6 +5,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/recognition/answer_rows.h"
 #include "palpate/recognition/model_evaluation.h"
 #include "palpate/recognition/trained_model.h"
 
@@ -50,7 +51,8 @@ int classifyCommand(const Arguments& words) {
       {.synopsis =
            "palpate classify MODEL.json FILE... [--json] [--session-offset model|none|batch|MM]",
        .purpose =
-           "Names the grasped objects: prints a line per grasp, or with --json one object. All "
+           "Names the grasped objects: prints a line per grasp, or with --json one object; with -o "
+           "OUT.csv it writes a table. All "
            "FILEs of a call (recordings, or folders of them) must be of one session. An answer is "
            "called sure when it is right in 95 of 100 cases. That holds in the session of the "
            "training, or with a reliable session offset. The values of --session-offset:\n\n  "
@@ -59,12 +61,16 @@ int classifyCommand(const Arguments& words) {
            "over all possible offsets\n  batch  estimated from all grasps of this call, without "
            "labels; of fewer than two different objects it warns, and no answer is sure\n  MM     "
            "the hand reads sizes larger by this many mm",
-       .options = {{"json", "", "one JSON object"},
-                   {"session-offset", "WHICH", "model (default), none, batch, or mm"}},
+       .options = withOneTableOptions(
+           {{"session-offset", "WHICH", "model (default), none, batch, or mm"}},
+           "one JSON object instead of lines"),
        .example = "palpate classify objects.json grasp.dsa --json --session-offset batch",
        .minArguments = 2},
       words);
   if (given.helpShown()) return kDone;
+  tableTextOf(given);
+  if (given.has("units-row") && !given.has("output"))
+    throw UsageError("--units-row needs -o OUT.csv");
   OffsetChoice choice;
   try {
     if (const auto text = given.text("session-offset")) choice = OffsetChoice::from(*text);
@@ -76,21 +82,26 @@ int classifyCommand(const Arguments& words) {
       extractFeatureTable(given, {given.words().begin() + 1, given.words().end()}, model.set);
   const auto [use, predictions] = classifyTable(model, table, choice);
   for (const std::string& warning : use.warnings) sayLine(warning);
-  if (!given.has("json")) {
+  if (!given.has("json") && !given.has("output")) {
     printTable(model, table, predictions, use);
+    return codeFor(table);
+  }
+  if (formOf(given) == TableForm::kCsv) {
+    writeTable(given, *answerTable(model, table, predictions));
     return codeFor(table);
   }
   Json grasps = Json::array();
   for (std::size_t i = 0; i < predictions.size(); ++i)
     grasps.push(predictionJson(model, table.rows[i], predictions[i]));
-  printObject(Json::object()
-                  .set("grasps", std::move(grasps))
-                  .set("session_offset",
-                       offsetJson(use.offset,
-                                  choice.kind == OffsetChoice::Kind::kModel
-                                      ? model.sessionZero
-                                      : std::optional<EmptyHandZero>()))
-                  .set("warnings", jsonList(use.warnings)));
+  printJson(given,
+            Json::object()
+                .set("grasps", std::move(grasps))
+                .set("session_offset",
+                     offsetJson(use.offset,
+                                choice.kind == OffsetChoice::Kind::kModel
+                                    ? model.sessionZero
+                                    : std::optional<EmptyHandZero>()))
+                .set("warnings", jsonList(use.warnings)));
   return codeFor(table);
 }
 

@@ -32,7 +32,8 @@ void commandsShowHelp() {
          "  palpate --screenshot OUT.png [--size WxH] [--frame N] [--after S] [--dock NAME]...\n"
          "                          [--theme dark|light] [FILE | --demo]\n"
          "  palpate COMMAND ...     work without a window\n"
-         "  palpate help COMMAND    explain a command, as 'palpate COMMAND --help'\n\n"
+         "  palpate help COMMAND    explain a command, as 'palpate COMMAND --help'\n"
+         "  palpate help columns    explain every column of every table\n\n"
          "Commands:\n";
   for (const Command& command : allCommands())
     std::printf("  %-14s %s\n", command.name, command.summary);
@@ -88,6 +89,7 @@ int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthe
       // Only a calibration has kinds.
       if (!rest.empty() && words[1] != "calibrate")
         throw UsageError("help explains one command: '" + rest.front() + "' is too many");
+      if (words[1] == "columns") return others("help", {"columns"});
       rest.emplace_back("--help");
       for (const Command& command : allCommands())
         if (words[1] == command.name) return runCommand(command, rest);

@@ -39,6 +39,7 @@ int adaptCommand(const Arguments& words);
 int calibrateCommand(const Arguments& words);
 int classifyCommand(const Arguments& words);
 int compareCommand(const Arguments& words);
+int columnsCommand(const Arguments& words);
 int contactCommand(const Arguments& words);
 int convertCommand(const Arguments& words);
 int demoCommand(const Arguments& words);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/recognition/answer_rows.h"
 #include "palpate/recognition/cross_validation.h"
 #include "palpate/recognition/model_evaluation.h"
 #include "palpate/recognition/model_search.h"
@@ -128,6 +129,14 @@ PipelineOptions pipelineGiven(const CommandLine& given, FeatureSet set) {
   return options;
 }
 
+// JSON, or the table to a file of -o that ends in .csv.
+void printResult(const CommandLine& given, const Json& json, ResultTable& table) {
+  if (given.has("output") && formOf(given) == TableForm::kCsv)
+    writeTable(given, table);
+  else
+    printJson(given, json);
+}
+
 int crossValidation(const CommandLine& given) {
   const SetChoice choice = setGiven(given);
   PipelineOptions options = pipelineGiven(given, choice.set.value_or(FeatureSet::kBest));
@@ -177,7 +186,7 @@ int crossValidation(const CommandLine& given) {
   if (given.has("learning-curve")) json.set("learning_curve", curveJson(curve));
   if (given.has("eliminate")) json.set("elimination", eliminationJson(samples, steps));
   if (given.has("unknown")) json.set("unknown", unknownJson(given, samples, options, table.set));
-  printObject(json);
+  printResult(given, json, *classTable(report.confusion));
   return codeFor(table);
 }
 
@@ -240,7 +249,7 @@ int withModel(const CommandLine& given) {
   json.set("calibration_error", expectedCalibrationError(answers))
       .set("coverage_curve", coverageJson(coverageCurve(answers)))
       .set("verdicts", answersJson(evaluation, table, samples));
-  printObject(json);
+  printResult(given, json, *verdictTable(evaluation, table, samples));
   return codeFor(table);
 }
 
@@ -288,13 +297,15 @@ int evaluateCommand(const Arguments& words) {
            "within the recordings: they don't show the accuracy in another session.\n\nWith "
            "--model it tests the model on other recordings. The candidates are all classes of the "
            "model; the answer unknown counts as wrong. Grasps more than 8 hours apart are "
-           "different sessions, and each session has its own offset.",
-       .options = options,
+           "different sessions, and each session has its own offset.\n\nWith -o OUT.csv it writes a "
+           "table instead: the figures of each class, or with --model the answer to each grasp.",
+       .options = withOutputOptions(std::move(options), "OUT.json|OUT.csv"),
        .example = "palpate evaluate recordings --set study --lda 14 --splits 50",
        .minArguments = 1,
        .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
+  formOf(given);
   if (given.has("model")) return withModel(given);
   for (const char* option : {"adapt", "session-offset"})
     if (given.has(option)) throw UsageError(std::string("--") + option + " needs --model");

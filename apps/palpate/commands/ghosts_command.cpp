@@ -5,9 +5,10 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/core/number_text.h"
-#include "palpate/core/text_table.h"
+#include "palpate/laboratory/ghost_rows.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
@@ -15,9 +16,9 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
-#include "commands/ghosts_table.h"
 #include "commands/hand_options.h"
 #include "commands/recording_list.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -25,31 +26,34 @@ namespace {
 constexpr double kDefaultDegC[] = {30.0, 45.0};
 constexpr double kDefaultBelow[] = {0.0, 2.0, 3.0, 5.0};
 
-// Prints rows as they are computed, or one JSON list at the end.
-class Rows {
+// Prints rows as they are computed, or one object of JSON at the end.
+class GhostOutput {
  public:
-  Rows(bool json, bool emulated) : json_(json), emulated_(emulated) {}
-
-  void add(const Recipe& recipe, const GhostSource& source, const GhostingReport& report) {
-    if (json_) {
-      list_.push(ghostJson(recipe, source, report, emulated_));
-      return;
-    }
-    if (!headerWritten_) out_.write(csvLine(ghostHeader(emulated_)));
-    headerWritten_ = true;
-    out_.write(csvLine(ghostCells(recipe, source, report, emulated_)));
-    out_.finish();
+  GhostOutput(const CommandLine& given, bool emulated)
+      : given_(given), emulated_(emulated), asJson_(formOf(given) == TableForm::kJson) {
+    if (!asJson_) out_.emplace(given);
+  }
+  void add(GhostRow row) {
+    if (asJson_)
+      list_.push(ghostJson(row, emulated_));
+    else
+      out_->add(*ghostTable(emulated_, [row = std::move(row)](auto& rows) {
+        rows.push_back(row);
+        return false;
+      }));
   }
   void finish() {
-    if (json_) out_.write(list_.text() + "\n");
-    out_.finish();
+    if (asJson_)
+      printJson(given_, Json::object().set("reports", std::move(list_)));
+    else
+      out_->finish();
   }
 
  private:
-  const bool json_, emulated_;
-  bool headerWritten_ = false;
+  const CommandLine& given_;
+  const bool emulated_, asJson_;
   Json list_ = Json::array();
-  StandardOutput out_;
+  std::optional<TableOutput> out_;
 };
 
 // Progress of one of several parts of the work.
@@ -84,7 +88,7 @@ int emulated(const CommandLine& given,
   NoisyContactsOptions make;
   make.seed = static_cast<std::uint64_t>(given.integer("seed", 0, INT64_MAX).value_or(1));
   make.frames = static_cast<std::size_t>(given.integer("frames", 1, 100'000).value_or(3000));
-  Rows rows(given.has("json"), true);
+  GhostOutput rows(given, true);
   ProgressLine line("the emulated hand", given.quiet());
   const std::size_t parts = temperatures.size() * belows.size() * recipes.size();
   std::size_t part = 0;
@@ -98,7 +102,7 @@ int emulated(const CommandLine& given,
         const auto report = measureGhosting(
             made.profile, recipe, made.truth, options, partOf(line.callback(), part++, parts));
         line.wipe();
-        rows.add(recipe, source, report);
+        rows.add({recipe, source, report});
       }
     }
   rows.finish();
@@ -151,7 +155,7 @@ int recorded(const CommandLine& given,
   for (const double below : numbersOf(given, "below", -100.0, 100.0, {}))
     belows.emplace_back(below);
   if (belows.empty()) belows.emplace_back();
-  Rows rows(given.has("json"), false);
+  GhostOutput rows(given, false);
   const auto work =
       [&](const std::filesystem::path& file, const Recording& recording, const Progress& progress) {
         const Profile& profile = recording.profile;
@@ -166,7 +170,7 @@ int recorded(const CommandLine& given,
           for (const Recipe& recipe : recipes) {
             const Progress ofThis = partOf(progress, part++, belows.size() * recipes.size());
             try {
-              rows.add(recipe, source, measureGhosting(seen, recipe, {}, ofFile, ofThis));
+              rows.add({recipe, source, measureGhosting(seen, recipe, {}, ofFile, ofThis)});
             } catch (const std::invalid_argument& error) {
               throw Error(file.string() + ": " + error.what());
             }
@@ -174,7 +178,7 @@ int recorded(const CommandLine& given,
         }
       };
   const int code = forEachOpened(recordingsIn(given.words()), given.quiet(), work);
-  rows.finish();
+  if (code != kFailed) rows.finish();
   return code;
 }
 
@@ -202,18 +206,19 @@ int ghostsCommand(const Arguments& words) {
            "contact; delay: frames from the first active taxel of a contact without filter to the "
            "first one with it; latency_frames: of the filters themselves; cost_us: mean time of "
            "the filters per frame.",
-       .options = withFilterOptions(
+       .options = withOneTableOptions(withFilterOptions(
            {{"deg", "DEGC", "emulated: temperature of the hand, default 30 and 45; several times"},
             {"below",
              "COUNTS",
              "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
             {"frames", "N", "emulated: frames, default 3000"},
             {"seed", "N", "emulated: seed of noise and contacts, default 1"},
-            {"above", "COUNTS", "a filtered value above it is active, default 0"},
-            {"json", "", "full reports, per matrix and per contact"}}),
+            {"above", "COUNTS", "a filtered value above it is active, default 0"}}),
+           "full reports, per matrix and per contact, as one object"),
        .example = "palpate ghosts --below 5 --filter min-median:window=3,masked=1"},
       words);
   if (given.helpShown()) return kDone;
+  tableTextOf(given);
   const Recipe own = recipeOf(given);
   const std::vector<Recipe> recipes =
       given.has("filter") || given.has("recipe") ? std::vector{own} : ghostCandidates();

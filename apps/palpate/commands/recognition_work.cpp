@@ -129,10 +129,4 @@ void takePipelineOptions(const CommandLine& given, PipelineOptions& options) {
 
 int codeFor(const FeatureTable& table) { return table.problems.empty() ? kDone : kPartlyDone; }
 
-void printObject(const Json& json) {
-  StandardOutput out;
-  out.write(json.text() + "\n");
-  out.finish();
-}
-
 }  // namespace palpate::commands

@@ -20,6 +20,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 
@@ -57,7 +58,5 @@ std::vector<OptionSpec> pipelineOptionSpecs();
 
 // kPartlyDone when something was left out, else kDone.
 int codeFor(const FeatureTable& table);
-// Prints the JSON to standard output.
-void printObject(const Json& json);
 
 }  // namespace palpate::commands

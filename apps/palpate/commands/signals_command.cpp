@@ -26,6 +26,7 @@ Recipe smoothOf(const CommandLine& given) {
 }  // namespace
 
 int signalsCommand(const Arguments& words) {
+  SignalRowsOptions options;
   const CommandLine given(
       {.synopsis =
            "palpate signals PATH... [--matrix M] [--filter SPEC..] [--smooth SPEC..] [-o TEMPLATE]",
@@ -37,20 +38,27 @@ int signalsCommand(const Arguments& words) {
                   "norm, the length of the three; with --filter it doesn't. PATH is a recording, "
                   "or a folder: every recording below it. With several recordings a last column names the file; one "
                   "that can't be read is reported, and the rows of the others are printed: exit "
-                  "code 3. With -o there is a table for each recording.",
+                  "code 3. With -o there is a table for each recording. With --centre a row is the centre "
+                  "of force of a matrix that is touched: sum,x,y [taxels],x_mm,y_mm.",
        .options = withTableOptions(withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
             timeOption(),
+            timeColumnOption(),
+            bound("centre",
+                  "instead: the centre of force of each matrix that is touched",
+                  options.centres),
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}})),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  return runTableCommand(given,
-                         signalsOf({.matrix = given.integer("matrix", 0, INT64_MAX),
-                                    .filters = recipeOf(given),
-                                    .smooth = smoothOf(given),
-                                    .times = timeChoiceOf(given)}));
+  options.matrix = given.integer("matrix", 0, INT64_MAX);
+  options.filters = recipeOf(given);
+  options.smooth = smoothOf(given);
+  options.times = timeChoiceOf(given);
+  if (options.centres && !options.smooth.empty())
+    throw UsageError("--smooth filters the signals: leave out --centre, or use --filter");
+  return runTableCommand(given, signalsOf(options));
 }
 
 }  // namespace palpate::commands

@@ -6,6 +6,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/slip_alarms.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -47,7 +48,7 @@ int slipBenchmarkCommand(const Arguments& words) {
            "Measures the accuracy of every slip method on synthetic contacts whose motion "
            "is known, and compares it with the Cramer-Rao bound. Prints JSON; docs/notes/slip.md "
            "explains it.",
-       .options = {{"noise", "SD", "standard deviation of the noise [counts], default 5"},
+       .options = withOutputOptions({{"noise", "SD", "standard deviation of the noise [counts], default 5"},
                    {"edge",
                     "SD",
                     "standard deviation of the edges of disc, bar and flat-ellipse [taxels], "
@@ -61,7 +62,7 @@ int slipBenchmarkCommand(const Arguments& words) {
                    {"recordings",
                     "FOLDER",
                     "also scores alarms on real recordings: FOLDER/slip-detection slips, "
-                    "FOLDER/grasps_by_class doesn't"}},
+                    "FOLDER/grasps_by_class doesn't"}}),
        .example = "palpate slip-benchmark --noise 20",
        .maxArguments = 0},
       words);
@@ -104,9 +105,7 @@ int slipBenchmarkCommand(const Arguments& words) {
       .set("methods", methods);
   if (const auto folder = given.text("recordings"))
     json.set("alarms", slipAlarms(*folder, given.quiet()));
-  StandardOutput out;
-  out.write(json.text() + "\n");
-  out.finish();
+  printJson(given, json);
   return kDone;
 }
 

@@ -1,8 +1,8 @@
 // The command `palpate spectrum FILE` prints the short-time Fourier transform of a taxel or a
 // matrix signal as CSV.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,6 +19,7 @@
 #include "palpate/signals/resampled_series.h"
 #include "palpate/signals/signal_name.h"
 #include "palpate/signals/spectrum.h"
+#include "palpate/signals/spectrum_rows.h"
 #include "palpate/signals/welch.h"
 
 #include "commands/command_line.h"
@@ -26,6 +27,7 @@
 #include "commands/filter_options.h"
 #include "commands/recording_list.h"
 #include "commands/signal_options.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -78,12 +80,9 @@ Series seriesOf(const CommandLine& given,
                 const Progress& progress) {
   const std::string& file = given.words().front();
   if (profile.numFrames() == 0) throw Error(file + ": has no frames");
-  const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
-  const std::int64_t from = given.integer("from", 0, last).value_or(0);
-  const std::int64_t to = given.integer("to", 0, last).value_or(last);
-  if (from > to) throw UsageError("--from is after --to");
-  const auto secondsOf = [&](std::int64_t frame) {
-    const auto us = profile.frameTimeUs(static_cast<std::size_t>(frame)) - profile.frameTimeUs(0);
+  const auto [from, to] = framesOf(frameChoiceOf(given), file, profile);
+  const auto secondsOf = [&](std::size_t frame) {
+    const auto us = profile.frameTimeUs(frame) - profile.frameTimeUs(0);
     return static_cast<double>(us) / 1e6;
   };
   const double fromS = secondsOf(from), toS = secondsOf(to);
@@ -112,18 +111,8 @@ SpectrumOptions spectrumOptionsOf(const CommandLine& given, bool oneLine) {
   return options;
 }
 
-void appendRows(std::string& text, const SpectrumSegment& segment) {
-  for (std::size_t k = 0; k < segment.psd.size(); ++k) {
-    appendNumber(text, static_cast<std::int64_t>(segment.segment));
-    for (const double value : {segment.timeS,
-                               static_cast<double>(k) * segment.binHz,
-                               segment.psd[k],
-                               segment.magnitude[k]}) {
-      text += ',';
-      appendNumber(text, value);
-    }
-    text += '\n';
-  }
+std::string unitOf(const Profile& profile, const TypedSignal& signal) {
+  return signal.choice ? seriesUnit(profile, *signal.choice) : std::string();
 }
 
 Json known(double value) { return value > 0.0 ? Json(value) : Json(); }
@@ -181,17 +170,6 @@ Json peaksJson(const std::vector<SpectralPeak>& peaks) {
   });
 }
 
-// A line of numbers; NaN is an empty cell.
-void appendLine(std::string& text, std::initializer_list<double> values) {
-  char before = 0;
-  for (const double value : values) {
-    if (before != 0) text += before;
-    before = ',';
-    if (std::isfinite(value)) appendNumber(text, value);
-  }
-  text += '\n';
-}
-
 void sayGrid(const CommandLine& given, const SpectrumReport& report) {
   if (given.quiet()) return;
   std::fprintf(stderr,
@@ -205,6 +183,7 @@ void sayGrid(const CommandLine& given, const SpectrumReport& report) {
 // --welch and --peaks.
 int writeMeanSpectrum(const CommandLine& given,
                       const Series& series,
+                      const std::string& unit,
                       const SpectrumOptions& options,
                       ProgressLine& line) {
   const std::string& file = given.words().front();
@@ -212,40 +191,27 @@ int writeMeanSpectrum(const CommandLine& given,
       welchSpectrum(series.timeS, series.values, options, line.callback());
   if (spectrum.mean.psd.empty()) throw Error(file + ": " + tooShort(spectrum.report, options));
   const std::vector<SpectralPeak> peaks = spectralPeaks(spectrum.mean);
-  std::string text;
-  if (given.has("json")) {
-    text = Json::object()
-               .set("samples", spectrum.report.samples)
-               .set("rate_hz", known(spectrum.report.rateHz))
-               .set("nyquist_hz", known(spectrum.report.nyquistHz))
-               .set("jitter", spectrum.report.jitter)
-               .set("window", options.window)
-               .set("overlap", options.overlap)
-               .set("bin_hz", spectrum.mean.binHz)
-               .set("segments", spectrum.mean.segments)
-               .set("psd", jsonList(spectrum.mean.psd))
-               .set("magnitude", jsonList(spectrum.mean.magnitude))
-               .set("peaks", peaksJson(peaks))
-               .text() +
-           "\n";
-  } else if (given.has("peaks")) {
-    text = "frequency_hz,psd,amplitude,width_hz,prominence_db\n";
-    for (const SpectralPeak& peak : peaks)
-      appendLine(text,
-                 {peak.frequencyHz, peak.psd, peak.amplitude, peak.widthHz, peak.prominenceDb});
-  } else {
-    text = "frequency_hz,psd,magnitude\n";
-    for (std::size_t k = 0; k < spectrum.mean.psd.size(); ++k)
-      appendLine(text,
-                 {static_cast<double>(k) * spectrum.mean.binHz,
-                  spectrum.mean.psd[k],
-                  spectrum.mean.magnitude[k]});
-  }
-  StandardOutput out;
-  out.write(text);
-  out.finish();
   line.wipe();
-  if (!given.has("json")) sayGrid(given, spectrum.report);
+  if (formOf(given) == TableForm::kJson) {
+    printJson(given,
+              Json::object()
+                  .set("samples", spectrum.report.samples)
+                  .set("rate_hz", known(spectrum.report.rateHz))
+                  .set("nyquist_hz", known(spectrum.report.nyquistHz))
+                  .set("jitter", spectrum.report.jitter)
+                  .set("window", options.window)
+                  .set("overlap", options.overlap)
+                  .set("bin_hz", spectrum.mean.binHz)
+                  .set("segments", spectrum.mean.segments)
+                  .set("psd", jsonList(spectrum.mean.psd))
+                  .set("magnitude", jsonList(spectrum.mean.magnitude))
+                  .set("peaks", peaksJson(peaks)));
+    return kDone;
+  }
+  writeTable(given,
+             *(given.has("peaks") ? peakTable(peaks, unit)
+                                  : meanSpectrumTable(spectrum.mean, unit)));
+  sayGrid(given, spectrum.report);
   return kDone;
 }
 
@@ -265,42 +231,28 @@ int writeCoherence(const CommandLine& given,
                                       line.callback());
   if (found.coherence.empty())
     throw Error(file + ": coherence needs two segments; " + tooShort(found.report, options));
-  std::string text;
-  if (given.has("json")) {
-    text = Json::object()
-               .set("rate_hz", known(found.report.rateHz))
-               .set("nyquist_hz", known(found.report.nyquistHz))
-               .set("window", options.window)
-               .set("overlap", options.overlap)
-               .set("bin_hz", found.binHz)
-               .set("segments", found.segments)
-               .set("level_95", found.level95())
-               .set("coherence", jsonList(found.coherence))
-               .set("phase_deg", jsonList(found.phaseDeg))
-               .text() +
-           "\n";
-  } else {
-    text = "frequency_hz,coherence,phase_deg,psd_a,psd_b\n";
-    for (std::size_t k = 0; k < found.coherence.size(); ++k)
-      appendLine(text,
-                 {static_cast<double>(k) * found.binHz,
-                  found.coherence[k],
-                  found.phaseDeg[k],
-                  found.psdA[k],
-                  found.psdB[k]});
-  }
-  StandardOutput out;
-  out.write(text);
-  out.finish();
   line.wipe();
-  if (!given.has("json")) {
-    sayGrid(given, found.report);
-    if (!given.quiet())
-      std::fprintf(stderr,
-                   "palpate: of independent noise 5 %% of the bins are above %s (%zu segments)\n",
-                   fixedText(found.level95(), 3).c_str(),
-                   found.segments);
+  if (formOf(given) == TableForm::kJson) {
+    printJson(given,
+              Json::object()
+                  .set("rate_hz", known(found.report.rateHz))
+                  .set("nyquist_hz", known(found.report.nyquistHz))
+                  .set("window", options.window)
+                  .set("overlap", options.overlap)
+                  .set("bin_hz", found.binHz)
+                  .set("segments", found.segments)
+                  .set("level_95", found.level95())
+                  .set("coherence", jsonList(found.coherence))
+                  .set("phase_deg", jsonList(found.phaseDeg)));
+    return kDone;
   }
+  writeTable(given, *coherenceTable(found, unitOf(profile, signalA), unitOf(profile, signalB)));
+  sayGrid(given, found.report);
+  if (!given.quiet())
+    std::fprintf(stderr,
+                 "palpate: of independent noise 5 %% of the bins are above %s (%zu segments)\n",
+                 fixedText(found.level95(), 3).c_str(),
+                 found.segments);
   return kDone;
 }
 
@@ -320,7 +272,7 @@ int spectrumCommand(const Arguments& words) {
            "instead, the mean over all segments: frequency_hz,psd,magnitude; with --peaks the "
            "peaks of this spectrum; with --coherence what two signals have in common: "
            "frequency_hz,coherence,phase_deg,psd_a,psd_b.",
-       .options = withFilterOptions(
+       .options = withOneTableOptions(withFilterOptions(withFrameOptions(
            {{"matrix", "M", "matrix (0, 1, ..)"},
             {"x", "X", "column of the taxel"},
             {"y", "Y", "row of the taxel; row 0 is the fingertip"},
@@ -348,12 +300,8 @@ int spectrumCommand(const Arguments& words) {
             {"rate",
              "HOW",
              "sampling rate after interpolation: mean (default) or median of the intervals"},
-            timeOption(),
-            {"from", "N", "first frame, default 0"},
-            {"to", "N", "last frame, inclusive"},
-            {"json",
-             "",
-             "no table: rate, Nyquist, jitter, strongest line (or line and peaks) as JSON"}}),
+            timeOption()})),
+           "no table: rate, Nyquist, jitter, strongest line (or line and peaks) as JSON"),
        .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
        .minArguments = 1,
        .maxArguments = 1},
@@ -368,6 +316,8 @@ int spectrumCommand(const Arguments& words) {
     for (const char* one : {"matrix", "x", "y", "signal"})
       if (given.has(one))
         throw UsageError(std::string("--coherence names its signals itself: leave out --") + one);
+  tableTextOf(given);
+  frameChoiceOf(given);
   const SpectrumOptions options = spectrumOptionsOf(given, twoSignals || oneLine);
   const Recipe recipe = recipeOf(given);
   const std::string& file = given.words().front();
@@ -376,46 +326,35 @@ int spectrumCommand(const Arguments& words) {
   takeTimes(given, recorded, file, line.callback());
   const Profile profile = filteredBy(recipe, recorded, file, line.callback());
   if (twoSignals) return writeCoherence(given, profile, options, line);
-  const Series series = seriesOf(given, profile, choiceOf(given, profile), line.callback());
-  if (oneLine) return writeMeanSpectrum(given, series, options, line);
-  const SpectrumReport plan = planSpectra(series.timeS, series.values, options);
+  const TypedSignal signal = choiceOf(given, profile);
+  const Series series = seriesOf(given, profile, signal, line.callback());
+  const std::string unit = unitOf(profile, signal);
+  if (oneLine) return writeMeanSpectrum(given, series, unit, options, line);
+  auto run = std::make_unique<SpectrumRun>(series.timeS, series.values, options);
+  const SpectrumReport plan = run->report();
   if (plan.segments == 0) throw Error(file + ": " + tooShort(plan, options));
 
   line.setLabel("transforming " + file);
-  StandardOutput out;
-  if (given.has("json")) {
-    MeanSpectrumCollector collector(plan);
-    const auto visit = [&](const SpectrumSink& sink) {
-      visitSpectra(series.timeS, series.values, options, sink, line.callback());
-    };
-    visit([&](const SpectrumSegment& segment) { collector.add(segment); });
-    const MeanSpectrum mean = collector.result();
-    // Reads the segments a second time, to find when that frequency was strongest.
-    double largest = -1.0, timeS = 0.0;
-    visit([&](const SpectrumSegment& segment) {
-      if (segment.binHz != mean.binHz || !(segment.magnitude[mean.strongestBin()] > largest))
-        return;
-      largest = segment.magnitude[mean.strongestBin()];
-      timeS = segment.timeS;
-    });
-    out.write(spectrumJsonOf(plan, options, mean, timeS).text() + "\n");
-    out.finish();
+  if (formOf(given) == TableForm::kCsv) {
+    writeTable(given, *spectraTable(std::move(run), unit, line.callback()));
+    line.wipe();
+    sayGrid(given, plan);
     return kDone;
   }
-  std::string text = "segment,time_s,frequency_hz,psd,magnitude\n";
-  visitSpectra(
-      series.timeS,
-      series.values,
-      options,
-      [&](const SpectrumSegment& segment) {
-        appendRows(text, segment);
-        out.write(text);
-        text.clear();
-      },
-      line.callback());
-  out.finish();
-  line.wipe();
-  sayGrid(given, plan);
+  MeanSpectrumCollector collector(plan);
+  const auto visit = [&](const SpectrumSink& sink) {
+    visitSpectra(series.timeS, series.values, options, sink, line.callback());
+  };
+  visit([&](const SpectrumSegment& segment) { collector.add(segment); });
+  const MeanSpectrum mean = collector.result();
+  // Reads the segments a second time, to find when that frequency was strongest.
+  double largest = -1.0, timeS = 0.0;
+  visit([&](const SpectrumSegment& segment) {
+    if (segment.binHz != mean.binHz || !(segment.magnitude[mean.strongestBin()] > largest)) return;
+    largest = segment.magnitude[mean.strongestBin()];
+    timeS = segment.timeS;
+  });
+  printJson(given, spectrumJsonOf(plan, options, mean, timeS));
   return kDone;
 }
 

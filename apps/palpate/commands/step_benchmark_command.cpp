@@ -8,6 +8,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -65,8 +66,8 @@ int stepBenchmarkCommand(const Arguments& words) {
            "Fits synthetic loading steps whose parameters are known, by noise, length and drift, "
            "and counts how often the stated 95 % intervals contain them, with Wilson's interval of "
            "that fraction. Prints JSON; docs/notes/calibration.md explains it.",
-       .options = {{"trials", "N", "steps per kind, default 200"},
-                   {"seed", "N", "seed of noise and loads, default 1"}},
+       .options = withOutputOptions({{"trials", "N", "steps per kind, default 200"},
+                                     {"seed", "N", "seed of noise and loads, default 1"}}),
        .example = "palpate step-benchmark --trials 50",
        .maxArguments = 0},
       words);
@@ -91,9 +92,7 @@ int stepBenchmarkCommand(const Arguments& words) {
   json.set("seed", static_cast<std::int64_t>(seed))
       .set("usable_and_not_identifiable", contradictory)
       .set("steps", std::move(cells));
-  StandardOutput out;
-  out.write(json.text() + "\n");
-  out.finish();
+  printJson(given, json);
   return kDone;
 }
 

@@ -124,7 +124,7 @@ int trainCommand(const Arguments& words) {
   model.options = jsonOf(chosen).set("path", given.words().front());
   if (!found.report.candidates.empty()) model.options.set("chosen_from", jsonOf(found.report));
   saveModel(model, *out, overwrite);
-  printObject(reportOf(model, *out, learningNotes(samples)));
+  printJson(given, reportOf(model, *out, learningNotes(samples)), true);
   return codeFor(table);
 }
 

@@ -19,6 +19,7 @@ int runWindowCommand(const std::string& name, const Arguments& words) {
       {"emulate", &emulateCommand},
       {"evaluate", &evaluateCommand},
       {"grasp", &graspCommand},
+      {"help", &columnsCommand},  // of columns
       {"import", &importCommand},
       {"record", &recordCommand},
       {"render", &renderCommand},

@@ -3,6 +3,7 @@
 // JSON, Python and files of other programs are written from any table.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -22,6 +23,7 @@
 namespace palpate {
 
 enum class CellKind { kInteger, kNumber, kFlag, kText };
+const char* nameOf(CellKind kind) noexcept;  // "integer", "number", "flag", "text"
 
 // The value of a column in a row, of the column's kind; nothing where it isn't known.
 using Cell = std::variant<std::monostate, std::int64_t, double, bool, std::string>;
@@ -114,6 +116,17 @@ ColumnOf<Row> columnOf(
       columnOf<Row>(std::move(name), std::move(unit), std::move(meaning), std::move(of));
   column.column.decimals = decimals;
   return column;
+}
+
+// A column of numbers as they are, -0 too; nothing where one isn't finite.
+template <typename Row, typename Of>
+ColumnOf<Row> finiteColumn(
+    std::string name, std::string unit, std::string meaning, Of of, int decimals = -1) {
+  return {{std::move(name), CellKind::kNumber, std::move(unit), std::move(meaning), decimals},
+          [of = std::move(of)](const Row& row) -> Cell {
+            const double value = std::invoke(of, row);
+            return std::isfinite(value) ? Cell(value) : Cell();
+          }};
 }
 
 template <typename Row>

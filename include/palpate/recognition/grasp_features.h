@@ -41,6 +41,8 @@ std::vector<std::string> featureNames(FeatureSet set, const HandDescription& han
 // Unit of a feature of a set: "mm", "deg", "taxels", "full scale"; empty for a number without unit,
 // such as a logarithm or a share, and for a name that the set doesn't have.
 std::string_view featureUnit(FeatureSet set, std::string_view name) noexcept;
+// What it is, in a few words; empty for a name that the set doesn't have.
+std::string featureMeaning(FeatureSet set, std::string_view name);
 // Warning, one line, to be shown wherever the set `session` is chosen.
 std::string_view sessionSetWarning() noexcept;
 

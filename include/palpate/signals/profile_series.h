@@ -59,6 +59,9 @@ std::optional<SeriesColumn> columnOf(const Profile& profile, const SeriesChoice&
 // The value in a sample: NaN where it is not known, as a temperature that is exactly 0.
 double valueIn(const Sample& sample, const SeriesColumn& column);
 
+// Its unit: "counts", "taxels", "deg"; empty for a formula, and for a column without one.
+std::string seriesUnit(const Profile& profile, const SeriesChoice& choice);
+
 // Times [s] and values of a time series.
 struct Series {
   std::vector<double> timeS;  // ascending

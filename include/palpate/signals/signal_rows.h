@@ -28,6 +28,7 @@ struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
   Recipe filters = {};                      // of the frames, first
   Recipe smooth = {};                       // of the signals, over time
+  bool centres = false;                     // instead: centres of force (signals/centre_rows.h)
   bool unitsRow = false;                    // of CSV: a second row with the units
   TimeChoice times = TimeChoice::kArrival;  // of the frames, before the filters
 };
