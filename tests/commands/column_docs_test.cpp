@@ -67,8 +67,13 @@ TEST(ColumnDocs, ThePageOfColumnsIsWhatTheProgramPrints) {
 TEST(ColumnDocs, EveryColumnHasAMeaningAndItsUnit) {
   const auto printed = palpate({"help", "columns"});
   std::istringstream lines(printed.out);
-  const std::map<std::string, std::string> units = {
-      {"_mm", "mm"}, {"_s", "s"}, {"_ms", "ms"}, {"_deg", "deg"}, {"_hz", "Hz"}, {"_n", "N"}, {"_kpa", "kPa"}};
+  const std::map<std::string, std::string> units = {{"_mm", "mm"},
+                                                    {"_s", "s"},
+                                                    {"_ms", "ms"},
+                                                    {"_deg", "deg"},
+                                                    {"_hz", "Hz"},
+                                                    {"_n", "N"},
+                                                    {"_kpa", "kPa"}};
   const std::regex row("\\| `(.*)` \\| (.*) \\| (integer|number|flag|text) \\| (.*) \\|");
   std::size_t columns = 0;
   for (std::string line; std::getline(lines, line);) {

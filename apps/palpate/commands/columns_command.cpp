@@ -62,9 +62,10 @@ std::vector<ShownTable> shownTables() {
   add("derive", curveTable({{"FORMULA"}}, 1, 0));
   add("compare", comparisonTable(timed, timed, 0.0));
   add("compare --average", averageTable({}, {}, {}, {}));
-  add("spectrum", spectraTable(std::make_unique<SpectrumRun>(std::span<const double>(),
-                                                             std::span<const double>()),
-                               unit));
+  add("spectrum",
+      spectraTable(
+          std::make_unique<SpectrumRun>(std::span<const double>(), std::span<const double>()),
+          unit));
   add("spectrum --welch", meanSpectrumTable({}, unit));
   add("spectrum --peaks", peakTable({}, unit));
   add("spectrum --coherence", coherenceTable({}, unit, unit));

@@ -49,8 +49,7 @@ std::unique_ptr<ResultTable> contactOfRecording(const CommandLine& given,
                                                 const std::filesystem::path& file,
                                                 const Recording& recording,
                                                 const Progress& progress) {
-  const Profile profile =
-      filteredBy(request.filters, recording, file, partOf(progress, 0.0, 0.3));
+  const Profile profile = filteredBy(request.filters, recording, file, partOf(progress, 0.0, 0.3));
   requireWithinFullScale("threshold", request.rows.contact.threshold, profile.hand());
   ContactRowsOptions rows = request.rows;
   const bool isRigid = profile.hand().axes.empty();
@@ -67,8 +66,7 @@ std::unique_ptr<ResultTable> contactOfRecording(const CommandLine& given,
       return ForceReading{knownForceN(pressures), isOnlyTooLight(pressures)};
     };
   }
-  return contactTable(
-      profile, geometryOf(given, file, profile), rows, partOf(progress, 0.3, 1.0));
+  return contactTable(profile, geometryOf(given, file, profile), rows, partOf(progress, 0.3, 1.0));
 }
 
 }  // namespace
@@ -107,20 +105,19 @@ int contactCommand(const Arguments& words) {
                          .frames = frameChoiceOf(given),
                          .calibration = calibrationGiven(given)};
   request.rows.matrices = given.has("matrices");
-  request.rows.contact = {.threshold =
-                              given.number("threshold", 0.0, kLargestFullScale).value_or(0.0),
-                          .spheres = !request.rows.matrices};
+  request.rows.contact = {
+      .threshold = given.number("threshold", 0.0, kLargestFullScale).value_or(0.0),
+      .spheres = !request.rows.matrices};
   if (request.calibration && request.rows.matrices)
     throw UsageError(
         "--calibration fills force_n of frames; forces of matrices: palpate calibrate apply");
-  return runTableCommand(
-      given,
-      {.options = "contact" + choicesText(given),
-       .of = [&](const std::filesystem::path& file,
-                 const Recording& recording,
-                 const Progress& progress) {
-         return contactOfRecording(given, request, file, recording, progress);
-       }});
+  return runTableCommand(given,
+                         {.options = "contact" + choicesText(given),
+                          .of = [&](const std::filesystem::path& file,
+                                    const Recording& recording,
+                                    const Progress& progress) {
+                            return contactOfRecording(given, request, file, recording, progress);
+                          }});
 }
 
 }  // namespace palpate::commands

@@ -167,17 +167,17 @@ int runTableCommand(const CommandLine& given, const RecordingTable& table) {
   chosen.unitsRow = given.has("units-row");
   if (const auto which = given.choice("time-column", {"s", "utc"})) {
     chosen.options += "; time-column " + *which;
-    chosen.of = [&given, of = table.of](const auto& file, const auto& recording, const auto& shown) {
+    chosen.of = [&given, of = table.of](
+                    const auto& file, const auto& recording, const auto& shown) {
       return withTimeColumn(given, file, recording, of(file, recording, shown));
     };
   }
   if (given.has("output"))
     return runBatchCommand(given, batchTemplateOf(given, {".csv", ".json"}), tableTask(chosen));
   refuseBatchOptions(given);
-  return writeTables(
-      recordingsIn(given.words()),
-      given.quiet(),
-      {.of = chosen.of, .text = tableTextOf(given), .readable = table.readable});
+  return writeTables(recordingsIn(given.words()),
+                     given.quiet(),
+                     {.of = chosen.of, .text = tableTextOf(given), .readable = table.readable});
 }
 
 }  // namespace palpate::commands
