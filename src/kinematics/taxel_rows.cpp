@@ -6,8 +6,8 @@
 namespace palpate {
 
 std::vector<PlacedTaxel> taxelPlaces(const HandPose& pose,
-                                    const SensorLayout& layout,
-                                    std::optional<std::size_t> matrix) {
+                                     const SensorLayout& layout,
+                                     std::optional<std::size_t> matrix) {
   std::vector<PlacedTaxel> places;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m)
     for (int y = 0; y < layout.matrix(m).rows && matrix.value_or(m) == m; ++y)

@@ -77,16 +77,59 @@ double matrixFrames(const GhostRow& row) {
 std::vector<ColumnOf<GhostRow>> figureColumns(bool emulated) {
   using Row = GhostRow;
   std::vector<ColumnOf<Row>> columns = {
-      figure("false_per_frame", "active taxels that nothing touches, per frame", [](const Row& row) { return per(row.report.total().falseTaxels.before, row.report.frames); }, "taxels"),
-      figure("false_per_frame_after", "active taxels that nothing touches, per frame, after the filters", [](const Row& row) { return per(row.report.total().falseTaxels.after, row.report.frames); }, "taxels"),
-      figure("false_removed", "part of them that the filters remove, 0 to 1", [](const Row& row) { return row.report.total().falseTaxels.fractionRemoved(); }),
-      figure("scattered_per_frame", "the false ones without matrices that are active as a whole, per frame", [](const Row& row) { return per(row.report.total().scattered.before, row.report.frames); }, "taxels"),
-      figure("scattered_per_frame_after", "the false ones without matrices that are active as a whole, per frame, after the filters", [](const Row& row) { return per(row.report.total().scattered.after, row.report.frames); }, "taxels"),
-      figure("scattered_removed", "part of them that the filters remove, 0 to 1", [](const Row& row) { return row.report.total().scattered.fractionRemoved(); }),
-      figure("frames_false", "part of the frames with a false taxel, 0 to 1", [](const Row& row) { return per(row.report.framesWithFalse.before, row.report.frames); }),
-      figure("frames_false_after", "part of the frames with a false taxel, 0 to 1, after the filters", [](const Row& row) { return per(row.report.framesWithFalse.after, row.report.frames); }),
-      figure("whole_matrix", "part of the matrices of which over a quarter is active, 0 to 1", [](const Row& row) { return per(static_cast<double>(row.report.total().framesWhole.before), matrixFrames(row)); }),
-      figure("whole_matrix_after", "part of the matrices of which over a quarter is active, 0 to 1, after the filters", [](const Row& row) { return per(static_cast<double>(row.report.total().framesWhole.after), matrixFrames(row)); })};
+      figure(
+          "false_per_frame",
+          "active taxels that nothing touches, per frame",
+          [](const Row& row) {
+            return per(row.report.total().falseTaxels.before, row.report.frames);
+          },
+          "taxels"),
+      figure(
+          "false_per_frame_after",
+          "active taxels that nothing touches, per frame, after the filters",
+          [](const Row& row) {
+            return per(row.report.total().falseTaxels.after, row.report.frames);
+          },
+          "taxels"),
+      figure("false_removed",
+             "part of them that the filters remove, 0 to 1",
+             [](const Row& row) { return row.report.total().falseTaxels.fractionRemoved(); }),
+      figure(
+          "scattered_per_frame",
+          "the false ones without matrices that are active as a whole, per frame",
+          [](const Row& row) {
+            return per(row.report.total().scattered.before, row.report.frames);
+          },
+          "taxels"),
+      figure(
+          "scattered_per_frame_after",
+          "the false ones without matrices that are active as a whole, per frame, after the "
+          "filters",
+          [](const Row& row) { return per(row.report.total().scattered.after, row.report.frames); },
+          "taxels"),
+      figure("scattered_removed",
+             "part of them that the filters remove, 0 to 1",
+             [](const Row& row) { return row.report.total().scattered.fractionRemoved(); }),
+      figure(
+          "frames_false",
+          "part of the frames with a false taxel, 0 to 1",
+          [](const Row& row) { return per(row.report.framesWithFalse.before, row.report.frames); }),
+      figure(
+          "frames_false_after",
+          "part of the frames with a false taxel, 0 to 1, after the filters",
+          [](const Row& row) { return per(row.report.framesWithFalse.after, row.report.frames); }),
+      figure("whole_matrix",
+             "part of the matrices of which over a quarter is active, 0 to 1",
+             [](const Row& row) {
+               return per(static_cast<double>(row.report.total().framesWhole.before),
+                          matrixFrames(row));
+             }),
+      figure("whole_matrix_after",
+             "part of the matrices of which over a quarter is active, 0 to 1, after the filters",
+             [](const Row& row) {
+               return per(static_cast<double>(row.report.total().framesWhole.after),
+                          matrixFrames(row));
+             })};
   if (!emulated) return columns;
   columns.push_back(figure("touched_removed",
                            "part of the touched taxels that the filters remove, 0 to 1",
@@ -107,10 +150,9 @@ std::vector<ColumnOf<GhostRow>> figureColumns(bool emulated) {
     return row.report.contacts.size();
   }));
   columns.push_back(
-      columnOf<Row>("contacts_hidden",
-                    "",
-                    "contacts that the filters remove",
-                    [](const Row& row) { return row.report.hidden(); }));
+      columnOf<Row>("contacts_hidden", "", "contacts that the filters remove", [](const Row& row) {
+        return row.report.hidden();
+      }));
   columns.push_back(figure(
       "delay_mean_frames",
       "frames by which a contact is seen later, mean",
@@ -176,8 +218,8 @@ std::unique_ptr<ResultTable> ghostTable(bool emulated,
       return row.source.degC;
     }));
   else
-    columns.push_back(columnOf<Row>(
-        "file", "", "the recording", [](const Row& row) { return row.source.file; }));
+    columns.push_back(
+        columnOf<Row>("file", "", "the recording", [](const Row& row) { return row.source.file; }));
   columns.push_back(columnOf<Row>("below_counts",
                                   "counts",
                                   "how far the thresholds are below the noise floor",
@@ -185,14 +227,14 @@ std::unique_ptr<ResultTable> ghostTable(bool emulated,
   columns.push_back(columnOf<Row>(
       "frames", "", "number of frames", [](const Row& row) { return row.report.frames; }));
   for (ColumnOf<Row>& each : figureColumns(emulated)) columns.push_back(std::move(each));
-  columns.push_back(columnOf<Row>("causal",
-                                  "",
-                                  "whether the filters need no later frame",
-                                  [](const Row& row) { return row.recipe.causal(); }));
-  columns.push_back(columnOf<Row>("latency_frames",
-                                  "frames",
-                                  "delay of the filters themselves",
-                                  [](const Row& row) { return row.report.latencyFrames; }));
+  columns.push_back(
+      columnOf<Row>("causal", "", "whether the filters need no later frame", [](const Row& row) {
+        return row.recipe.causal();
+      }));
+  columns.push_back(columnOf<Row>(
+      "latency_frames", "frames", "delay of the filters themselves", [](const Row& row) {
+        return row.report.latencyFrames;
+      }));
   columns.push_back(figure(
       "cost_us",
       "mean time that the filters take per frame",

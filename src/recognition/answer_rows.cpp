@@ -51,12 +51,10 @@ std::unique_ptr<ResultTable> answerTable(const TrainedModel& model,
     rows.push_back({table.rows[i], predictions[i], labelOf(model, predictions[i].label)});
   AnswerColumns columns = graspColumns();
   appendAnswer(columns);
-  columns.push_back(columnOf<Answer>("membership",
-                                     "",
-                                     "whether the object is a class of the model",
-                                     [](const Answer& row) {
-                                       return membershipName(row.prediction.membership);
-                                     }));
+  columns.push_back(columnOf<Answer>(
+      "membership", "", "whether the object is a class of the model", [](const Answer& row) {
+        return membershipName(row.prediction.membership);
+      }));
   return std::make_unique<RowTable<Answer>>("answers", std::move(columns), std::move(rows));
 }
 
@@ -77,10 +75,10 @@ std::unique_ptr<ResultTable> verdictTable(const ModelEvaluation& evaluation,
   AnswerColumns columns = graspColumns();
   columns.push_back(columnOf<Answer>("class", "", "what is held", &Answer::truth));
   appendAnswer(columns);
-  columns.push_back(finiteColumn<Answer>("novelty",
-                                         "",
-                                         "distance from the grasps of the training",
-                                         [](const Answer& row) { return row.prediction.novelty; }));
+  columns.push_back(finiteColumn<Answer>(
+      "novelty", "", "distance from the grasps of the training", [](const Answer& row) {
+        return row.prediction.novelty;
+      }));
   columns.push_back(
       columnOf<Answer>("session", "", "number of the session, from 0", &Answer::session));
   return std::make_unique<RowTable<Answer>>("verdicts", std::move(columns), std::move(rows));

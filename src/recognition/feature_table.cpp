@@ -234,11 +234,10 @@ std::unique_ptr<ResultTable> featureTable(FeatureTable table) {
       columnOf<Row>("initial_frame", "", "first frame that the features use", &Row::initialFrame),
       columnOf<Row>("end_frame", "", "last frame that the features use", &Row::endFrame)};
   for (std::size_t i = 0; i < table.names.size(); ++i)
-    columns.push_back(
-        columnOf<Row>(table.names[i],
-                      std::string(featureUnit(table.set, table.names[i])),
-                      featureMeaning(table.set, table.names[i]),
-                      [i](const Row& row) { return row.values[i]; }));
+    columns.push_back(columnOf<Row>(table.names[i],
+                                    std::string(featureUnit(table.set, table.names[i])),
+                                    featureMeaning(table.set, table.names[i]),
+                                    [i](const Row& row) { return row.values[i]; }));
   return std::make_unique<RowTable<Row>>("features", std::move(columns), std::move(table.rows));
 }
 

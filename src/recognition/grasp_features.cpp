@@ -130,7 +130,8 @@ std::string featureMeaning(FeatureSet set, std::string_view name) {
     const std::string meaning = found(meanings, tail);
     return meaning.empty() ? meaning : meaning + ", matrix " + std::string(head.substr(1));
   };
-  if (set == FeatureSet::kStatistics) return isOfMatrix ? ofMatrix(kOfMatrix) : found(kOfHand, name);
+  if (set == FeatureSet::kStatistics)
+    return isOfMatrix ? ofMatrix(kOfMatrix) : found(kOfHand, name);
   if (set == FeatureSet::kStudy) {
     if (head == "std")
       return "standard deviation of the active taxels in end_frame, matrix " + std::string(tail);

@@ -40,30 +40,29 @@ std::vector<std::size_t> rowsFrom(std::size_t first, std::size_t end) {
 
 std::vector<ColumnOf<ComparedMatrix>> comparisonColumns(const std::string& unit) {
   using Row = ComparedMatrix;
-  return {
-      finiteColumn<Row>(
-          "time_s",
-          "s",
-          "time from the first frame of A",
-          [](const Row& row) { return row.pair.timeS; },
-          kMicroseconds),
-      columnOf<Row>(
-          "frame_a", "", "frame of A, from 0", [](const Row& row) { return row.pair.frameA; }),
-      columnOf<Row>("frame_b",
-                    "",
-                    "frame of B at that time, from 0",
-                    [](const Row& row) { return row.pair.frameB; }),
-      columnOf<Row>("matrix", "", "number of the matrix, from 0", &Row::matrix),
-      columnOf<Row>("mean_a", unit, "mean of the touched taxels in A", &Row::meanA),
-      columnOf<Row>("mean_b", unit, "mean of the touched taxels in B", &Row::meanB),
-      columnOf<Row>("difference_mean",
-                    unit,
-                    "mean of A - B over the taxels that are touched in either",
-                    [](const Row& row) { return row.difference.mean; }),
-      columnOf<Row>("difference_rms",
-                    unit,
-                    "root of the mean square of A - B over these",
-                    [](const Row& row) { return row.difference.rms; })};
+  return {finiteColumn<Row>(
+              "time_s",
+              "s",
+              "time from the first frame of A",
+              [](const Row& row) { return row.pair.timeS; },
+              kMicroseconds),
+          columnOf<Row>(
+              "frame_a", "", "frame of A, from 0", [](const Row& row) { return row.pair.frameA; }),
+          columnOf<Row>("frame_b",
+                        "",
+                        "frame of B at that time, from 0",
+                        [](const Row& row) { return row.pair.frameB; }),
+          columnOf<Row>("matrix", "", "number of the matrix, from 0", &Row::matrix),
+          columnOf<Row>("mean_a", unit, "mean of the touched taxels in A", &Row::meanA),
+          columnOf<Row>("mean_b", unit, "mean of the touched taxels in B", &Row::meanB),
+          columnOf<Row>("difference_mean",
+                        unit,
+                        "mean of A - B over the taxels that are touched in either",
+                        [](const Row& row) { return row.difference.mean; }),
+          columnOf<Row>("difference_rms",
+                        unit,
+                        "root of the mean square of A - B over these",
+                        [](const Row& row) { return row.difference.rms; })};
 }
 
 }  // namespace
@@ -72,10 +71,8 @@ std::unique_ptr<ResultTable> curveTable(std::vector<NamedCurve> curves,
                                         std::size_t first,
                                         std::size_t last) {
   std::vector<ColumnOf<std::size_t>> columns = {
-      columnOf<std::size_t>("frame",
-                            "",
-                            "number of the frame, from 0",
-                            [](std::size_t row) { return row; }),
+      columnOf<std::size_t>(
+          "frame", "", "number of the frame, from 0", [](std::size_t row) { return row; }),
       listColumn("time_s",
                  "s",
                  "time from the first frame",

@@ -43,13 +43,12 @@ std::unique_ptr<ResultTable> spectraTable(std::unique_ptr<SpectrumRun> run,
   using Line = SpectrumLine;
   return std::make_unique<RowTable<Line>>(
       "spectra",
-      LineColumns{
-          columnOf<Line>("segment", "", "number of the segment, from 0", &Line::segment),
-          finiteColumn<Line>(
-              "time_s", "s", "middle of the segment, from the first frame", &Line::timeS),
-          frequencyColumn(),
-          valueColumn("psd", densityUnit(unit), kDensity, 0),
-          valueColumn("magnitude", unit, kMagnitude, 1)},
+      LineColumns{columnOf<Line>("segment", "", "number of the segment, from 0", &Line::segment),
+                  finiteColumn<Line>(
+                      "time_s", "s", "middle of the segment, from the first frame", &Line::timeS),
+                  frequencyColumn(),
+                  valueColumn("psd", densityUnit(unit), kDensity, 0),
+                  valueColumn("magnitude", unit, kMagnitude, 1)},
       [run = std::shared_ptr<SpectrumRun>(std::move(run)), progress](std::vector<Line>& lines) {
         SpectrumSegment at;
         if (!run->next(at, progress)) return false;
@@ -84,8 +83,10 @@ std::unique_ptr<ResultTable> peakTable(std::vector<SpectralPeak> peaks, const st
           finiteColumn<Peak>("psd", densityUnit(unit), "density there", &Peak::psd),
           finiteColumn<Peak>("amplitude", unit, "of a tone with this peak", &Peak::amplitude),
           finiteColumn<Peak>("width_hz", "Hz", "full width at half of the density", &Peak::widthHz),
-          finiteColumn<Peak>(
-              "prominence_db", "dB", "height above the higher valley beside it", &Peak::prominenceDb)},
+          finiteColumn<Peak>("prominence_db",
+                             "dB",
+                             "height above the higher valley beside it",
+                             &Peak::prominenceDb)},
       std::move(peaks));
 }
 

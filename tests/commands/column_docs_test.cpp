@@ -58,16 +58,21 @@ TEST(ColumnDocs, EveryColumnIsDefinedInItsSection) {
 TEST(ColumnDocs, ThePageOfColumnsIsWhatTheProgramPrints) {
   const auto printed = palpate({"help", "columns"});
   ASSERT_EQ(printed.exitCode, 0) << printed.err;
-  EXPECT_EQ(testing::readFile(testing::dataFolder().parent_path() / "docs/columns.md"), printed.out)
-      << "make it anew: palpate help columns > docs/columns.md";
+  EXPECT_EQ(testing::readFile(testing::dataFolder().parent_path() / "docs/manual/tables.md"), printed.out)
+      << "make it anew: palpate help columns > docs/manual/tables.md";
 }
 
 // Every column says what it means, and a number with a unit in its name has that unit.
 TEST(ColumnDocs, EveryColumnHasAMeaningAndItsUnit) {
   const auto printed = palpate({"help", "columns"});
   std::istringstream lines(printed.out);
-  const std::map<std::string, std::string> units = {
-      {"_mm", "mm"}, {"_s", "s"}, {"_ms", "ms"}, {"_deg", "deg"}, {"_hz", "Hz"}, {"_n", "N"}, {"_kpa", "kPa"}};
+  const std::map<std::string, std::string> units = {{"_mm", "mm"},
+                                                    {"_s", "s"},
+                                                    {"_ms", "ms"},
+                                                    {"_deg", "deg"},
+                                                    {"_hz", "Hz"},
+                                                    {"_n", "N"},
+                                                    {"_kpa", "kPa"}};
   const std::regex row("\\| `(.*)` \\| (.*) \\| (integer|number|flag|text) \\| (.*) \\|");
   std::size_t columns = 0;
   for (std::string line; std::getline(lines, line);) {

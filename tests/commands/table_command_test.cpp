@@ -1,5 +1,5 @@
-// What all commands with tables have in common: -o, --units-row, --json, --time-column, and the exit
-// code of the same mistake.
+// What all commands with tables have in common: -o, --units-row, --json, --time-column, and the
+// exit code of the same mistake.
 #include <string>
 #include <vector>
 
@@ -69,12 +69,12 @@ TEST(TableCommands, TheSameMistakeHasTheSameExitCode) {
 TEST(TableCommands, WriteFilesByTheirEnding) {
   const testing::TemporaryFolder folder;
   const std::string file = testing::dataFolder() / "demo_grasps.dsa";
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"signals", "RECORDING", "--centre"},
-           {"grasps", "RECORDING"},
-           {"derive", "RECORDING", "m1_mean"},
-           {"compare", "RECORDING", "RECORDING"},
-           {"kinematics", "--angles", "0,0,0,0,0,0,0"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"signals", "RECORDING", "--centre"},
+                                             {"grasps", "RECORDING"},
+                                             {"derive", "RECORDING", "m1_mean"},
+                                             {"compare", "RECORDING", "RECORDING"},
+                                             {"kinematics", "--angles", "0,0,0,0,0,0,0"}}) {
     SCOPED_TRACE(words.front());
     const std::string csv = folder / (words.front() + ".csv");
     const std::string json = folder / (words.front() + ".json");

@@ -35,12 +35,14 @@ std::string textOf(TimeColumn which) {
 TEST(TimeColumns, StandBehindTheMilliseconds) {
   EXPECT_EQ(textOf(TimeColumn::kSeconds),
             "frame,time_ms,time_s,matrix\n,ms,s,\n1,1400000000031,0.031250,3\n");
-  EXPECT_EQ(textOf(TimeColumn::kUtc),
-            "frame,time_ms,time_utc,matrix\n,ms,,\n1,1400000000031,2014-05-13T16:53:20.031250Z,3\n");
+  EXPECT_EQ(
+      textOf(TimeColumn::kUtc),
+      "frame,time_ms,time_utc,matrix\n,ms,,\n1,1400000000031,2014-05-13T16:53:20.031250Z,3\n");
 }
 
 TEST(TimeColumns, NeedATime) {
-  auto none = std::make_unique<RowTable<int>>("none", std::vector<ColumnOf<int>>(), std::vector<int>());
+  auto none =
+      std::make_unique<RowTable<int>>("none", std::vector<ColumnOf<int>>(), std::vector<int>());
   EXPECT_THROW(withTimeColumns(std::move(none), twoFrames(), TimeColumn::kUtc),
                std::invalid_argument);
 }

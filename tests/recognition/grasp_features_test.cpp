@@ -66,6 +66,15 @@ TEST(GraspFeatures, HaveUnits) {
   EXPECT_EQ(featureUnit(FeatureSet::kStudy, "diameter"), "mm");
   EXPECT_EQ(featureUnit(FeatureSet::kStudy, "std_5"), "full scale");
   EXPECT_EQ(featureUnit(FeatureSet::kStudy, "m1_T00"), "");
+  EXPECT_EQ(featureMeaning(FeatureSet::kStudy, "m1_T02"),
+            "Chebyshev moment of order 0 along x, 2 along y, matrix 1");
+  EXPECT_EQ(featureMeaning(FeatureSet::kSession, "angle_5"),
+            "angle of axis 5, median over the plateau");
+  EXPECT_EQ(featureMeaning(FeatureSet::kBest, "other"), "");
+  for (const FeatureSet set :
+       {FeatureSet::kStudy, FeatureSet::kBest, FeatureSet::kSession, FeatureSet::kStatistics})
+    for (const std::string& name : featureNames(set, sdh2()))
+      EXPECT_NE(featureMeaning(set, name), "") << name;
 }
 
 TEST(GraspFeatures, KeepTheQualityOfTheGrasp) {

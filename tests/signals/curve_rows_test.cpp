@@ -1,6 +1,7 @@
 // Tables of curves, spectra and centres of force.
 #include "palpate/signals/curve_rows.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -20,8 +21,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::string textOf(std::unique_ptr<ResultTable> table, bool unitsRow = false) {
   std::string text;
-  writeTableText(
-      *table, {.unitsRow = unitsRow}, [&](const std::string& lines) { text += lines; });
+  writeTableText(*table, {.unitsRow = unitsRow}, [&](const std::string& lines) { text += lines; });
   return text;
 }
 
@@ -88,8 +88,9 @@ TEST(CentreRows, WeighThePlacesByTheValues) {
   EXPECT_NEAR(centre->xMm, 2.75 * 3.4, 1e-9);
   EXPECT_FALSE(forceCentre(touched().frame(1), 0));
   const std::string text = textOf(centreTable(touched()), true);
-  EXPECT_TRUE(text.starts_with("frame,time_ms,matrix,sum,x,y,x_mm,y_mm\n"
-                               ",ms,,counts,taxels,taxels,mm,mm\n1,1500,1,40,2.75,8.5,"))
+  EXPECT_TRUE(
+      text.starts_with("frame,time_ms,matrix,sum,x,y,x_mm,y_mm\n"
+                       ",ms,,counts,taxels,taxels,mm,mm\n1,1500,1,40,2.75,8.5,"))
       << text;
   EXPECT_EQ(textOf(centreTable(touched(), 0)), "frame,time_ms,matrix,sum,x,y,x_mm,y_mm\n");
 }

@@ -92,13 +92,13 @@ int calibrateApply(const Arguments& words) {
     for (std::vector<Row> rows; more(rows);) rows.clear();
   } else {
     StandardOutput out;
-    writeTableText(*withTimeColumn(given,
-                                   file,
-                                   recording,
-                                   std::make_unique<RowTable<Row>>(
-                                       "pressures", pressureColumns(), more)),
-                   text,
-                   [&](const std::string& lines) { out.write(lines); });
+    writeTableText(
+        *withTimeColumn(given,
+                        file,
+                        recording,
+                        std::make_unique<RowTable<Row>>("pressures", pressureColumns(), more)),
+        text,
+        [&](const std::string& lines) { out.write(lines); });
     out.finish();
   }
   progress.wipe();

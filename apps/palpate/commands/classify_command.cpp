@@ -61,9 +61,9 @@ int classifyCommand(const Arguments& words) {
            "over all possible offsets\n  batch  estimated from all grasps of this call, without "
            "labels; of fewer than two different objects it warns, and no answer is sure\n  MM     "
            "the hand reads sizes larger by this many mm",
-       .options = withOneTableOptions(
-           {{"session-offset", "WHICH", "model (default), none, batch, or mm"}},
-           "one JSON object instead of lines"),
+       .options =
+           withOneTableOptions({{"session-offset", "WHICH", "model (default), none, batch, or mm"}},
+                               "one JSON object instead of lines"),
        .example = "palpate classify objects.json grasp.dsa --json --session-offset batch",
        .minArguments = 2},
       words);

@@ -1,4 +1,4 @@
-// `palpate help columns` prints every column of every result table, as the page docs/columns.md.
+// `palpate help columns` prints every column of every result table, as the page docs/manual/tables.md.
 #include <memory>
 #include <span>
 #include <string>
@@ -62,9 +62,10 @@ std::vector<ShownTable> shownTables() {
   add("derive", curveTable({{"FORMULA"}}, 1, 0));
   add("compare", comparisonTable(timed, timed, 0.0));
   add("compare --average", averageTable({}, {}, {}, {}));
-  add("spectrum", spectraTable(std::make_unique<SpectrumRun>(std::span<const double>(),
-                                                             std::span<const double>()),
-                               unit));
+  add("spectrum",
+      spectraTable(
+          std::make_unique<SpectrumRun>(std::span<const double>(), std::span<const double>()),
+          unit));
   add("spectrum --welch", meanSpectrumTable({}, unit));
   add("spectrum --peaks", peakTable({}, unit));
   add("spectrum --coherence", coherenceTable({}, unit, unit));

@@ -199,8 +199,8 @@ int writeAverage(const CommandLine& given) {
   NamedCurves all;
   for (const std::string& file : given.words()) addCurvesOf(given, file, all);
   const AverageCurve average = averageCurve(all.curves, options);
-  return writeTable(
-      given, *averageTable(average, options, all.curves, shownNames(given.words(), all)));
+  return writeTable(given,
+                    *averageTable(average, options, all.curves, shownNames(given.words(), all)));
 }
 
 }  // namespace

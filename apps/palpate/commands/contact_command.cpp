@@ -111,14 +111,13 @@ int contactCommand(const Arguments& words) {
   if (request.calibration && request.rows.matrices)
     throw UsageError(
         "--calibration fills force_n of frames; forces of matrices: palpate calibrate apply");
-  return runTableCommand(
-      given,
-      {.options = "contact" + choicesText(given),
-       .of = [&](const std::filesystem::path& file,
-                 const Recording& recording,
-                 const Progress& progress) {
-         return contactOfRecording(given, request, file, recording, progress);
-       }});
+  return runTableCommand(given,
+                         {.options = "contact" + choicesText(given),
+                          .of = [&](const std::filesystem::path& file,
+                                    const Recording& recording,
+                                    const Progress& progress) {
+                            return contactOfRecording(given, request, file, recording, progress);
+                          }});
 }
 
 }  // namespace palpate::commands

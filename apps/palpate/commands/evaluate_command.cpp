@@ -297,7 +297,8 @@ int evaluateCommand(const Arguments& words) {
            "within the recordings: they don't show the accuracy in another session.\n\nWith "
            "--model it tests the model on other recordings. The candidates are all classes of the "
            "model; the answer unknown counts as wrong. Grasps more than 8 hours apart are "
-           "different sessions, and each session has its own offset.\n\nWith -o OUT.csv it writes a "
+           "different sessions, and each session has its own offset.\n\nWith -o OUT.csv it writes "
+           "a "
            "table instead: the figures of each class, or with --model the answer to each grasp.",
        .options = withOutputOptions(std::move(options), "OUT.json|OUT.csv"),
        .example = "palpate evaluate recordings --set study --lda 14 --splits 50",

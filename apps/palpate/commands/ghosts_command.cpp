@@ -206,14 +206,17 @@ int ghostsCommand(const Arguments& words) {
            "contact; delay: frames from the first active taxel of a contact without filter to the "
            "first one with it; latency_frames: of the filters themselves; cost_us: mean time of "
            "the filters per frame.",
-       .options = withOneTableOptions(withFilterOptions(
-           {{"deg", "DEGC", "emulated: temperature of the hand, default 30 and 45; several times"},
-            {"below",
-             "COUNTS",
-             "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
-            {"frames", "N", "emulated: frames, default 3000"},
-            {"seed", "N", "emulated: seed of noise and contacts, default 1"},
-            {"above", "COUNTS", "a filtered value above it is active, default 0"}}),
+       .options = withOneTableOptions(
+           withFilterOptions(
+               {{"deg",
+                 "DEGC",
+                 "emulated: temperature of the hand, default 30 and 45; several times"},
+                {"below",
+                 "COUNTS",
+                 "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
+                {"frames", "N", "emulated: frames, default 3000"},
+                {"seed", "N", "emulated: seed of noise and contacts, default 1"},
+                {"above", "COUNTS", "a filtered value above it is active, default 0"}}),
            "full reports, per matrix and per contact, as one object"),
        .example = "palpate ghosts --below 5 --filter min-median:window=3,masked=1"},
       words);

@@ -25,8 +25,8 @@ int graspsCommand(const Arguments& words) {
            "taxels over the middle half of its frames (1: held steadily)\n  1, 1/2 or 1/4 if both, "
            "one or none of its ends are inside the recording (not at its first or last frame, nor "
            "beside a gap)",
-       .options =
-           withTableOptions(withFilterOptions({{"rule", "RULE", "general (default) or study"}, timeColumnOption()})),
+       .options = withTableOptions(
+           withFilterOptions({{"rule", "RULE", "general (default) or study"}, timeColumnOption()})),
        .example = "palpate grasps recordings --rule general > grasps.csv",
        .minArguments = 1},
       words);

@@ -30,16 +30,18 @@ int signalsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis =
            "palpate signals PATH... [--matrix M] [--filter SPEC..] [--smooth SPEC..] [-o TEMPLATE]",
-       .purpose = "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
-                  "minimum, maximum, sum and number of the active taxels (value > 0), their area, "
-                  "and the mean of the 3x3 Gaussian-filtered matrix over its active taxels. A "
-                  "matrix without active taxels has zeros. A sensor that sends readings with a "
-                  "sign or three components also has x, y, z, their sums over the baseline, and "
-                  "norm, the length of the three; with --filter it doesn't. PATH is a recording, "
-                  "or a folder: every recording below it. With several recordings a last column names the file; one "
-                  "that can't be read is reported, and the rows of the others are printed: exit "
-                  "code 3. With -o there is a table for each recording. With --centre a row is the centre "
-                  "of force of a matrix that is touched: sum,x,y [taxels],x_mm,y_mm.",
+       .purpose =
+           "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
+           "minimum, maximum, sum and number of the active taxels (value > 0), their area, "
+           "and the mean of the 3x3 Gaussian-filtered matrix over its active taxels. A "
+           "matrix without active taxels has zeros. A sensor that sends readings with a "
+           "sign or three components also has x, y, z, their sums over the baseline, and "
+           "norm, the length of the three; with --filter it doesn't. PATH is a recording, "
+           "or a folder: every recording below it. With several recordings a last column names the "
+           "file; one "
+           "that can't be read is reported, and the rows of the others are printed: exit "
+           "code 3. With -o there is a table for each recording. With --centre a row is the centre "
+           "of force of a matrix that is touched: sum,x,y [taxels],x_mm,y_mm.",
        .options = withTableOptions(withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
             timeOption(),

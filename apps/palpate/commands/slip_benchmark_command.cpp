@@ -44,25 +44,25 @@ Json slipBenchmarkToJson(const SlipAccuracy& accuracy) {
 int slipBenchmarkCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate slip-benchmark [--noise SD] [--edge SD] [--shape S].. [--seed N]",
-       .purpose =
-           "Measures the accuracy of every slip method on synthetic contacts whose motion "
-           "is known, and compares it with the Cramer-Rao bound. Prints JSON; docs/notes/slip.md "
-           "explains it.",
-       .options = withOutputOptions({{"noise", "SD", "standard deviation of the noise [counts], default 5"},
-                   {"edge",
-                    "SD",
-                    "standard deviation of the edges of disc, bar and flat-ellipse [taxels], "
-                    "default 0.4"},
-                   {"shape",
-                    "S",
-                    "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
-                    "default all"},
-                   {"seed", "N", "seed of noise and places, default 1"},
-                   {"trials", "N", "contacts per shape, default 8"},
-                   {"recordings",
-                    "FOLDER",
-                    "also scores alarms on real recordings: FOLDER/slip-detection slips, "
-                    "FOLDER/grasps_by_class doesn't"}}),
+       .purpose = "Measures the accuracy of every slip method on synthetic contacts whose motion "
+                  "is known, and compares it with the Cramer-Rao bound. Prints JSON; docs/notes/slip.md "
+                  "explains it.",
+       .options = withOutputOptions(
+           {{"noise", "SD", "standard deviation of the noise [counts], default 5"},
+            {"edge",
+             "SD",
+             "standard deviation of the edges of disc, bar and flat-ellipse [taxels], "
+             "default 0.4"},
+            {"shape",
+             "S",
+             "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
+             "default all"},
+            {"seed", "N", "seed of noise and places, default 1"},
+            {"trials", "N", "contacts per shape, default 8"},
+            {"recordings",
+             "FOLDER",
+             "also scores alarms on real recordings: FOLDER/slip-detection slips, "
+             "FOLDER/grasps_by_class doesn't"}}),
        .example = "palpate slip-benchmark --noise 20",
        .maxArguments = 0},
       words);

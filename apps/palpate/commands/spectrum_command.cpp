@@ -208,9 +208,9 @@ int writeMeanSpectrum(const CommandLine& given,
                   .set("peaks", peaksJson(peaks)));
     return kDone;
   }
-  writeTable(given,
-             *(given.has("peaks") ? peakTable(peaks, unit)
-                                  : meanSpectrumTable(spectrum.mean, unit)));
+  writeTable(
+      given,
+      *(given.has("peaks") ? peakTable(peaks, unit) : meanSpectrumTable(spectrum.mean, unit)));
   sayGrid(given, spectrum.report);
   return kDone;
 }
@@ -272,35 +272,38 @@ int spectrumCommand(const Arguments& words) {
            "instead, the mean over all segments: frequency_hz,psd,magnitude; with --peaks the "
            "peaks of this spectrum; with --coherence what two signals have in common: "
            "frequency_hz,coherence,phase_deg,psd_a,psd_b.",
-       .options = withOneTableOptions(withFilterOptions(withFrameOptions(
-           {{"matrix", "M", "matrix (0, 1, ..)"},
-            {"x", "X", "column of the taxel"},
-            {"y", "Y", "row of the taxel; row 0 is the fingertip"},
-            {"signal",
-             "NAME",
-             "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
-             "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
-             "m5_x2_y9, angle3, m1_sum-m3_sum"},
-            {"welch", "", "the mean over all segments as one spectrum (Welch)"},
-            {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
-            {"coherence",
-             "A,B",
-             "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
-             "m5_x2_y9,m5_x3_y9"},
-            {"window",
-             "N",
-             "samples per segment, 2..65536, default 32; 256 for --welch, --peaks, --coherence"},
-            {"overlap",
-             "N",
-             "samples shared with the next segment, default window - 1; window / 2 for --welch, "
-             "--peaks, --coherence"},
-            {"detrend",
-             "HOW",
-             "what is subtracted from each segment first: mean (default), line, none"},
-            {"rate",
-             "HOW",
-             "sampling rate after interpolation: mean (default) or median of the intervals"},
-            timeOption()})),
+       .options = withOneTableOptions(
+           withFilterOptions(withFrameOptions(
+               {{"matrix", "M", "matrix (0, 1, ..)"},
+                {"x", "X", "column of the taxel"},
+                {"y", "Y", "row of the taxel; row 0 is the fingertip"},
+                {"signal",
+                 "NAME",
+                 "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
+                 "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
+                 "m5_x2_y9, angle3, m1_sum-m3_sum"},
+                {"welch", "", "the mean over all segments as one spectrum (Welch)"},
+                {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
+                {"coherence",
+                 "A,B",
+                 "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
+                 "m5_x2_y9,m5_x3_y9"},
+                {"window",
+                 "N",
+                 "samples per segment, 2..65536, default 32; 256 for --welch, --peaks, "
+                 "--coherence"},
+                {"overlap",
+                 "N",
+                 "samples shared with the next segment, default window - 1; window / 2 for "
+                 "--welch, "
+                 "--peaks, --coherence"},
+                {"detrend",
+                 "HOW",
+                 "what is subtracted from each segment first: mean (default), line, none"},
+                {"rate",
+                 "HOW",
+                 "sampling rate after interpolation: mean (default) or median of the intervals"},
+                timeOption()})),
            "no table: rate, Nyquist, jitter, strongest line (or line and peaks) as JSON"),
        .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
        .minArguments = 1,

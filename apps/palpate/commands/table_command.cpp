@@ -170,7 +170,8 @@ int runTableCommand(const CommandLine& given, const RecordingTable& table) {
   chosen.unitsRow = given.has("units-row");
   if (const auto which = given.choice("time-column", {"s", "utc"})) {
     chosen.options += "; time-column " + *which;
-    chosen.of = [&given, of = table.of](const auto& file, const auto& recording, const auto& shown) {
+    chosen.of = [&given, of = table.of](
+                    const auto& file, const auto& recording, const auto& shown) {
       return withTimeColumn(given, file, recording, of(file, recording, shown));
     };
   }
@@ -181,10 +182,9 @@ int runTableCommand(const CommandLine& given, const RecordingTable& table) {
     return runBatchCommand(given, names, tableTask(chosen));
   }
   refuseBatchOptions(given);
-  return writeTables(
-      recordingsIn(given.words()),
-      given.quiet(),
-      {.of = chosen.of, .text = tableTextOf(given), .readable = table.readable});
+  return writeTables(recordingsIn(given.words()),
+                     given.quiet(),
+                     {.of = chosen.of, .text = tableTextOf(given), .readable = table.readable});
 }
 
 }  // namespace palpate::commands

@@ -24,8 +24,8 @@ struct PlacedTaxel {
 
 // The places of all taxels, or of those of one matrix, in wire order.
 std::vector<PlacedTaxel> taxelPlaces(const HandPose& pose,
-                                    const SensorLayout& layout,
-                                    std::optional<std::size_t> matrix = {});
+                                     const SensorLayout& layout,
+                                     std::optional<std::size_t> matrix = {});
 // The table "kinematics".
 std::unique_ptr<ResultTable> taxelTable(std::vector<PlacedTaxel> places);
 

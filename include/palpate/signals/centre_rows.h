@@ -1,4 +1,5 @@
-// The centre of force of a matrix over time as a result table. docs/commands.md explains the columns.
+// The centre of force of a matrix over time as a result table. docs/commands.md explains the
+// columns.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@ namespace palpate {
 
 // The mean place of the touched taxels, weighed by their values.
 struct ForceCentre {
-  double sum = 0.0;           // of the values, in the hand's unit
-  double x = 0.0, y = 0.0;    // column and row [taxels]
+  double sum = 0.0;             // of the values, in the hand's unit
+  double x = 0.0, y = 0.0;      // column and row [taxels]
   double xMm = 0.0, yMm = 0.0;  // on the unrolled surface, from the centre of taxel (0, 0)
 };
 // Nothing where nothing touches the matrix.
