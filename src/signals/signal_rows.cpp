@@ -16,11 +16,13 @@ class SignalRun {
  public:
   SignalRun(const Profile& profile, const SignalRowsOptions& options, Progress progress)
       : profile_(profile),
-        first_(static_cast<std::size_t>(options.matrix.value_or(0))),
-        last_(options.matrix ? first_ + 1 : profile.layout().numMatrices()),
+        ofHand_(options.ofHand),
+        first_(ofHand_ ? profile.layout().numMatrices()
+                       : static_cast<std::size_t>(options.matrix.value_or(0))),
+        last_(ofHand_ || options.matrix ? first_ + 1 : profile.layout().numMatrices()),
         progress_(std::move(progress)),
         isSmoothed_(!options.smooth.empty()),
-        filter_(options.smooth, profile.layout().numMatrices(), [this](auto timeUs, auto signals) {
+        filter_(options.smooth, profile.layout().numMatrices() + (ofHand_ ? 1 : 0), [this](auto timeUs, auto signals) {
           for (std::size_t m = first_; m < last_; ++m) add(timeUs, m, signals[m]);
           ++written_;
         }, profile.givesReadings()) {}
@@ -34,15 +36,18 @@ class SignalRun {
     }
     reportProgress(progress_, frame_, profile_.numFrames());
     profile_.readFrame(frame_++, values_);
-    const std::vector<CharacteristicSignals> signals = characteristicSignals(values_);
+    if (ofHand_)
+      allSignals(values_, signals_);
+    else
+      signals_ = characteristicSignals(values_);
     if (isSmoothed_) {
-      filter_.push(values_.hostUs, signals);
+      filter_.push(values_.hostUs, signals_);
       return true;
     }
     for (std::size_t m = first_; m < last_; ++m) {
       SignalValues row{};
       for (const SignalKind kind : signalKinds(profile_.givesReadings()))
-        row[static_cast<std::size_t>(kind)] = valueOf(signals[m], kind);
+        row[static_cast<std::size_t>(kind)] = valueOf(signals_[m], kind);
       add(values_.hostUs, m, row);
     }
     ++written_;
@@ -55,11 +60,13 @@ class SignalRun {
   }
 
   const Profile profile_;
+  const bool ofHand_;
   const std::size_t first_, last_;
   const Progress progress_;
   const bool isSmoothed_;
   SignalFilter filter_;
   TactileFrame values_;
+  std::vector<CharacteristicSignals> signals_;
   std::vector<Row>* rows_ = nullptr;
   std::size_t frame_ = 0, written_ = 0;
 };
@@ -101,7 +108,8 @@ std::unique_ptr<ResultTable> signalTable(const Profile& profile,
   if (options.smooth.dependsOnRate()) options.smooth.validateForRate(timingOf(profile).rateHz);
   return std::make_unique<RowTable<Row>>(
       "signals",
-      matrixRowColumns(signalColumns(profile.hand().unit, profile.givesReadings())),
+      matrixRowColumns(
+          signalColumns(profile.hand().unit, profile.givesReadings() && !options.ofHand)),
       [run = std::make_shared<SignalRun>(profile, options, progress)](std::vector<Row>& rows) {
         return run->next(rows);
       });

@@ -26,6 +26,7 @@ std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit,
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
+  bool ofHand = false;  // of the whole hand instead, without components; matrix: their number
   Recipe filters = {};                      // of the frames, first
   Recipe smooth = {};                       // of the signals, over time
   bool unitsRow = false;                    // of CSV: a second row with the units
