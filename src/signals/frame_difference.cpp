@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/core/error.h"
 
@@ -136,6 +137,41 @@ double FrameComparison::largest(const TactileFrame& a, const TactileFrame& b) co
   return std::abs(statistics(a, b).back().largest);
 }
 
+FramePairs::FramePairs(TimedProfile a, TimedProfile b, double offsetS, std::size_t stride)
+    : a_(std::move(a)),
+      b_(std::move(b)),
+      offsetS_(offsetS),
+      stride_(stride),
+      numFrames_(commonSpan(a_, b_, offsetS) ? a_.profile.numFrames() : 0) {
+  if (stride == 0) throw std::invalid_argument("visitFramePairs: stride must be above 0");
+}
+
+bool FramePairs::next(const Progress& progress, UnreadableSamples* unreadable) {
+  while (at_ < numFrames_) {
+    const std::size_t i = at_;
+    if (progress && visited_++ % kPairsPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(numFrames_)))
+      throw Cancelled();
+    at_ += std::min(stride_, numFrames_ - i);
+    const double timeS = a_.timeS(i);
+    const auto beside = b_.frameAt(timeS - offsetS_);
+    if (!beside) continue;
+    if (!a_.profile.readFrame(i, inA_, unreadable)) continue;
+    if (readB_ != *beside) {
+      readB_.reset();
+      UnreadableSamples ofB;
+      if (!b_.profile.readFrame(*beside, inB_, unreadable ? &ofB : nullptr)) {
+        unreadable->add(i, ofB.firstFault.c_str());
+        continue;
+      }
+      readB_ = *beside;
+    }
+    pair_ = {timeS, i, *beside};
+    return true;
+  }
+  return false;
+}
+
 void visitFramePairs(
     const TimedProfile& a,
     const TimedProfile& b,
@@ -144,33 +180,8 @@ void visitFramePairs(
     const std::function<void(const FramePair&, const TactileFrame&, const TactileFrame&)>& sink,
     const Progress& progress,
     UnreadableSamples* unreadable) {
-  if (stride == 0) throw std::invalid_argument("visitFramePairs: stride must be above 0");
-  const auto span = commonSpan(a, b, offsetS);
-  if (!span) return;
-  const std::size_t numFrames = a.profile.numFrames();
-  TactileFrame inA, inB;
-  constexpr std::size_t kNone = SIZE_MAX;
-  std::size_t readB = kNone;
-  std::size_t pairs = 0;
-  for (std::size_t i = 0; i < numFrames; i += stride) {
-    if (progress && pairs++ % kPairsPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
-      throw Cancelled();
-    const double timeS = a.timeS(i);
-    const auto beside = b.frameAt(timeS - offsetS);
-    if (!beside) continue;
-    if (!a.profile.readFrame(i, inA, unreadable)) continue;
-    if (readB != *beside) {
-      readB = kNone;
-      UnreadableSamples ofB;
-      if (!b.profile.readFrame(*beside, inB, unreadable ? &ofB : nullptr)) {
-        unreadable->add(i, ofB.firstFault.c_str());
-        continue;
-      }
-      readB = *beside;
-    }
-    sink({timeS, i, *beside}, inA, inB);
-  }
+  FramePairs pairs(a, b, offsetS, stride);
+  while (pairs.next(progress, unreadable)) sink(pairs.pair(), pairs.inA(), pairs.inB());
 }
 
 }  // namespace palpate

@@ -32,37 +32,59 @@ SpectrumReport planSpectra(std::span<const double> timeS,
   return detail::segmentPlan(timeS, values, options).report;
 }
 
+struct SpectrumRun::Impl {
+  SpectrumOptions options;
+  detail::SegmentPlan plan;
+  detail::SegmentTransformer transformer;
+  std::vector<double> grid = {};  // of the stretch
+  std::size_t stretch = 0, ofStretch = 0, done = 0;
+};
+
+SpectrumRun::SpectrumRun(std::span<const double> timeS,
+                         std::span<const double> values,
+                         const SpectrumOptions& options)
+    : impl_(new Impl{options,
+                     detail::segmentPlan(timeS, values, options),
+                     detail::SegmentTransformer(options)}) {}
+SpectrumRun::~SpectrumRun() = default;
+
+const SpectrumReport& SpectrumRun::report() const { return impl_->plan.report; }
+
+bool SpectrumRun::next(SpectrumSegment& segment, const Progress& progress) {
+  Impl& run = *impl_;
+  const SpectrumReport& report = run.plan.report;
+  if (run.done == report.segments) return false;
+  while (run.ofStretch == report.stretches[run.stretch].segments) {
+    ++run.stretch;
+    run.ofStretch = 0;
+  }
+  if (run.ofStretch == 0) run.grid = detail::onGrid(run.plan, run.stretch);
+  const GapFreeSpan& stretch = report.stretches[run.stretch];
+  const auto window = static_cast<std::size_t>(run.options.window);
+  const bool asks = window > 1024 || run.done % kSegmentsPerReport == 0;
+  if (progress && asks &&
+      !progress(static_cast<double>(run.done) / static_cast<double>(report.segments)))
+    throw Cancelled();
+  const std::size_t begin = run.ofStretch++ * report.hop;
+  run.transformer.spectra(std::span(run.grid).subspan(begin, window), stretch.rateHz);
+  const double middle = static_cast<double>(begin) + 0.5 * static_cast<double>(window);
+  segment = {.segment = run.done++,
+             .stretch = run.stretch,
+             .timeS = stretch.beginS + middle / stretch.rateHz,
+             .binHz = stretch.rateHz / static_cast<double>(window),
+             .psd = run.transformer.psd,
+             .magnitude = run.transformer.magnitude};
+  return true;
+}
+
 SpectrumReport visitSpectra(std::span<const double> timeS,
                             std::span<const double> values,
                             const SpectrumOptions& options,
                             const SpectrumSink& sink,
                             const Progress& progress) {
-  const detail::SegmentPlan plan = detail::segmentPlan(timeS, values, options);
-  const SpectrumReport& report = plan.report;
-  if (report.segments == 0) return report;
-  const auto window = static_cast<std::size_t>(options.window);
-  const auto allSegments = static_cast<double>(report.segments);
-  detail::SegmentTransformer transformer(options);
-  std::size_t done = 0;
-  for (std::size_t s = 0; s < report.stretches.size(); ++s) {
-    const GapFreeSpan& stretch = report.stretches[s];
-    if (stretch.segments == 0) continue;
-    const std::vector<double> grid = detail::onGrid(plan, s);
-    for (std::size_t i = 0; i < stretch.segments; ++i, ++done) {
-      const bool asks = window > 1024 || done % kSegmentsPerReport == 0;
-      if (progress && asks && !progress(static_cast<double>(done) / allSegments)) throw Cancelled();
-      const std::size_t begin = i * report.hop;
-      transformer.spectra(std::span(grid).subspan(begin, window), stretch.rateHz);
-      const double middle = static_cast<double>(begin) + 0.5 * static_cast<double>(window);
-      sink({.segment = done,
-            .stretch = s,
-            .timeS = stretch.beginS + middle / stretch.rateHz,
-            .binHz = stretch.rateHz / static_cast<double>(window),
-            .psd = transformer.psd,
-            .magnitude = transformer.magnitude});
-    }
-  }
-  return report;
+  SpectrumRun run(timeS, values, options);
+  for (SpectrumSegment segment; run.next(segment, progress);) sink(segment);
+  return run.report();
 }
 
 std::size_t MeanSpectrum::strongestBin() const noexcept {

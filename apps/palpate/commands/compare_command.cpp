@@ -1,6 +1,5 @@
 // The command `palpate compare A B [--align HOW]` prints two recordings side by side, frame by
 // frame, as CSV; with --average the average of a signal over grasps or recordings.
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -13,18 +12,17 @@
 #include "palpate/batch/grasp_files.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/text_table.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/average_curve.h"
-#include "palpate/signals/characteristic_signals.h"
 #include "palpate/signals/curve_comparison.h"
+#include "palpate/signals/curve_rows.h"
 #include "palpate/signals/formula.h"
-#include "palpate/signals/frame_difference.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/recording_list.h"
 #include "commands/signal_options.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -111,24 +109,6 @@ double offsetFor(const CommandLine& given, const TimedRecording& a, const TimedR
                   ": no lasting contact (3 taxels in 3 frames in a row); use --align start");
   }
   throw Error("these two recordings can't be aligned; try --align start");
-}
-
-void compareAppendRow(std::string& line,
-                      const FramePair& pair,
-                      std::size_t matrix,
-                      double meanA,
-                      double meanB,
-                      const DifferenceStatistics& difference) {
-  line += fixedText(pair.timeS, kMicroseconds);
-  for (const std::size_t whole : {pair.frameA, pair.frameB, matrix}) {
-    line += ',';
-    appendNumber(line, static_cast<std::int64_t>(whole));
-  }
-  for (const double value : {meanA, meanB, difference.mean, difference.rms}) {
-    line += ',';
-    appendNumber(line, value);
-  }
-  line += '\n';
 }
 
 AverageOptions averageOptionsOf(const CommandLine& given) {
@@ -219,29 +199,8 @@ int writeAverage(const CommandLine& given) {
   NamedCurves all;
   for (const std::string& file : given.words()) addCurvesOf(given, file, all);
   const AverageCurve average = averageCurve(all.curves, options);
-  const bool percentiles = options.band == AverageBand::kPercentiles;
-  std::vector<std::string> header = {"time_s", "curves", percentiles ? "median" : "mean"};
-  for (const auto& [sign, percent] :
-       {std::pair("low", options.lowPercent), std::pair("high", options.highPercent)})
-    header.push_back(percentiles ? "p" + numberText(percent) : std::string(sign));
-  for (const std::string& name : shownNames(given.words(), all)) header.push_back(name);
-  std::vector<std::vector<double>> columns = {average.middle, average.low, average.high};
-  for (const AlignedCurve& curve : all.curves)
-    columns.push_back(alignedValues(curve, average.timeS));
-  StandardOutput out;
-  out.write(csvLine(header));
-  std::string line;
-  for (std::size_t i = 0; i < average.timeS.size(); ++i) {
-    line = fixedText(average.timeS[i], kMicroseconds) + "," + std::to_string(average.count[i]);
-    for (const auto& column : columns) {
-      line += ',';
-      if (std::isfinite(column[i])) appendNumber(line, column[i]);
-    }
-    line += '\n';
-    out.write(line);
-  }
-  out.finish();
-  return kDone;
+  return writeTable(
+      given, *averageTable(average, options, all.curves, shownNames(given.words(), all)));
 }
 
 }  // namespace
@@ -263,7 +222,7 @@ int compareCommand(const Arguments& words) {
            "moment it prints the mean of a signal with mean -+ standard deviation (n - 1), or "
            "the median with percentiles, then the value of every grasp: "
            "time_s,curves,mean,low,high,.. The column curves tells how many have a value.",
-       .options =
+       .options = withOneTableOptions(
            {{"align", "HOW", "contact (default): first contacts; start; clock: by host time"},
             {"grasp",
              "I:J",
@@ -279,7 +238,7 @@ int compareCommand(const Arguments& words) {
             {"percentiles", "LOW,HIGH", "default 10,90"},
             {"margin", "S", "seconds before and after each grasp, default 0.5"},
             {"step", "S", "of the time base, default: the longest median interval"},
-            {"least", "N", "values that a mean needs, default 2"}},
+            {"least", "N", "values that a mean needs, default 2"}}),
        .example = "palpate compare run_1.dsa run_2.dsa > differences.csv",
        .minArguments = 1},
       words);
@@ -291,35 +250,8 @@ int compareCommand(const Arguments& words) {
   const TimedRecording a = opened(given.words()[0], given.quiet());
   const TimedRecording b = opened(given.words()[1], given.quiet());
   const double offsetS = offsetFor(given, a, b);
-  const FrameComparison comparison(a.timed.profile.hand().layout, b.timed.profile.hand().layout);
-  StandardOutput out;
-  out.write("time_s,frame_a,frame_b,matrix,mean_a,mean_b,difference_mean,difference_rms\n");
   ProgressLine progress("comparing", given.quiet());
-  std::string line;
-  std::size_t pairs = 0;
-  visitFramePairs(
-      a.timed,
-      b.timed,
-      offsetS,
-      1,
-      [&](const FramePair& pair, const TactileFrame& inA, const TactileFrame& inB) {
-        ++pairs;
-        line.clear();
-        const auto differences = comparison.statistics(inA, inB);
-        for (std::size_t m = 0; m + 1 < differences.size(); ++m) {
-          if (!comparison.compared(m)) continue;
-          const auto mean = [m](const TactileFrame& frame) {
-            return characteristicSignals(frame, m).mean;
-          };
-          compareAppendRow(line, pair, m, mean(inA), mean(inB), differences[m]);
-        }
-        out.write(line);
-      },
-      progress.callback());
-  out.finish();
-  if (pairs == 0 && !given.quiet())
-    std::fprintf(stderr, "palpate: the two have no moment in common at this alignment\n");
-  return kDone;
+  return writeTable(given, *comparisonTable(a.timed, b.timed, offsetS, progress.callback()));
 }
 
 }  // namespace palpate::commands

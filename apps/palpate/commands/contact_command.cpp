@@ -35,22 +35,9 @@ bool isOnlyTooLight(const PressureFrame& pressures) {
 struct ContactRequest {
   ContactRowsOptions rows = {};
   Recipe filters = {};
-  std::optional<std::int64_t> from = {}, to = {};
+  FrameChoice frames = {};
   std::optional<CalibrationChoice> calibration = {};
 };
-
-// First and last requested frame.
-std::pair<std::size_t, std::size_t> contactRangeOf(const std::filesystem::path& file,
-                                                   const Profile& profile,
-                                                   const ContactRequest& request) {
-  const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
-  const std::int64_t from = request.from.value_or(0), to = request.to.value_or(last);
-  if (last < 0 && !request.from && !request.to) return {1, 0};
-  if (from > last || to > last)
-    throw Error(file.string() + ": has no frame " + std::to_string(from > last ? from : to) +
-                (last < 0 ? ", it is empty" : ", only 0.." + std::to_string(last)));
-  return {static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
-}
 
 // What an unknown force means.
 constexpr const char* kOutsideText =
@@ -70,7 +57,7 @@ std::unique_ptr<ResultTable> contactOfRecording(const CommandLine& given,
   rows.anglesDeg = isRigid ? std::vector<double>() : anglesOf(given, profile.hand());
   if (profile.numAngles() == 0 && !rows.anglesDeg)
     throw Error(file.string() + ": has no joint angles; assume some with --angles A0,A1,.. [deg]");
-  std::tie(rows.first, rows.last) = contactRangeOf(file, profile, request);
+  std::tie(rows.first, rows.last) = framesOf(request.frames, file, profile);
   if (request.calibration) {
     const auto calibrated =
         std::make_shared<CalibratedFrames>(*request.calibration, file, recording, profile);
@@ -100,7 +87,7 @@ int contactCommand(const Arguments& words) {
                   "there is a row per grasp: diameter and compression of the object. PATH is a "
                   "recording, or a folder: every recording below it. With several recordings a "
                   "last column names the file. A recording without joint angles needs --angles.",
-       .options = withTableOptions(withCalibration(withFilterOptions(
+       .options = withTableOptions(withCalibration(withFilterOptions(withFrameOptions(
            {{"angles", "A0,A1,..", "assume these joint angles [deg] for all frames"},
             {"matrices", "", "a row per matrix"},
             {"size", "", "a row per grasp: diameter and compression of the object"},
@@ -109,8 +96,7 @@ int contactCommand(const Arguments& words) {
              "study|effective",
              "radius of bent fingertips: nominal (default; SDH-2: 58 mm) or effective "
              "(default of --size; 48.4 mm)"},
-            {"from", "N", "first frame, default 0"},
-            {"to", "M", "last frame (inclusive), default the last one"}}))),
+            timeColumnOption()})))),
        .example = "palpate contact foam_ball.dsa > contact.csv",
        .minArguments = 1},
       words);
@@ -118,8 +104,7 @@ int contactCommand(const Arguments& words) {
   if (given.has("size")) return contactSizes(given);
   anglesOf(given);
   ContactRequest request{.filters = recipeOf(given),
-                         .from = given.integer("from", 0, INT64_MAX),
-                         .to = given.integer("to", 0, INT64_MAX),
+                         .frames = frameChoiceOf(given),
                          .calibration = calibrationGiven(given)};
   request.rows.matrices = given.has("matrices");
   request.rows.contact = {.threshold =
@@ -128,8 +113,6 @@ int contactCommand(const Arguments& words) {
   if (request.calibration && request.rows.matrices)
     throw UsageError(
         "--calibration fills force_n of frames; forces of matrices: palpate calibrate apply");
-  if (request.from && request.to && *request.from > *request.to)
-    throw UsageError("--from is after --to");
   return runTableCommand(
       given,
       {.options = "contact" + choicesText(given),

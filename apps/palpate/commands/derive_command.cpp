@@ -1,7 +1,6 @@
 // The command `palpate derive FILE NAME=FORMULA..` prints curves that formulas make of the signals
 // of a recording as CSV.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <set>
 #include <stdexcept>
@@ -11,9 +10,8 @@
 #include "palpate/calibration/pressure_reader.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
-#include "palpate/core/number_text.h"
-#include "palpate/core/text_table.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/curve_rows.h"
 #include "palpate/signals/formula.h"
 
 #include "commands/calibrated_frames.h"
@@ -21,6 +19,7 @@
 #include "commands/commands.h"
 #include "commands/filter_options.h"
 #include "commands/recording_list.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -81,15 +80,14 @@ int deriveCommand(const Arguments& words) {
            "computed of the frames: m1_centroid_x_mm, hand_sphere_diameter_mm, m1_slip_speed_mm_s, "
            "m1_slip_mm, and with --calibration hand_force_n, m1_force_n [N], m1_pressure_kpa, "
            "m1_pressure_max_kpa. A value that isn't known is an empty cell.",
-       .options = withCalibration(withFilterOptions(
-           {{"from", "N", "first frame, default 0"},
-            {"to", "N", "last frame, inclusive"},
-            timeOption()})),
+       .options = withOneTableOptions(
+           withCalibration(withFilterOptions(withFrameOptions({timeOption()})))),
        .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",
        .minArguments = 2},
       words);
   if (given.helpShown()) return kDone;
   const Recipe recipe = recipeOf(given);
+  const FrameChoice frameChoice = frameChoiceOf(given);
   const auto calibration = calibrationGiven(given);
   const std::string& file = given.words().front();
   std::vector<NamedFormula> formulas;
@@ -106,45 +104,26 @@ int deriveCommand(const Arguments& words) {
   if (frames.numFrames() == 0) throw Error(file + ": has no frames");
   const ComputedOptions computed = computedOptions(calibration, file, recorded);
   const Profile profile = withComputedSeries(frames, computed);
-  const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
-  const auto from = static_cast<std::size_t>(given.integer("from", 0, last).value_or(0));
-  const auto to = static_cast<std::size_t>(given.integer("to", 0, last).value_or(last));
-  if (from > to) throw UsageError("--from is after --to");
+  const auto [from, to] = framesOf(frameChoice, file, profile);
   const bool unknown = calibration && sayAssumptions(computed, formulas, given.quiet());
   // The whole recording is computed, so that a slope at the ends of the part is that of its
   // neighbours.
-  std::vector<Series> curves;
-  std::vector<std::string> header = {"frame", "time_s"};
+  std::vector<NamedCurve> curves;
   for (const NamedFormula& one : formulas) {
     line.setLabel("computing " + one.name);
     try {
-      curves.push_back(formulaSeries(profile,
-                                     one.formula,
-                                     0.0,
-                                     static_cast<double>(profile.durationUs()) / 1e6 + 1.0,
-                                     line.callback()));
+      curves.push_back({one.name,
+                        formulaSeries(profile,
+                                      one.formula,
+                                      0.0,
+                                      static_cast<double>(profile.durationUs()) / 1e6 + 1.0,
+                                      line.callback())});
     } catch (const std::invalid_argument& error) {
       throw Error(file + ": " + error.what());
     }
-    header.push_back(one.name);
   }
-  StandardOutput out;
-  out.write(csvLine(header));
-  std::string text;
-  for (std::size_t i = from; i <= to; ++i) {
-    text.clear();
-    appendNumber(text, static_cast<std::int64_t>(i));
-    text += ',';
-    appendNumber(text, curves.front().timeS[i]);
-    for (const Series& curve : curves) {
-      text += ',';
-      if (std::isfinite(curve.values[i])) appendNumber(text, curve.values[i]);
-    }
-    text += '\n';
-    out.write(text);
-  }
-  out.finish();
   line.wipe();
+  writeTable(given, *curveTable(std::move(curves), from, to));
   return unknown ? kPartlyDone : kDone;
 }
 

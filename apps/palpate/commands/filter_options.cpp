@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
@@ -79,6 +80,31 @@ void takeTimes(const CommandLine& given,
   const std::string said = takeFittedTimes(recording, file, progress);
   if (given.quiet()) return;
   std::fprintf(stderr, "palpate: %s\n", escapedLine(file.string() + ": " + said).c_str());
+}
+
+std::vector<OptionSpec> withFrameOptions(std::vector<OptionSpec> options) {
+  options.push_back({"from", "N", "first frame, default 0"});
+  options.push_back({"to", "M", "last frame (inclusive), default the last one"});
+  return options;
+}
+
+FrameChoice frameChoiceOf(const CommandLine& given) {
+  const FrameChoice choice{given.integer("from", 0, INT64_MAX), given.integer("to", 0, INT64_MAX)};
+  if (choice.from && choice.to && *choice.from > *choice.to)
+    throw UsageError("--from is after --to");
+  return choice;
+}
+
+std::pair<std::size_t, std::size_t> framesOf(const FrameChoice& choice,
+                                             const std::filesystem::path& file,
+                                             const Profile& profile) {
+  const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
+  const std::int64_t from = choice.from.value_or(0), to = choice.to.value_or(last);
+  if (last < 0 && !choice.from && !choice.to) return {1, 0};
+  if (from > last || to > last)
+    throw Error(file.string() + ": has no frame " + std::to_string(from > last ? from : to) +
+                (last < 0 ? ", it is empty" : ", only 0.." + std::to_string(last)));
+  return {static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
 }
 
 Recipe recipeOf(const CommandLine& given) {

@@ -2,8 +2,11 @@
 // --signal.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <palpate/filter/recipe.h>
@@ -29,6 +32,18 @@ void takeTimes(const CommandLine& given,
                Recording& recording,
                const std::filesystem::path& file,
                const Progress& progress = {});
+
+// --from N and --to M.
+std::vector<OptionSpec> withFrameOptions(std::vector<OptionSpec> options);
+struct FrameChoice {
+  std::optional<std::int64_t> from = {}, to = {};
+};
+FrameChoice frameChoiceOf(const CommandLine& given);  // throws UsageError
+// First and last frame, both inclusive; {1, 0} of a recording without frames, where none is chosen.
+// Throws Error when the recording doesn't have a frame that is chosen.
+std::pair<std::size_t, std::size_t> framesOf(const FrameChoice& choice,
+                                             const std::filesystem::path& file,
+                                             const Profile& profile);
 
 // The recipe that the options describe; empty when there are none. Throws UsageError for an invalid
 // text and Error for an invalid file.

@@ -26,7 +26,7 @@ int graspsCommand(const Arguments& words) {
            "one or none of its ends are inside the recording (not at its first or last frame, nor "
            "beside a gap)",
        .options =
-           withTableOptions(withFilterOptions({{"rule", "RULE", "general (default) or study"}})),
+           withTableOptions(withFilterOptions({{"rule", "RULE", "general (default) or study"}, timeColumnOption()})),
        .example = "palpate grasps recordings --rule general > grasps.csv",
        .minArguments = 1},
       words);

@@ -41,6 +41,7 @@ int signalsCommand(const Arguments& words) {
        .options = withTableOptions(withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
             timeOption(),
+            timeColumnOption(),
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}})),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .minArguments = 1},

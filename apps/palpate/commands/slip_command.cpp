@@ -68,7 +68,8 @@ int slipCommand(const Arguments& words) {
             bound("segments",
                   "a row per slip: frames, matrix, length of the path",
                   options.segments),
-            timeOption()})),
+            timeOption(),
+            timeColumnOption()})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);

@@ -1,10 +1,20 @@
 #include "commands/table_command.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/file_name.h"
+#include "palpate/model/time_base.h"
+#include "palpate/model/time_columns.h"
 
 #include "commands/batch_options.h"
+#include "commands/commands.h"
 #include "commands/export_options.h"
+#include "commands/filter_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
@@ -13,12 +23,49 @@ namespace {
 constexpr const char* kOptionsOfTheRun[] = {
     "output", "force", "resume", "threads", "report", "quiet", "json", "units-row"};
 
+void sayOfTable(const std::string& line) {
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(line).c_str());
+}
+
 }  // namespace
 
 std::vector<OptionSpec> withTableOptions(std::vector<OptionSpec> options) {
   options.push_back(unitsRowOption());
   options.push_back({"json", "", "one object of JSON instead of CSV; -o: by the ending"});
   return withBatchOptions(std::move(options));
+}
+
+std::vector<OptionSpec> withOutputOptions(std::vector<OptionSpec> options,
+                                          const std::string& file) {
+  options.push_back({"output,o", file, "write the result to this file"});
+  options.push_back({"force", "", "replace a file that exists"});
+  return options;
+}
+
+std::vector<OptionSpec> withOneTableOptions(std::vector<OptionSpec> options,
+                                            const std::string& json) {
+  options.push_back(unitsRowOption());
+  options.push_back({"json", "", json + "; -o: by the ending"});
+  return withOutputOptions(std::move(options), "OUT.csv");
+}
+
+OptionSpec timeColumnOption() {
+  return {"time-column", "s|utc", "beside time_ms: s: seconds from the first frame; utc: date"};
+}
+
+std::unique_ptr<ResultTable> withTimeColumn(const CommandLine& given,
+                                            const std::filesystem::path& file,
+                                            const Recording& recording,
+                                            std::unique_ptr<ResultTable> table) {
+  const auto which = given.choice("time-column", {"s", "utc"});
+  if (!which) return table;
+  try {
+    return withTimeColumns(std::move(table),
+                           atTimes(timeChoiceOf(given), recording.profile, file),
+                           *which == "s" ? TimeColumn::kSeconds : TimeColumn::kUtc);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--time-column: ") + error.what());
+  }
 }
 
 std::string choicesText(const CommandLine& given) {
@@ -32,29 +79,105 @@ std::string choicesText(const CommandLine& given) {
   return text;
 }
 
-TableTextOptions tableTextOf(const CommandLine& given) {
-  const bool asJson = given.has("json"), unitsRow = given.has("units-row");
-  if (asJson && unitsRow)
-    throw UsageError("--units-row is a row of CSV; --json names the units of its columns");
-  return {.form = asJson ? TableForm::kJson : TableForm::kCsv, .unitsRow = unitsRow};
+TableForm formOf(const CommandLine& given) {
+  const auto out = given.text("output");
+  if (!out) return given.has("json") ? TableForm::kJson : TableForm::kCsv;
+  if (out->find_first_of("{}") != std::string::npos)
+    throw UsageError("-o '" + *out + "': this is one table: give the name of a file");
+  const std::string ending = lowerEndingOf(*out);
+  if (ending != ".csv" && ending != ".json")
+    throw UsageError("-o '" + *out + "' must end in .csv, .json");
+  return tableFormOf(*out);
 }
 
-void writeTable(const CommandLine& given, ResultTable& table) {
-  StandardOutput out;
-  writeTableText(table, tableTextOf(given), [&](const std::string& text) { out.write(text); });
+TableTextOptions tableTextOf(const CommandLine& given) {
+  const TableForm form = formOf(given);
+  const bool unitsRow = given.has("units-row");
+  if (form == TableForm::kJson && unitsRow)
+    throw UsageError("--units-row is a row of CSV; --json names the units of its columns");
+  return {.form = form, .unitsRow = unitsRow};
+}
+
+ResultOutput::ResultOutput(const CommandLine& given) : quiet_(given.quiet()) {
+  if (const auto out = given.text("output"))
+    file_.emplace(*out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
+}
+
+void ResultOutput::write(const std::string& text) {
+  if (file_)
+    file_->write(text);
+  else
+    out_.write(text);
+}
+
+void ResultOutput::flush() { out_.finish(); }
+
+void ResultOutput::finish() {
+  if (file_) {
+    file_->commit();
+    if (!quiet_) out_.write(escapedLine(file_->path().string()) + "\n");
+  }
+  out_.finish();
+}
+
+void printJson(const CommandLine& given, const Json& json) {
+  ResultOutput out(given);
+  out.write(json.text() + "\n");
   out.finish();
+}
+
+TableOutput::TableOutput(const CommandLine& given) : text_(tableTextOf(given)), out_(given) {}
+
+void TableOutput::add(ResultTable& table) {
+  constexpr std::size_t kPiece = 1u << 16;
+  const TableText form(table, text_);
+  std::string text;
+  if (!std::exchange(begun_, true)) text = form.begin();
+  for (std::vector<Cell> cells; table.next(cells);) {
+    const std::size_t from = text.size();
+    form.appendRow(text, cells);
+    // The first row of all has no comma in front of it.
+    if (!std::exchange(hasRows_, true) && text_.form == TableForm::kJson) text.erase(from, 1);
+    if (text.size() < kPiece) continue;
+    out_.write(text);
+    text.clear();
+  }
+  out_.write(text);
+  out_.flush();
+}
+
+void TableOutput::finish() {
+  if (begun_ && text_.form == TableForm::kJson) out_.write(kJsonTableEnd);
+  out_.finish();
+}
+
+int writeTable(const CommandLine& given, ResultTable& table) {
+  TableOutput out(given);
+  out.add(table);
+  out.finish();
+  if (!given.quiet())
+    for (const std::string& note : table.notes()) sayOfTable(note);
+  const std::vector<std::string> problems = table.problems();
+  for (const std::string& problem : problems) sayOfTable(problem);
+  return problems.empty() ? kDone : kPartlyDone;
 }
 
 int runTableCommand(const CommandLine& given, const RecordingTable& table) {
   RecordingTable chosen = table;
   chosen.unitsRow = given.has("units-row");
+  if (const auto which = given.choice("time-column", {"s", "utc"})) {
+    chosen.options += "; time-column " + *which;
+    chosen.of = [&given, of = table.of](const auto& file, const auto& recording, const auto& shown) {
+      return withTimeColumn(given, file, recording, of(file, recording, shown));
+    };
+  }
   if (given.has("output"))
     return runBatchCommand(given, batchTemplateOf(given, {".csv", ".json"}), tableTask(chosen));
   refuseBatchOptions(given);
   return writeTables(
       recordingsIn(given.words()),
       given.quiet(),
-      {.of = table.of, .text = tableTextOf(given), .readable = table.readable});
+      {.of = chosen.of, .text = tableTextOf(given), .readable = table.readable});
 }
 
 }  // namespace palpate::commands

@@ -3,6 +3,7 @@
 // JSON, Python and files of other programs are written from any table.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -113,6 +114,17 @@ ColumnOf<Row> columnOf(
       columnOf<Row>(std::move(name), std::move(unit), std::move(meaning), std::move(of));
   column.column.decimals = decimals;
   return column;
+}
+
+// A column of numbers as they are, -0 too; nothing where one isn't finite.
+template <typename Row, typename Of>
+ColumnOf<Row> finiteColumn(
+    std::string name, std::string unit, std::string meaning, Of of, int decimals = -1) {
+  return {{std::move(name), CellKind::kNumber, std::move(unit), std::move(meaning), decimals},
+          [of = std::move(of)](const Row& row) -> Cell {
+            const double value = std::invoke(of, row);
+            return std::isfinite(value) ? Cell(value) : Cell();
+          }};
 }
 
 template <typename Row>

@@ -69,6 +69,27 @@ struct FramePair {
   std::size_t frameA = 0;
   std::size_t frameB = 0;
 };
+// Goes through the pairs in order.
+class FramePairs {
+ public:
+  // Every `stride`-th frame of A that has a frame of B at its time (TimedProfile::frameAt), which
+  // begins `offsetS` after A. Throws std::invalid_argument for the stride 0.
+  FramePairs(TimedProfile a, TimedProfile b, double offsetS, std::size_t stride = 1);
+  // Reads the next pair; false after the last one. Throws as visitFramePairs().
+  bool next(const Progress& progress = {}, UnreadableSamples* unreadable = nullptr);
+  const FramePair& pair() const noexcept { return pair_; }
+  const TactileFrame& inA() const noexcept { return inA_; }
+  const TactileFrame& inB() const noexcept { return inB_; }
+
+ private:
+  const TimedProfile a_, b_;
+  const double offsetS_;
+  const std::size_t stride_, numFrames_;
+  std::size_t at_ = 0, visited_ = 0;
+  std::optional<std::size_t> readB_;
+  FramePair pair_;
+  TactileFrame inA_, inB_;
+};
 // Calls `sink` for every `stride`-th frame of A that has a frame of B at its time
 // (TimedProfile::frameAt), in order. With `unreadable`, the frames of A are added to it of which
 // one of the pair can't be read, and left out. Throws Cancelled, and without `unreadable` Error.

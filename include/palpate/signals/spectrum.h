@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -107,6 +108,25 @@ using SpectrumSink = std::function<void(const SpectrumSegment&)>;
 SpectrumReport planSpectra(std::span<const double> timeS,
                            std::span<const double> values,
                            const SpectrumOptions& options = {});
+// The segments one after the other.
+class SpectrumRun {
+ public:
+  // Copies the samples. Throws as planSpectra().
+  SpectrumRun(std::span<const double> timeS,
+              std::span<const double> values,
+              const SpectrumOptions& options = {});
+  ~SpectrumRun();
+  SpectrumRun(const SpectrumRun&) = delete;
+  SpectrumRun& operator=(const SpectrumRun&) = delete;
+  const SpectrumReport& report() const;
+  // Transforms the next one; its spans are valid until the next call. False after the last one.
+  // Throws Cancelled.
+  bool next(SpectrumSegment& segment, const Progress& progress = {});
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 // Does the same and passes every segment to `sink`, in order. A series shorter than a window has no
 // segment. A constant series is zero in every bin (with Detrend::kNone, it has values at 0 Hz and
 // in the next bin). Also throws Cancelled.
