@@ -25,6 +25,8 @@ struct ContactCells {
   std::vector<ColumnOf<FrameContact>> ofFrame = frameContactColumns(true);
   std::vector<ColumnOf<PlacedContact>> ofMatrix;
   ColumnCells frames{columnsOf(ofFrame)}, matrices{columnsOf(ofMatrix)};
+  std::size_t numFrames = 0, numUnusable = 0;
+  std::string whyUnusable = {};
 };
 
 void readContacts(const Profile& profile,
@@ -34,6 +36,8 @@ void readContacts(const Profile& profile,
                   ContactCells& cells) {
   for (ContactRun run(profile, geometry, options); run.next();) {
     reportProgress(progress, run.frame() - options.first, options.last - options.first + 1);
+    ++cells.numFrames;
+    if (!run.isPosed() && cells.numUnusable++ == 0) cells.whyUnusable = run.angles().problem;
     cells.frames.add(cells.ofFrame, contactOfFrame(run));
     for (const MatrixContact& matrix : run.contact().matrices)
       cells.matrices.add(cells.ofMatrix, PlacedContact{matrix, run.isPosed()});
@@ -60,6 +64,10 @@ Table contactTableOf(const ContactCells& cells, std::size_t numMatrices) {
   add("major", axes("major_", ""));
   add("minor", axes("minor_", ""));
   for (const char* name : {"major_sd_mm", "minor_sd_mm"}) add(name, {name});
+  if (cells.numUnusable > 0)
+    table.note({std::to_string(cells.numUnusable) + " of " + std::to_string(cells.numFrames) +
+                " frames have no usable joint angles, and no place in space: " +
+                cells.whyUnusable + "; give some with angles_deg"});
   return table.finish();
 }
 

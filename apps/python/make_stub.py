@@ -21,11 +21,14 @@ __version__: str
 class Error(RuntimeError): ...
 '''
 # What the signature of a C++ function calls an object.
-ARGUMENTS = {"source": "_Source", "hand": "Hand | _Path | None", "frames": "ArrayLike | Sequence[ArrayLike]",
-             "matrix": "int | str | None", "reference": "str | int", "session_offset": "str | float",
-             "scene": "_Path | dict[str, Any]", "events": "Sequence[dict[str, Any]]"}
+ARGUMENTS = {"source": "_Source", "a": "Profile | _Path", "b": "Profile | _Path",
+             "hand": "Hand | _Path | None", "frames": "ArrayLike | Sequence[ArrayLike]",
+             "matrix": "int | str | None", "reference": "str | int",
+             "session_offset": "str | float", "scene": "_Path | dict[str, Any]",
+             "events": "Sequence[dict[str, Any]]"}
 ARRAYS = ("time_ms", "angles", "angle_time_ms", "temperatures", "temperature_time_ms")
 ARGUMENTS.update({name: "ArrayLike | None" for name in ARRAYS})
+SPECIAL = ("__init__", "__len__", "__getitem__", "__iter__")
 RETURNED = {"Profile.__iter__": "Iterator[NDArray[np.float32]]"}
 
 
@@ -40,24 +43,23 @@ class Types(ast.NodeTransformer):
         if outer == "numpy.ndarray":
             kind = ast.unparse(node.slice).replace("numpy", "np")
             return parsed(f"NDArray[{kind}]" if self.returned else "ArrayLike")
-        inside = ast.unparse(self.visit(node.slice))
-        if outer == "Optional":
-            return parsed(f"{inside} | None")
-        if outer == "Union":
-            return parsed(inside.strip("()").replace(", ", " | "))
-        if outer == "List" and not self.returned:
-            return parsed(f"Sequence[{inside}]")
-        kept = {"List": "list", "Dict": "dict", "Tuple": "tuple"}.get(outer, outer)
-        return parsed(f"{kept}[{inside.strip('()')}]")
+        if isinstance(node.slice, ast.Constant):  # float[2]: a list of that length
+            return node.value
+        parts = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+        inside = [ast.unparse(self.visit(part)) for part in parts]
+        if outer in ("Optional", "Union"):
+            return parsed(" | ".join(inside + ["None"] * (outer == "Optional")))
+        kept = {"List": "list" if self.returned else "Sequence", "Dict": "dict", "Tuple": "tuple"}
+        return parsed(f"{kept.get(outer, outer)}[{', '.join(inside)}]")
 
     def visit_Attribute(self, node):
         name = ast.unparse(node)
-        known = {"os.PathLike": "_Path", "palpate._FrameIterator": "Iterator[Any]", "numpy.ndarray": "NDArray[Any]"}
-        return parsed(known.get(name, name.removeprefix("palpate.")))
+        return parsed({"os.PathLike": "_Path", "numpy.ndarray": "NDArray[Any]"}.get(
+            name, name.removeprefix("palpate.")))
 
     def visit_Name(self, node):
-        known = {"dict": "dict[str, Any]", "list": "list[Any]", "tuple": "tuple[Any, ...]", "object": "Any"}
-        return parsed(known.get(node.id, node.id))
+        return parsed({"dict": "dict[str, Any]", "list": "list[Any]", "tuple": "tuple[Any, ...]",
+                       "object": "Any"}.get(node.id, node.id))
 
 
 def parsed(text):
@@ -89,8 +91,8 @@ def signatures(thing, name):
     """Those that its docstring begins with, else what Python knows."""
     lines = (thing.__doc__ or "").splitlines()
     if lines and lines[0].startswith(f"{name}(*args, **kwargs)"):
-        found = [line.split(". ", 1)[1] for line in lines if line[:1].isdigit() and f". {name}(" in line]
-        return ["@overload", *found]
+        return [line.split(". ", 1)[1] for line in lines
+                if line[:1].isdigit() and f". {name}(" in line]
     if lines and lines[0].startswith(f"{name}("):
         return [lines[0]]
     return [f"{name}{inspect.signature(thing)}"]
@@ -98,9 +100,9 @@ def signatures(thing, name):
 
 def definitions(thing, name, owner=""):
     found = signatures(thing, name)
-    before = found.pop(0) if found[0].startswith("@") else ""
     for each in found:
-        yield from [before] if before else []
+        if len(found) > 1:
+            yield "@overload"
         yield function(each, name, owner)
 
 
@@ -108,7 +110,7 @@ def members(name, kind):
     for attribute, of in vars(kind).get("__annotations__", {}).items():
         yield f"{attribute}: {inspect.formatannotation(of)}"
     for member, value in sorted(vars(kind).items()):
-        if member.startswith("_") and member not in ("__init__", "__len__", "__getitem__", "__iter__"):
+        if member.startswith("_") and member not in SPECIAL:
             continue
         if isinstance(value, property):
             yield "@property"
@@ -121,13 +123,15 @@ def members(name, kind):
 
 def stub():
     lines = [HEAD]
-    public = {name: thing for name, thing in sorted(vars(palpate).items()) if not name.startswith("_")}
-    classes = {name: thing for name, thing in public.items() if isinstance(thing, type) and name != "Error"}
-    for name, kind in classes.items():
+    public = [(name, thing) for name, thing in sorted(vars(palpate).items())
+              if not name.startswith("_") and name != "Error"]
+    for name, kind in public:
+        if not isinstance(kind, type):
+            continue
         base = "(dict[str, Any])" if issubclass(kind, dict) else ""
         lines.append(f"class {name}{base}:")
         lines += [f"    {line}" for line in members(name, kind)] + [""]
-    for name, thing in public.items():
+    for name, thing in public:
         if callable(thing) and not isinstance(thing, type):
             lines += definitions(thing, name)
     return "\n".join(lines) + "\n"

@@ -6,7 +6,7 @@
 #include "palpate/core/error.h"
 
 #include "python/bindings.h"
-#include "python/table_source.h"
+#include "python/module_source.h"
 
 namespace py = pybind11;
 
@@ -69,5 +69,5 @@ PYBIND11_MODULE(palpate, module) {
   bindTraining(module);
   bindEmulator(module);
   bindCommands(module);
-  py::exec(kTableSource, module.attr("__dict__"));
+  py::exec(kPythonSource, module.attr("__dict__"));
 }

@@ -16,7 +16,7 @@
 
 namespace palpate::python {
 
-// A palpate.Table (table.py).
+// A palpate.Table (module.py).
 class Table : public pybind11::object {
   PYBIND11_OBJECT_DEFAULT(Table, object, PyDict_Check)
 };

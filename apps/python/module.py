@@ -1,5 +1,5 @@
-# The part of the module palpate that is written in Python: tables, and recordings as pandas and
-# xarray have them. It lies in the module itself (CMakeLists.txt) and runs in its name space.
+# The part of the module palpate that is written in Python: tables, recordings as pandas and xarray
+# have them, pictures. It lies in the module itself (CMakeLists.txt) and runs in its name space.
 
 # Places and directions have components x, y, z; other values one for each matrix, axis and so on.
 _VECTORS = {
@@ -170,6 +170,45 @@ def to_xarray(table: dict, *, unit: str = "counts"):
     if times is not None:
         coordinates["time"] = (row, times)
     return xarray.Dataset(variables, coordinates)
+
+
+def _program():
+    """palpate beside the module: in its build folder or its installation, nowhere else."""
+    from pathlib import Path
+    folder = Path(__file__).resolve().parent
+    places = [folder.parent / "palpate", *(up / "bin" / "palpate" for up in folder.parents[2:3])]
+    for place in places:
+        if place.is_file():
+            return str(place)
+    missing = " or ".join(map(str, places))
+    raise Error(f"render() needs the program palpate, which isn't at {missing}")
+
+
+def render(path, out, **options) -> None:
+    """Draws a recording as `palpate render` does, which it runs: one frame (.png, .svg, .pdf), a
+    movie (.mp4), or with from_ and to a folder of pictures. path: a recording, or a list of them
+    with a template as out ('out/{name}.png'). The options are those of the command with _ for -:
+    frame=7, view='hand', width_mm=85, range=(0, 500), values=True, filter=['median'], from_=10,
+    to=20, force=True. ValueError for an option that is wrong, else Error."""
+    import os
+    import subprocess
+    paths = [path] if isinstance(path, (str, bytes, os.PathLike)) else list(path)
+    words = [_program(), "render", *(os.path.abspath(os.fsdecode(one)) for one in paths)]
+    for name, value in {"output": os.fspath(out), "quiet": True, **options}.items():
+        option = "--" + name.strip("_").replace("_", "-")
+        if isinstance(value, tuple):
+            value = ",".join(map(str, value))
+        for one in value if isinstance(value, list) else [value]:
+            if one is True:
+                words.append(option)
+            elif one is not None and one is not False:
+                words.append(f"{option}={one}")
+    done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          errors="replace")
+    if done.returncode != 0:
+        said = done.stderr.strip() or f"palpate render ended with code {done.returncode}"
+        text = said.splitlines()[-1].removeprefix("palpate: ").replace("--force", "force=True")
+        raise (ValueError if done.returncode == 2 else Error)(text)
 
 
 def _add_to_profile():
