@@ -47,7 +47,8 @@ void readContacts(const Profile& profile,
 Table contactTableOf(const ContactCells& cells, std::size_t numMatrices) {
   TableMaker table;
   const auto axes = [](const std::string& before, const char* behind) {
-    return std::vector<std::string>{before + "x" + behind, before + "y" + behind, before + "z" + behind};
+    return std::vector<std::string>{
+        before + "x" + behind, before + "y" + behind, before + "z" + behind};
   };
   for (const char* name : {"frame", "time_ms", "active"}) table.add(name, cells.frames, {name});
   for (const std::string name : {"sphere", "centroid_sphere"}) {
@@ -66,17 +67,17 @@ Table contactTableOf(const ContactCells& cells, std::size_t numMatrices) {
   for (const char* name : {"major_sd_mm", "minor_sd_mm"}) add(name, {name});
   if (cells.numUnusable > 0)
     table.note({std::to_string(cells.numUnusable) + " of " + std::to_string(cells.numFrames) +
-                " frames have no usable joint angles, and no place in space: " +
-                cells.whyUnusable + "; give some with angles_deg"});
+                " frames have no usable joint angles, and no place in space: " + cells.whyUnusable +
+                "; give some with angles_deg"});
   return table.finish();
 }
 
 Table contact(const Profile& profile,
-                 const std::optional<Numbers>& anglesDeg,
-                 double threshold,
-                 const std::string& fingertip,
-                 std::int64_t start,
-                 std::optional<std::int64_t> stop) {
+              const std::optional<Numbers>& anglesDeg,
+              double threshold,
+              const std::string& fingertip,
+              std::int64_t start,
+              std::optional<std::int64_t> stop) {
   const GeometryDescription geometry = geometryNamed(profile.hand(), fingertip);
   ContactRowsOptions options;
   if (anglesDeg) options.anglesDeg = vectorOf(*anglesDeg, "angles_deg");

@@ -113,8 +113,8 @@ Table grasps(const Profile& profile, const std::string& rule) {
   const py::str key("fingers");
   py::list fingers;
   for (const py::handle text : py::object(table[key]))
-    fingers.append(py::tuple(py::module_::import("builtins").attr("map")(
-        py::type::of(py::int_()), text.attr("split")())));
+    fingers.append(py::tuple(py::module_::import("builtins")
+                                 .attr("map")(py::type::of(py::int_()), text.attr("split")())));
   table[key] = fingers;
   return table;
 }
@@ -200,9 +200,8 @@ void bindTable(py::module_& module) {
       .def_property_readonly(
           "time_ms",
           [](const FeatureTable& t) {
-            return column<std::int64_t>(t.rows.size(), [&](std::size_t i) {
-              return t.rows[i].timeUs / kUsPerMs;
-            });
+            return column<std::int64_t>(t.rows.size(),
+                                        [&](std::size_t i) { return t.rows[i].timeUs / kUsPerMs; });
           },
           "Host time of frame `begin` [ms since 1970]: int64 (grasps,).")
       .def_property_readonly(
@@ -216,12 +215,9 @@ void bindTable(py::module_& module) {
           &tableOfFeatures,
           "Table with the columns of `palpate features`: class, file, begin, end, initial_frame, "
           "end_frame, then the features, (grasps,) each.");
+  bindWhole(features, "begin", &FeatureRow::begin, "First frame of each grasp: int64 (grasps,).");
   bindWhole(
-      features, "begin", &FeatureRow::begin, "First frame of each grasp: int64 (grasps,).");
-  bindWhole(features,
-            "end",
-            &FeatureRow::end,
-            "Last frame of each grasp (inclusive): int64 (grasps,).");
+      features, "end", &FeatureRow::end, "Last frame of each grasp (inclusive): int64 (grasps,).");
   bindWhole(features,
             "initial_frame",
             &FeatureRow::initialFrame,

@@ -170,10 +170,14 @@ Table seconds(const fs::path& path) {
             columnOf<Row>("t_s", "s", "host time, since 1970", &Row::tS),
             columnOf<Row>("matrix", "", "number of the matrix, from 0", &Row::matrix),
             columnOf<Row>("frames", "", "frames in this second", &Row::frames),
-            columnOf<Row>("min", "counts", "minimum of the touched taxels, 0 without", &Row::minimum),
+            columnOf<Row>(
+                "min", "counts", "minimum of the touched taxels, 0 without", &Row::minimum),
             columnOf<Row>("max", "counts", "maximum", &Row::maximum),
             columnOf<Row>("sum", "counts", "sum over the touched taxels of all frames", &Row::sum),
-            columnOf<Row>("active_max", "taxels", "maximum number of touched taxels in a frame", &Row::activeMax)},
+            columnOf<Row>("active_max",
+                          "taxels",
+                          "maximum number of touched taxels in a frame",
+                          &Row::activeMax)},
         readSeconds(path));
   });
 }

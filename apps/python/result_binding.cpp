@@ -72,9 +72,7 @@ py::array ColumnCells::array(std::size_t index) const {
   return arrayOf(numbers);
 }
 
-void TableMaker::add(const std::string& name,
-                     const ResultColumn& column,
-                     const py::object& array) {
+void TableMaker::add(const std::string& name, const ResultColumn& column, const py::object& array) {
   arrays_[py::str(name)] = array;
   if (!column.unit.empty()) units_[py::str(name)] = column.unit;
   meanings_[py::str(name)] = column.meaning;
@@ -114,7 +112,8 @@ Table TableMaker::finish() const {
 Table tableOf(const ResultOf& make) {
   const ReadTable read = readTable(make);
   TableMaker table;
-  for (const ResultColumn& each : read.cells.columns()) table.add(each.name, read.cells, {each.name});
+  for (const ResultColumn& each : read.cells.columns())
+    table.add(each.name, read.cells, {each.name});
   table.note(read.notes);
   return table.finish();
 }

@@ -29,12 +29,11 @@ Table signals(const Profile& profile, const py::object& matrix) {
   if (py::isinstance<py::str>(matrix))
     options.ofHand = choice<bool>("matrix", matrix.cast<std::string>(), {{"hand", true}});
   else if (!matrix.is_none())
-    options.matrix = static_cast<std::int64_t>(
-        checkedIndex("matrix", matrix.cast<std::int64_t>(), numMatrices));
+    options.matrix =
+        static_cast<std::int64_t>(checkedIndex("matrix", matrix.cast<std::int64_t>(), numMatrices));
   const bool isOne = options.ofHand || options.matrix;
-  return gridOf(isOne ? 0 : numMatrices, [&](const Progress& progress) {
-    return signalTable(profile, options, progress);
-  });
+  return gridOf(isOne ? 0 : numMatrices,
+                [&](const Progress& progress) { return signalTable(profile, options, progress); });
 }
 
 SpectrumOptions optionsOf(int window,

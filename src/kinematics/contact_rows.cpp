@@ -19,8 +19,8 @@ void appendVector(std::vector<ColumnOf<Row>>& columns,
                   Of of) {
   constexpr const char* kAxes[] = {"x", "y", "z"};
   for (Eigen::Index axis = 0; axis < 3; ++axis)
-    columns.push_back(columnOf<Row>(
-        name + kAxes[axis] + ending, unit, meaning, [of, axis](const Row& row) {
+    columns.push_back(
+        columnOf<Row>(name + kAxes[axis] + ending, unit, meaning, [of, axis](const Row& row) {
           const std::optional<Eigen::Vector3d> vector = of(row);
           return vector ? std::optional((*vector)[axis]) : std::nullopt;
         }));
@@ -74,9 +74,7 @@ class Counted {
 
   std::vector<std::string> notes() const {
     std::vector<std::string> lines;
-    add(lines,
-        outOfRange_,
-        "have joint angles that the hand can't take: " + firstOutOfRange_);
+    add(lines, outOfRange_, "have joint angles that the hand can't take: " + firstOutOfRange_);
     add(lines,
         tooLight_,
         "have no force_n: a contact is lighter than all that the calibration measured");
@@ -154,8 +152,8 @@ ContactRun::ContactRun(Profile profile,
       geometry_(std::move(geometry)),
       options_(options),
       next_(options.first),
-      pose_(geometry_.pose(options.anglesDeg.value_or(
-          std::vector<double>(geometry_.description().numAxes, 0.0)))) {}
+      pose_(geometry_.pose(
+          options.anglesDeg.value_or(std::vector<double>(geometry_.description().numAxes, 0.0)))) {}
 
 // The pose is kept, because joint angles change less often than frames; where those of a frame are
 // unusable, it stays as it was.
@@ -179,7 +177,8 @@ bool ContactRun::next() {
 
 FrameContact contactOfFrame(const ContactRun& run) {
   const HandContact& contact = run.contact();
-  FrameContact row{.frame = run.frame(), .timeUs = run.values().hostUs, .active = contact.numActive};
+  FrameContact row{
+      .frame = run.frame(), .timeUs = run.values().hostUs, .active = contact.numActive};
   if (!run.isPosed()) return row;
   row.sphere = contact.taxelSphere;
   row.centroidSphere = contact.centroidSphere;
@@ -228,7 +227,8 @@ std::vector<ColumnOf<PlacedContact>> matrixContactColumns(const std::string& uni
                     "taxels",
                     "touched taxels",
                     [](const Row& row) { return row.contact.numActive; }),
-      columnOf<Row>("sum", unit, "sum of their values", [](const Row& row) { return row.contact.sum; }),
+      columnOf<Row>(
+          "sum", unit, "sum of their values", [](const Row& row) { return row.contact.sum; }),
       columnOf<Row>(
           "area_mm2", "mm^2", "their area", [](const Row& row) { return row.contact.areaMm2; })};
   appendVector(columns,
@@ -245,26 +245,23 @@ std::vector<ColumnOf<PlacedContact>> matrixContactColumns(const std::string& uni
                "",
                "direction in which the contact is longest",
                inSpace(&MatrixContact::majorAxis));
-  columns.push_back(columnOf<Row>("major_sd_mm",
-                                  "mm",
-                                  "standard deviation along it",
-                                  where(true, &MatrixContact::majorSdMm)));
+  columns.push_back(columnOf<Row>(
+      "major_sd_mm", "mm", "standard deviation along it", where(true, &MatrixContact::majorSdMm)));
   appendVector(columns,
                "minor_",
                "",
                "",
                "direction at a right angle to the major one",
                inSpace(&MatrixContact::minorAxis));
-  columns.push_back(columnOf<Row>("minor_sd_mm",
-                                  "mm",
-                                  "standard deviation along it",
-                                  where(true, &MatrixContact::minorSdMm)));
+  columns.push_back(columnOf<Row>(
+      "minor_sd_mm", "mm", "standard deviation along it", where(true, &MatrixContact::minorSdMm)));
   for (const auto& [name, of] : {std::pair("surface_x_mm", &MatrixContact::xMm),
                                  std::pair("surface_y_mm", &MatrixContact::yMm)})
-    columns.push_back(columnOf<Row>(name,
-                                    "mm",
-                                    "centre of pressure on the unrolled surface, from the first taxel",
-                                    where(false, of)));
+    columns.push_back(
+        columnOf<Row>(name,
+                      "mm",
+                      "centre of pressure on the unrolled surface, from the first taxel",
+                      where(false, of)));
   return columns;
 }
 

@@ -22,10 +22,14 @@ class SignalRun {
         last_(ofHand_ || options.matrix ? first_ + 1 : profile.layout().numMatrices()),
         progress_(std::move(progress)),
         isSmoothed_(!options.smooth.empty()),
-        filter_(options.smooth, profile.layout().numMatrices() + (ofHand_ ? 1 : 0), [this](auto timeUs, auto signals) {
-          for (std::size_t m = first_; m < last_; ++m) add(timeUs, m, signals[m]);
-          ++written_;
-        }, profile.givesReadings()) {}
+        filter_(
+            options.smooth,
+            profile.layout().numMatrices() + (ofHand_ ? 1 : 0),
+            [this](auto timeUs, auto signals) {
+              for (std::size_t m = first_; m < last_; ++m) add(timeUs, m, signals[m]);
+              ++written_;
+            },
+            profile.givesReadings()) {}
 
   // Appends what the next frame gives; false after the last one.
   bool next(std::vector<Row>& rows) {
@@ -83,15 +87,15 @@ ColumnOf<SignalValues> signal(SignalKind kind, const std::string& unit, const ch
 
 std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit, bool withComponents) {
   std::vector<ColumnOf<SignalValues>> columns = {
-          signal(SignalKind::kMean, unit, "mean of the touched taxels"),
-          signal(SignalKind::kFilteredMean,
-                 unit,
-                 "mean of the touched taxels of the matrix after a 3 x 3 Gaussian filter"),
-          signal(SignalKind::kMinimum, unit, "minimum of the touched taxels"),
-          signal(SignalKind::kMaximum, unit, "maximum"),
-          signal(SignalKind::kSum, unit, "sum"),
-          signal(SignalKind::kActive, "taxels", "touched taxels"),
-          signal(SignalKind::kArea, "mm^2", "their area")};
+      signal(SignalKind::kMean, unit, "mean of the touched taxels"),
+      signal(SignalKind::kFilteredMean,
+             unit,
+             "mean of the touched taxels of the matrix after a 3 x 3 Gaussian filter"),
+      signal(SignalKind::kMinimum, unit, "minimum of the touched taxels"),
+      signal(SignalKind::kMaximum, unit, "maximum"),
+      signal(SignalKind::kSum, unit, "sum"),
+      signal(SignalKind::kActive, "taxels", "touched taxels"),
+      signal(SignalKind::kArea, "mm^2", "their area")};
   if (!withComponents) return columns;
   const char* const meaning = "sum of the readings over the baseline, along the surface";
   columns.push_back(signal(SignalKind::kX, unit, meaning));

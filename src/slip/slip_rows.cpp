@@ -111,8 +111,7 @@ std::vector<ColumnOf<SlipDetection>> slipColumns(bool withCentroid) {
                           "",
                           "of the contact's outline: 1 a circle",
                           [](const auto& v) { return v.motion.rotation.roundness; }),
-      columnOf<Detection>(
-          "residual", "", "what the motion doesn't explain", &Detection::residual),
+      columnOf<Detection>("residual", "", "what the motion doesn't explain", &Detection::residual),
       columnOf<Detection>("confidence", "", "of the state, 0 to 1", &Detection::confidence),
       columnOf<Detection>("p_moved",
                           "",
@@ -126,9 +125,8 @@ std::vector<ColumnOf<SlipDetection>> slipColumns(bool withCentroid) {
        {std::tuple("y", "centroid, downwards", &SlipMotion::y),
         std::tuple("x", "centroid, to the right", &SlipMotion::x)})
     columns.insert(columns.begin() + 1,
-                   columnOf<Detection>(name, "taxels", meaning, [of](const Detection& v) {
-                     return v.motion.*of;
-                   }));
+                   columnOf<Detection>(
+                       name, "taxels", meaning, [of](const Detection& v) { return v.motion.*of; }));
   return columns;
 }
 

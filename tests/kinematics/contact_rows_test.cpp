@@ -58,8 +58,8 @@ TEST(ContactRows, areOneForEachFrame) {
 }
 
 TEST(ContactRows, canBeOneForEachMatrix) {
-  const std::string csv = csvOf(*contactTable(
-      threeFrames(), sdh2Geometry(), {.matrices = true, .first = 1, .last = 1}));
+  const std::string csv = csvOf(
+      *contactTable(threeFrames(), sdh2Geometry(), {.matrices = true, .first = 1, .last = 1}));
   EXPECT_EQ(csv.find("frame,time_ms,matrix,active,sum,area_mm2,centroid_x_mm,centroid_y_mm,"
                      "centroid_z_mm,nx,ny,nz,major_x,major_y,major_z,major_sd_mm,minor_x,minor_y,"
                      "minor_z,minor_sd_mm,surface_x_mm,surface_y_mm\n1,1031,0,1,16,11.5"),
@@ -79,9 +79,10 @@ TEST(ContactRows, haveTheSphereAroundCentroidsWhereWanted) {
   EXPECT_EQ(row.active, 1u);
   // The only centroid is the only taxel.
   for (const char* axis : {"x", "y", "z"})
-    EXPECT_NEAR(numberOf(columnNamed(columns, std::string("centroid_sphere_") + axis + "_mm").cell(row)),
-                numberOf(columnNamed(columns, std::string("sphere_") + axis + "_mm").cell(row)),
-                1e-9);
+    EXPECT_NEAR(
+        numberOf(columnNamed(columns, std::string("centroid_sphere_") + axis + "_mm").cell(row)),
+        numberOf(columnNamed(columns, std::string("sphere_") + axis + "_mm").cell(row)),
+        1e-9);
   EXPECT_NEAR(numberOf(columnNamed(columns, "centroid_sphere_radius_mm").cell(row)), 0.0, 1e-9);
 }
 
@@ -99,15 +100,14 @@ TEST(ContactRows, sayWhichAnglesAreWrong) {
   ASSERT_EQ(outside->notes().size(), 1u);
   EXPECT_EQ(outside->notes()[0].find("3 of 3 frames have joint angles that the hand can't take"),
             0u);
-  const auto given =
-      contactTable(threeFrames(unknown), sdh2Geometry(), {.anglesDeg = kStraight});
+  const auto given = contactTable(threeFrames(unknown), sdh2Geometry(), {.anglesDeg = kStraight});
   csvOf(*given);
   EXPECT_EQ(given->problems().size(), 1u);
 }
 
 TEST(ContactRows, haveTheForceThatIsGiven) {
   const auto force = [](const TactileFrame& frame) {
-    return frame.hostUs == 1'000'000 ? ForceReading{std::nullopt, true}
+    return frame.hostUs == 1'000'000   ? ForceReading{std::nullopt, true}
            : frame.hostUs == 1'031'000 ? ForceReading{2.5}
                                        : ForceReading{};
   };

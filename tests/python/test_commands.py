@@ -6,8 +6,8 @@ import pytest
 T_MS = 1_400_000_000_000
 
 
-def two_frames_more(frames, offset_ms=0):
-    """From 0 on, every 30 ms."""
+def recording_of(frames, offset_ms=0):
+    """A frame every 30 ms."""
     return palpate.from_arrays(T_MS + offset_ms + 30 * np.arange(len(frames)), [frames])
 
 
@@ -15,7 +15,7 @@ def test_compare_is_numpys():
     rng = np.random.default_rng(3)
     a, b = rng.integers(0, 3, (20, 4, 5)), rng.integers(0, 3, (20, 4, 5))
     a[:, 0, 0] = 1
-    found = palpate.compare(two_frames_more(a), two_frames_more(b, 60), align="clock")
+    found = palpate.compare(recording_of(a), recording_of(b, 60), align="clock")
     np.testing.assert_array_equal(found["frame_a"], np.arange(2, 20))
     np.testing.assert_array_equal(found["frame_b"], np.arange(18))
     np.testing.assert_allclose(found["time_s"], 0.03 * np.arange(2, 20))
@@ -27,12 +27,12 @@ def test_compare_is_numpys():
         assert found["difference_mean"][i] == pytest.approx(difference.mean())
         assert found["difference_rms"][i] == pytest.approx(np.sqrt((difference**2).mean()))
     assert found.units["time_s"] == "s" and found.units["mean_a"] == "counts"
-    late = palpate.compare(two_frames_more(a), two_frames_more(b), offset=0.3)
+    late = palpate.compare(recording_of(a), recording_of(b), offset=0.3)
     assert late["frame_a"][0] == 10 and late["frame_b"][0] == 0
 
 
 def test_compare_says_why_not(tmp_path):
-    still = two_frames_more(np.zeros((20, 4, 5)))
+    still = recording_of(np.zeros((20, 4, 5)))
     with pytest.raises(palpate.Error, match="align='start'"):
         palpate.compare(still, still)
     with pytest.raises(ValueError, match="align is 'grasp'"):
@@ -50,7 +50,7 @@ def test_compare_says_why_not(tmp_path):
 
 
 def test_labels_are_those_of_the_recording(tmp_path):
-    profile = two_frames_more(np.ones((20, 4, 5)))
+    profile = recording_of(np.ones((20, 4, 5)))
     us = T_MS * 1000
     profile.save(tmp_path / "a.palpate", events=[
         {"t_us": us + 250_000, "t1_us": us + 500_000, "kind": "label", "text": "ball"},
@@ -70,7 +70,7 @@ def test_labels_are_those_of_the_recording(tmp_path):
 def test_convert_writes_what_is_in_a_recording(tmp_path):
     frames = np.random.default_rng(1).integers(1, 1000, (20, 4, 5))
     source = tmp_path / "a.palpate"
-    two_frames_more(frames).save(source)
+    recording_of(frames).save(source)
     report = palpate.convert(source, tmp_path / "a.npz")
     assert report["state"] == "whole" and report["message"].startswith("20 frames")
     with np.load(tmp_path / "a.npz") as arrays:
@@ -94,7 +94,7 @@ def test_convert_writes_what_is_in_a_recording(tmp_path):
 
 def test_render_draws_pictures(tmp_path):
     source = tmp_path / "a.palpate"
-    palpate.synthesize(duration=2, grasps=1)[0].save(source)
+    palpate.synthesize(duration=4, grasps=1)[0].save(source)
     palpate.render(source, tmp_path / "a.png", frame=3, size="400x400", range=(0, 500), values=True)
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
     palpate.render(source, tmp_path / "a.svg", width_mm=85, filter=["median", "kalman"])

@@ -30,8 +30,8 @@ struct ContactRowsOptions {
   // Used instead of recorded joint angles [deg, sliding: mm].
   std::optional<std::vector<double>> anglesDeg = {};
   ContactOptions contact = {};
-  bool matrices = false;                        // a row per matrix instead of one per frame
-  std::size_t first = 0, last = SIZE_MAX;       // frames, both inclusive
+  bool matrices = false;                   // a row per matrix instead of one per frame
+  std::size_t first = 0, last = SIZE_MAX;  // frames, both inclusive
   std::function<ForceReading(const TactileFrame&)> forceOf = {};  // fills force_n of frames
   std::string noForceText = {};  // why it may be unknown, as problems() say it
 };

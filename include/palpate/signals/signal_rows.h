@@ -26,10 +26,10 @@ std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit,
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
-  bool ofHand = false;  // of the whole hand instead, without components; matrix: their number
-  Recipe filters = {};                      // of the frames, first
-  Recipe smooth = {};                       // of the signals, over time
-  bool unitsRow = false;                    // of CSV: a second row with the units
+  bool ofHand = false;    // of the whole hand instead, without components; matrix: their number
+  Recipe filters = {};    // of the frames, first
+  Recipe smooth = {};     // of the signals, over time
+  bool unitsRow = false;  // of CSV: a second row with the units
   TimeChoice times = TimeChoice::kArrival;  // of the frames, before the filters
 };
 // The table "signals" of a profile that is filtered already. Throws std::invalid_argument (a filter
