@@ -72,10 +72,11 @@ py::array ColumnCells::array(std::size_t index) const {
   return arrayOf(numbers);
 }
 
-void TableMaker::add(const std::string& name, const ResultColumn& column, const py::object& array) {
-  arrays_[py::str(name)] = array;
-  if (!column.unit.empty()) units_[py::str(name)] = column.unit;
-  meanings_[py::str(name)] = column.meaning;
+void TableMaker::add(const ResultColumn& column, const py::object& array) {
+  const py::str name(column.name);
+  arrays_[name] = array;
+  if (!column.unit.empty()) units_[name] = column.unit;
+  meanings_[name] = column.meaning;
 }
 
 void TableMaker::add(const std::string& name,
@@ -91,7 +92,9 @@ void TableMaker::add(const std::string& name,
   const py::object array =
       of.size() == 1 ? py::object(parts[0])
                      : py::module_::import("numpy").attr("stack")(parts, py::arg("axis") = -1);
-  add(name, cells.columns()[cells.indexOf(of.front())], array);
+  ResultColumn column = cells.columns()[cells.indexOf(of.front())];
+  column.name = name;
+  add(column, array);
 }
 
 void TableMaker::keepFirst(const std::string& name) {

@@ -60,7 +60,7 @@ class TableMaker {
            const ColumnCells& cells,
            const std::vector<std::string>& of,
            std::size_t perRow = 0);
-  void add(const std::string& name, const ResultColumn& column, const pybind11::object& array);
+  void add(const ResultColumn& column, const pybind11::object& array);
   // Of an array (rows, n) its first column.
   void keepFirst(const std::string& name);
   void note(const std::vector<std::string>& lines);

@@ -130,6 +130,9 @@ def test_a_table_is_a_dict_with_units_and_meanings():
         flat = palpate.flat({name: values for name, values in table.items() if name != "fingers"})
         assert type(flat) is palpate.Table
     assert palpate.flat(palpate.signals(profile)).units["area_mm2_5"] == "mm^2"
+    places = palpate.kinematics(np.zeros(7))
+    assert places.units == {"x": "taxels", "y": "taxels", "position_mm": "mm"}
+    assert palpate.surface_points(np.zeros(7), [[0, 1, 2]]).units == {"position_mm": "mm"}
     assert palpate.to_pandas(dict(palpate.signals(profile))).attrs["units"] == {}
 
 
