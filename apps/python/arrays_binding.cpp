@@ -11,7 +11,6 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
-#include "python/flat_table.h"
 #include "python/interruption.h"
 
 namespace palpate::python {
@@ -160,68 +159,7 @@ Profile fromArrays(const py::object& timeMs,
 
 }  // namespace
 
-bool isVector(const std::string& name) {
-  for (const char* vector : {"sphere_mm",
-                             "centroid_sphere_mm",
-                             "centroid_mm",
-                             "normal",
-                             "major",
-                             "minor",
-                             "position_mm"})
-    if (name == vector) return true;
-  return false;
-}
-
-py::dict flat(const py::dict& table) {
-  py::dict columns;
-  std::optional<py::ssize_t> rows;
-  for (const auto& [key, value] : table) {
-    const std::string name = py::str(key);
-    const py::array array = py::array::ensure(value);
-    if (!array || array.ndim() == 0)
-      throw py::value_error("'" + name + "' isn't an array: a report isn't a table");
-    if (rows && array.shape(0) != *rows)
-      throw py::value_error("'" + name + "' has " + std::to_string(array.shape(0)) +
-                            " rows, those before it " + std::to_string(*rows));
-    rows = array.shape(0);
-    if (array.ndim() > 3) throw py::value_error("'" + name + "' has more than 3 dimensions");
-    const py::ssize_t columnsOf = array.ndim() > 1 ? array.shape(1) : 1;
-    const py::ssize_t partsOf = array.ndim() > 2 ? array.shape(2) : 1;
-    for (py::ssize_t i = 0; i < columnsOf; ++i)
-      for (py::ssize_t k = 0; k < partsOf; ++k) {
-        std::string column = name;
-        const auto suffix = [&](py::ssize_t place, bool last) {
-          column += "_";
-          if (last && isVector(name) && place < 3)
-            column += "xyz"[place];
-          else
-            column += std::to_string(place);
-        };
-        py::tuple where(static_cast<std::size_t>(array.ndim()));
-        where[0] = py::slice(py::none(), py::none(), py::none());
-        if (array.ndim() > 1) {
-          where[1] = i;
-          suffix(i, array.ndim() == 2);
-        }
-        if (array.ndim() > 2) {
-          where[2] = k;
-          suffix(k, true);
-        }
-        columns[py::str(column)] = array[where];
-      }
-  }
-  return columns;
-}
-
 void bindArrays(py::module_& module) {
-  module.def(
-      "flat",
-      &flat,
-      py::arg("table"),
-      "A table with a column for each number of its rows, as pandas.DataFrame takes it: of an "
-      "array (T,) the same, of (T, M) NAME_0 .. NAME_(M-1) (matrices, axes), of places and "
-      "directions NAME_x, NAME_y, NAME_z, or NAME_0_x .. of (T, M, 3). ValueError for what is "
-      "no table: a report, or arrays of different lengths.");
   module.def(
       "from_arrays",
       &fromArrays,

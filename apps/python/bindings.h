@@ -8,7 +8,6 @@ namespace palpate::python {
 void bindProfile(pybind11::module_& module);      // Profile
 void bindRecordings(pybind11::module_& module);   // load, verify, recover, events, ..
 void bindArrays(pybind11::module_& module);       // from_arrays
-void bindTables(pybind11::module_& module);       // to_pandas, to_xarray
 void bindHands(pybind11::module_& module);        // Hand, hands, record
 void bindFilters(pybind11::module_& module);      // filter, filters, recipes, ghosts, ..
 void bindSignals(pybind11::module_& module);      // signals, spectrum, ..
@@ -22,5 +21,6 @@ void bindFeatures(pybind11::module_& module);     // grasps, features, Features
 void bindModels(pybind11::module_& module);       // Model
 void bindTraining(pybind11::module_& module);     // train, evaluate
 void bindEmulator(pybind11::module_& module);     // synthesize, emulate, ..
+void bindCommands(pybind11::module_& module);     // compare, labels, convert, render
 
 }  // namespace palpate::python

@@ -12,107 +12,72 @@
 #include "python/bindings.h"
 #include "python/geometry.h"
 #include "python/interruption.h"
+#include "python/result_binding.h"
 
 namespace palpate::python {
 namespace py = pybind11;
 namespace {
 
-const Eigen::Vector3d kNowhere =
-    Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 constexpr double kContactUnknown = std::numeric_limits<double>::quiet_NaN();
 
-struct ContactRow {
-  HandContact contact;
-  bool posed = false;  // the joint angles are usable
+// The columns of each frame and of each matrix in it.
+struct ContactCells {
+  std::vector<ColumnOf<FrameContact>> ofFrame = frameContactColumns(true);
+  std::vector<ColumnOf<PlacedContact>> ofMatrix;
+  ColumnCells frames{columnsOf(ofFrame)}, matrices{columnsOf(ofMatrix)};
+  std::size_t numFrames = 0, numUnusable = 0;
+  std::string whyUnusable = {};
 };
 
-std::vector<ContactRow> contactRowsOf(const Profile& profile,
-                                      const GeometryDescription& geometry,
-                                      const ContactRowsOptions& options,
-                                      const Progress& progress) {
-  std::vector<ContactRow> rows;
+void readContacts(const Profile& profile,
+                  const GeometryDescription& geometry,
+                  const ContactRowsOptions& options,
+                  const Progress& progress,
+                  ContactCells& cells) {
   for (ContactRun run(profile, geometry, options); run.next();) {
     reportProgress(progress, run.frame() - options.first, options.last - options.first + 1);
-    rows.push_back({run.contact(), run.isPosed()});
-    rows.back().contact.activeMm = {};  // large, and not part of the result
+    ++cells.numFrames;
+    if (!run.isPosed() && cells.numUnusable++ == 0) cells.whyUnusable = run.angles().problem;
+    cells.frames.add(cells.ofFrame, contactOfFrame(run));
+    for (const MatrixContact& matrix : run.contact().matrices)
+      cells.matrices.add(cells.ofMatrix, PlacedContact{matrix, run.isPosed()});
   }
-  return rows;
 }
 
-// Shape (T, 3).
-template <typename Of>
-DoubleArray places(const std::vector<ContactRow>& rows, const Of& of) {
-  return grid<double>(rows.size(), 3, [&](std::size_t i, std::size_t axis) {
-    const std::optional<Eigen::Vector3d> place = of(rows[i].contact);
-    return (rows[i].posed && place ? *place : kNowhere)[static_cast<Eigen::Index>(axis)];
-  });
+Table contactTableOf(const ContactCells& cells, std::size_t numMatrices) {
+  TableMaker table;
+  const auto axes = [](const std::string& before, const char* behind) {
+    return std::vector<std::string>{
+        before + "x" + behind, before + "y" + behind, before + "z" + behind};
+  };
+  for (const char* name : {"frame", "time_ms", "active"}) table.add(name, cells.frames, {name});
+  for (const std::string name : {"sphere", "centroid_sphere"}) {
+    table.add(name + "_mm", cells.frames, axes(name + "_", "_mm"));
+    table.add(name + "_radius_mm", cells.frames, {name + "_radius_mm"});
+  }
+  const auto add = [&](const char* name, const std::vector<std::string>& of) {
+    table.add(name, cells.matrices, of, numMatrices);
+  };
+  add("matrix_active", {"active"});
+  for (const char* name : {"sum", "area_mm2", "surface_x_mm", "surface_y_mm"}) add(name, {name});
+  add("centroid_mm", axes("centroid_", "_mm"));
+  add("normal", axes("n", ""));
+  add("major", axes("major_", ""));
+  add("minor", axes("minor_", ""));
+  for (const char* name : {"major_sd_mm", "minor_sd_mm"}) add(name, {name});
+  if (cells.numUnusable > 0)
+    table.note({std::to_string(cells.numUnusable) + " of " + std::to_string(cells.numFrames) +
+                " frames have no usable joint angles, and no place in space: " + cells.whyUnusable +
+                "; give some with angles_deg"});
+  return table.finish();
 }
 
-template <typename Of>
-DoubleArray radii(const std::vector<ContactRow>& rows, const Of& of) {
-  return column<double>(rows.size(), [&](std::size_t i) {
-    const std::optional<Sphere>& sphere = of(rows[i].contact);
-    return rows[i].posed && sphere ? sphere->radiusMm : kContactUnknown;
-  });
-}
-
-// Shape (T, matrices): of(matrix), or NaN for an untouched matrix and, when a pose is needed, for
-// frames without one.
-template <typename Of>
-DoubleArray perMatrix(const std::vector<ContactRow>& rows,
-                      std::size_t numMatrices,
-                      bool needsPose,
-                      const Of& of) {
-  return grid<double>(rows.size(), numMatrices, [&](std::size_t i, std::size_t m) {
-    const MatrixContact& matrix = rows[i].contact.matrices[m];
-    const bool known = matrix.numActive > 0 && (rows[i].posed || !needsPose);
-    return known ? of(matrix) : kContactUnknown;
-  });
-}
-
-// Shape (T, matrices, 3).
-template <typename Of>
-DoubleArray vectorsPerMatrix(const std::vector<ContactRow>& rows,
-                             std::size_t numMatrices,
-                             const Of& of) {
-  DoubleArray array({rows.size(), numMatrices, std::size_t{3}});
-  double* out = array.mutable_data();
-  for (const ContactRow& row : rows)
-    for (const MatrixContact& matrix : row.contact.matrices) {
-      const Eigen::Vector3d vector = row.posed && matrix.numActive > 0 ? of(matrix) : kNowhere;
-      for (const double value : {vector.x(), vector.y(), vector.z()}) *out++ = value;
-    }
-  return array;
-}
-
-void addMatrices(const std::vector<ContactRow>& rows, std::size_t count, py::dict& table) {
-  using Matrix = const MatrixContact&;
-  table["matrix_active"] =
-      grid<std::int64_t>(rows.size(), count, [&](std::size_t i, std::size_t m) {
-        return rows[i].contact.matrices[m].numActive;
-      });
-  table["sum"] = grid<double>(rows.size(), count, [&](std::size_t i, std::size_t m) {
-    return rows[i].contact.matrices[m].sum;
-  });
-  table["area_mm2"] = grid<double>(rows.size(), count, [&](std::size_t i, std::size_t m) {
-    return rows[i].contact.matrices[m].areaMm2;
-  });
-  table["surface_x_mm"] = perMatrix(rows, count, false, [](Matrix m) { return m.xMm; });
-  table["surface_y_mm"] = perMatrix(rows, count, false, [](Matrix m) { return m.yMm; });
-  table["centroid_mm"] = vectorsPerMatrix(rows, count, [](Matrix m) { return m.centroidMm; });
-  table["normal"] = vectorsPerMatrix(rows, count, [](Matrix m) { return m.meanNormal; });
-  table["major"] = vectorsPerMatrix(rows, count, [](Matrix m) { return m.majorAxis; });
-  table["minor"] = vectorsPerMatrix(rows, count, [](Matrix m) { return m.minorAxis; });
-  table["major_sd_mm"] = perMatrix(rows, count, true, [](Matrix m) { return m.majorSdMm; });
-  table["minor_sd_mm"] = perMatrix(rows, count, true, [](Matrix m) { return m.minorSdMm; });
-}
-
-py::dict contact(const Profile& profile,
-                 const std::optional<Numbers>& anglesDeg,
-                 double threshold,
-                 const std::string& fingertip,
-                 std::int64_t start,
-                 std::optional<std::int64_t> stop) {
+Table contact(const Profile& profile,
+              const std::optional<Numbers>& anglesDeg,
+              double threshold,
+              const std::string& fingertip,
+              std::int64_t start,
+              std::optional<std::int64_t> stop) {
   const GeometryDescription geometry = geometryNamed(profile.hand(), fingertip);
   ContactRowsOptions options;
   if (anglesDeg) options.anglesDeg = vectorOf(*anglesDeg, "angles_deg");
@@ -122,32 +87,14 @@ py::dict contact(const Profile& profile,
   options.contact.validate();
   const auto range = sliceOf(start, stop, profile.numFrames());
   options.first = range.first;
-  std::vector<ContactRow> rows;
+  ContactCells cells{.ofMatrix = matrixContactColumns(profile.hand().unit)};
   if (range.second > range.first) {
     options.last = range.second - 1;
-    rows = unlocked([&](const Progress& progress) {
-      return contactRowsOf(profile, geometry, options, progress);
+    unlocked([&](const Progress& progress) {
+      readContacts(profile, geometry, options, progress, cells);
     });
   }
-  py::dict table;
-  table["frame"] =
-      column<std::int64_t>(rows.size(), [&](std::size_t i) { return range.first + i; });
-  table["time_ms"] = column<std::int64_t>(
-      rows.size(), [&](std::size_t i) { return profile.frameTimeUs(range.first + i) / kUsPerMs; });
-  table["active"] =
-      column<std::int64_t>(rows.size(), [&](std::size_t i) { return rows[i].contact.numActive; });
-  const auto centre = [](const std::optional<Sphere>& sphere) {
-    return sphere ? std::optional(sphere->centreMm) : std::nullopt;
-  };
-  using Contact = const HandContact&;
-  table["sphere_mm"] = places(rows, [&](Contact c) { return centre(c.taxelSphere); });
-  table["sphere_radius_mm"] =
-      radii(rows, [](Contact c) -> const std::optional<Sphere>& { return c.taxelSphere; });
-  table["centroid_sphere_mm"] = places(rows, [&](Contact c) { return centre(c.centroidSphere); });
-  table["centroid_sphere_radius_mm"] =
-      radii(rows, [](Contact c) -> const std::optional<Sphere>& { return c.centroidSphere; });
-  addMatrices(rows, profile.layout().numMatrices(), table);
-  return table;
+  return contactTableOf(cells, profile.layout().numMatrices());
 }
 
 py::dict sizeOf(const Profile& profile,

@@ -14,6 +14,7 @@
 #include "python/features.h"
 #include "python/geometry.h"
 #include "python/interruption.h"
+#include "python/result_binding.h"
 
 namespace palpate::python {
 namespace py = pybind11;
@@ -101,26 +102,20 @@ void requireRows(const FeatureTable& table) {
 
 namespace {
 
-py::dict grasps(const Profile& profile, const std::string& rule) {
+Table grasps(const Profile& profile, const std::string& rule) {
   GraspSegmentOptions options;
   options.rule = choice<GraspRule>(
       "rule", rule, {{"general", GraspRule::kGeneral}, {"study", GraspRule::kStudy}});
   if (options.rule == GraspRule::kStudy && !(profile.hand().file && profile.hand().file->pinch))
     throw py::value_error("rule 'study' needs a hand with two pads that pinch: use 'general'");
-  const std::vector<GraspSegment> found =
-      unlocked([&](const Progress& progress) { return findGrasps(profile, options, progress); });
-  const std::size_t n = found.size();
-  py::dict table;
-  table["begin"] = column<std::int64_t>(n, [&](std::size_t i) { return found[i].begin; });
-  table["end"] = column<std::int64_t>(n, [&](std::size_t i) { return found[i].end; });
-  table["begin_ms"] = column<std::int64_t>(
-      n, [&](std::size_t i) { return profile.frameTimeUs(found[i].begin) / kUsPerMs; });
-  table["end_ms"] = column<std::int64_t>(
-      n, [&](std::size_t i) { return profile.frameTimeUs(found[i].end) / kUsPerMs; });
+  Table table =
+      tableOf([&](const Progress& progress) { return graspTable(profile, options, progress); });
+  const py::str key("fingers");
   py::list fingers;
-  for (const GraspSegment& grasp : found) fingers.append(py::tuple(py::cast(grasp.fingers)));
-  table["fingers"] = fingers;
-  table["quality"] = column<double>(n, [&](std::size_t i) { return found[i].quality; });
+  for (const py::handle text : py::object(table[key]))
+    fingers.append(py::tuple(py::module_::import("builtins")
+                                 .attr("map")(py::type::of(py::int_()), text.attr("split")())));
+  table[key] = fingers;
   return table;
 }
 
@@ -148,15 +143,28 @@ py::dict studyOf(const Profile& profile,
   return result;
 }
 
-template <typename Of>
-TimeArray wholeColumn(const FeatureTable& table, const Of& of) {
-  return column<std::int64_t>(table.rows.size(), [&](std::size_t i) { return of(table.rows[i]); });
+// The features as a table; what their columns are, too.
+Table tableOfFeatures(const FeatureTable& table) {
+  return tableOf([&](const Progress&) { return featureTable(table); });
+}
+
+void bindWhole(py::class_<FeatureTable>& bound,
+               const char* name,
+               std::size_t FeatureRow::*of,
+               const char* meaning) {
+  bound.def_property_readonly(
+      name,
+      [of](const FeatureTable& table) {
+        return column<std::int64_t>(table.rows.size(),
+                                    [&](std::size_t i) { return table.rows[i].*of; });
+      },
+      meaning);
 }
 
 void bindTable(py::module_& module) {
-  py::class_<FeatureTable>(
-      module, "Features", "The features of grasps, a row each: from features().")
-      .def("__len__", [](const FeatureTable& table) { return table.rows.size(); })
+  py::class_<FeatureTable> features(
+      module, "Features", "The features of grasps, a row each: from features().");
+  features.def("__len__", [](const FeatureTable& table) { return table.rows.size(); })
       .def("__repr__",
            [](const FeatureTable& table) {
              return "<palpate.Features: " + std::to_string(table.rows.size()) + " grasps, " +
@@ -190,33 +198,10 @@ void bindTable(py::module_& module) {
           },
           "Recording of each grasp ('' of a Profile): list of str.")
       .def_property_readonly(
-          "begin",
-          [](const FeatureTable& t) {
-            return wholeColumn(t, [](const FeatureRow& row) { return row.begin; });
-          },
-          "First frame of each grasp: int64 (grasps,).")
-      .def_property_readonly(
-          "end",
-          [](const FeatureTable& t) {
-            return wholeColumn(t, [](const FeatureRow& row) { return row.end; });
-          },
-          "Last frame of each grasp (inclusive): int64 (grasps,).")
-      .def_property_readonly(
-          "initial_frame",
-          [](const FeatureTable& t) {
-            return wholeColumn(t, [](const FeatureRow& row) { return row.initialFrame; });
-          },
-          "Frame at which it begins for the features: int64 (grasps,).")
-      .def_property_readonly(
-          "end_frame",
-          [](const FeatureTable& t) {
-            return wholeColumn(t, [](const FeatureRow& row) { return row.endFrame; });
-          },
-          "Frame at which it ends for the features: int64 (grasps,).")
-      .def_property_readonly(
           "time_ms",
           [](const FeatureTable& t) {
-            return wholeColumn(t, [](const FeatureRow& row) { return row.timeUs / kUsPerMs; });
+            return column<std::int64_t>(t.rows.size(),
+                                        [&](std::size_t i) { return t.rows[i].timeUs / kUsPerMs; });
           },
           "Host time of frame `begin` [ms since 1970]: int64 (grasps,).")
       .def_property_readonly(
@@ -224,7 +209,23 @@ void bindTable(py::module_& module) {
           [](const FeatureTable& table) { return table.problems; },
           "A line each: files that can't be read, grasps without features, and why.")
       .def_property_readonly(
-          "sensor", [](const FeatureTable& table) { return table.sensor; }, "Sensor of all rows.");
+          "sensor", [](const FeatureTable& table) { return table.sensor; }, "Sensor of all rows.")
+      .def_property_readonly(
+          "table",
+          &tableOfFeatures,
+          "Table with the columns of `palpate features`: class, file, begin, end, initial_frame, "
+          "end_frame, then the features, (grasps,) each.");
+  bindWhole(features, "begin", &FeatureRow::begin, "First frame of each grasp: int64 (grasps,).");
+  bindWhole(
+      features, "end", &FeatureRow::end, "Last frame of each grasp (inclusive): int64 (grasps,).");
+  bindWhole(features,
+            "initial_frame",
+            &FeatureRow::initialFrame,
+            "Frame at which it begins for the features: int64 (grasps,).");
+  bindWhole(features,
+            "end_frame",
+            &FeatureRow::endFrame,
+            "Frame at which it ends for the features: int64 (grasps,).");
 }
 
 }  // namespace

@@ -19,13 +19,11 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/filters.h"
 #include "python/interruption.h"
 
 namespace palpate::python {
 namespace py = pybind11;
-namespace {
-
-// The recipe of arguments that are texts or lists of texts.
 Recipe recipeOf(const py::args& specs) {
   std::vector<std::string> texts;
   for (const py::handle spec : specs) {
@@ -39,6 +37,8 @@ Recipe recipeOf(const py::args& specs) {
   }
   return parseRecipe(texts);
 }
+
+namespace {
 
 Profile filter(const Profile& profile,
                const py::args& specs,

@@ -12,6 +12,7 @@
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/geometry.h"
+#include "python/result_binding.h"
 
 namespace palpate::python {
 namespace py = pybind11;
@@ -65,9 +66,15 @@ double* put(double* out, const Eigen::Vector3d& vector) {
   return out;
 }
 
-py::dict kinematics(const Numbers& anglesDeg,
-                    const std::string& fingertip,
-                    const py::object& handOrName) {
+Table placesTable(TableMaker& table, const DoubleArray& positions, const DoubleArray& normals) {
+  table.add({"position_mm", CellKind::kNumber, "mm", "in the hand's base frame"}, positions);
+  table.add({"normal", CellKind::kNumber, "", "outwards, a unit vector"}, normals);
+  return table.finish();
+}
+
+Table kinematics(const Numbers& anglesDeg,
+                 const std::string& fingertip,
+                 const py::object& handOrName) {
   const HandDescription described = handGiven(handOrName);
   const HandGeometry geometry(geometryNamed(described, fingertip));
   const GeometryDescription& hand = geometry.description();
@@ -94,20 +101,19 @@ py::dict kinematics(const Numbers& anglesDeg,
         y.push_back(row);
         exists.push_back(hand.layout.matrix(m).exists(row, column) ? 1 : 0);
       }
-  py::dict result;
-  result["matrix"] = arrayOf(matrix);
-  result["x"] = arrayOf(x);
-  result["y"] = arrayOf(y);
-  result["exists"] = column<bool>(places, [&](std::size_t i) { return exists[i] != 0; });
-  result["position_mm"] = positions;
-  result["normal"] = normals;
-  return result;
+  TableMaker table;
+  table.add({"matrix", CellKind::kInteger, "", "number of the matrix, from 0"}, arrayOf(matrix));
+  table.add({"x", CellKind::kInteger, "taxels", "column"}, arrayOf(x));
+  table.add({"y", CellKind::kInteger, "taxels", "row"}, arrayOf(y));
+  table.add({"exists", CellKind::kFlag, "", "whether there is a taxel"},
+            column<bool>(places, [&](std::size_t i) { return exists[i] != 0; }));
+  return placesTable(table, positions, normals);
 }
 
-py::dict surfacePoints(const Numbers& anglesDeg,
-                       const Numbers& points,
-                       const std::string& fingertip,
-                       const py::object& handOrName) {
+Table surfacePoints(const Numbers& anglesDeg,
+                    const Numbers& points,
+                    const std::string& fingertip,
+                    const py::object& handOrName) {
   const HandDescription hand = handGiven(handOrName);
   const HandGeometry geometry(geometryNamed(hand, fingertip));
   const Poses poses = posesOf(anglesDeg, hand);
@@ -129,10 +135,8 @@ py::dict surfacePoints(const Numbers& anglesDeg,
       normal = put(normal, pose.normalAt(matrices[i], wanted[i].y(), wanted[i].z()));
     }
   }
-  py::dict result;
-  result["position_mm"] = positions;
-  result["normal"] = normals;
-  return result;
+  TableMaker table;
+  return placesTable(table, positions, normals);
 }
 
 py::object sphereAround(const Numbers& points) {

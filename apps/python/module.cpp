@@ -1,9 +1,12 @@
 // The Python module `palpate`: registers all parts and translates exceptions.
 #include <string>
 
+#include <pybind11/eval.h>
+
 #include "palpate/core/error.h"
 
 #include "python/bindings.h"
+#include "python/module_source.h"
 
 namespace py = pybind11;
 
@@ -38,8 +41,8 @@ PYBIND11_MODULE(palpate, module) {
       "    import palpate\n"
       "    profile = palpate.load('foam_ball.dsa')\n"
       "    profile.matrix(1).max(axis=(1, 2))   # largest value of finger 0 distal, per frame\n\n"
-      "A table is a dict of arrays of the same length, some of them with a value per matrix or "
-      "axis: pandas.DataFrame(palpate.flat(table)) has a column for each. A report "
+      "A Table is a dict of arrays of the same length, some of them with a value per matrix or "
+      "axis, with units: table.to_pandas() has a column for each. A report "
       "is a dict with the keys that the command of the same name prints. Taxels are those of the "
       "pitch (3.4 mm), x = column, y = row, row 0 at the fingertip. Wrong values raise ValueError "
       "or IndexError, wrong types TypeError, files OSError (can't be read or written) or "
@@ -52,7 +55,6 @@ PYBIND11_MODULE(palpate, module) {
   bindProfile(module);
   bindRecordings(module);
   bindArrays(module);
-  bindTables(module);
   bindHands(module);
   bindFilters(module);
   bindSignals(module);
@@ -66,4 +68,6 @@ PYBIND11_MODULE(palpate, module) {
   bindModels(module);
   bindTraining(module);
   bindEmulator(module);
+  bindCommands(module);
+  py::exec(kPythonSource, module.attr("__dict__"));
 }

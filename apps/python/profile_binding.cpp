@@ -19,7 +19,6 @@
 #include "python/events.h"
 #include "python/interruption.h"
 #include "python/profile_pickle.h"
-#include "python/table_binding.h"
 
 namespace palpate::python {
 namespace py = pybind11;
@@ -447,19 +446,6 @@ void bindProfile(py::module_& module) {
   bindValues(profile);
   bindTimes(profile);
   profile
-      .def("to_pandas",
-           &profileToPandas,
-           "pandas.DataFrame of the taxels that exist: a row per frame, indexed by its host time "
-           "(datetime64, UTC), a column per taxel, named by matrix, y and x; attrs: units, hand, "
-           "serial. ImportError without pandas.")
-      .def(
-          "to_xarray",
-          &profileToXarray,
-          py::arg("matrix") = py::none(),
-          "xarray.DataArray of one matrix: dims time (datetime64, UTC), y and x [mm from taxel (0, "
-          "0)]; NaN where there is no taxel. Without `matrix` a dict of them by the names of the "
-          "matrices, with 'angles' (time, axis) and 'temperatures' (time, sensor) where the "
-          "recording has them. attrs: units, hand, serial. ImportError without xarray.")
       .def_property_readonly("matrices",
                              &matrices,
                              "The matrices in wire order: list of dicts index, name, rows, "
@@ -484,6 +470,8 @@ void bindProfile(py::module_& module) {
           "Names of the sensors, in the order of `temperatures`.")
       .def_property_readonly(
           "hand", [](const Profile& p) { return p.hand().name; }, "Which hand it is.")
+      .def_property_readonly(
+          "unit", [](const Profile& p) { return p.hand().unit; }, "Unit of the taxels' values.")
       .def_property_readonly(
           "format",
           [](const Profile& p) { return p.info().format; },

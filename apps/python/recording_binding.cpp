@@ -16,6 +16,7 @@
 #include "python/bindings.h"
 #include "python/events.h"
 #include "python/interruption.h"
+#include "python/result_binding.h"
 
 namespace palpate::python {
 namespace py = pybind11;
@@ -160,19 +161,25 @@ py::dict info(const Profile& profile) {
   return result;
 }
 
-py::dict seconds(const fs::path& path) {
-  const std::vector<SecondSummary> rows =
-      unlocked([&](const Progress&) { return readSeconds(path); });
-  const std::size_t n = rows.size();
-  py::dict result;
-  result["t_s"] = column<std::int64_t>(n, [&](std::size_t i) { return rows[i].tS; });
-  result["matrix"] = column<std::int64_t>(n, [&](std::size_t i) { return rows[i].matrix; });
-  result["frames"] = column<std::int64_t>(n, [&](std::size_t i) { return rows[i].frames; });
-  result["min"] = column<double>(n, [&](std::size_t i) { return rows[i].minimum; });
-  result["max"] = column<double>(n, [&](std::size_t i) { return rows[i].maximum; });
-  result["sum"] = column<double>(n, [&](std::size_t i) { return rows[i].sum; });
-  result["active_max"] = column<std::int64_t>(n, [&](std::size_t i) { return rows[i].activeMax; });
-  return result;
+Table seconds(const fs::path& path) {
+  using Row = SecondSummary;
+  return tableOf([&](const Progress&) {
+    return std::make_unique<RowTable<Row>>(
+        "seconds",
+        std::vector<ColumnOf<Row>>{
+            columnOf<Row>("t_s", "s", "host time, since 1970", &Row::tS),
+            columnOf<Row>("matrix", "", "number of the matrix, from 0", &Row::matrix),
+            columnOf<Row>("frames", "", "frames in this second", &Row::frames),
+            columnOf<Row>(
+                "min", "counts", "minimum of the touched taxels, 0 without", &Row::minimum),
+            columnOf<Row>("max", "counts", "maximum", &Row::maximum),
+            columnOf<Row>("sum", "counts", "sum over the touched taxels of all frames", &Row::sum),
+            columnOf<Row>("active_max",
+                          "taxels",
+                          "maximum number of touched taxels in a frame",
+                          &Row::activeMax)},
+        readSeconds(path));
+  });
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include "palpate/core/progress.h"
 #include "palpate/model/timing.h"
-#include "palpate/signals/characteristic_signals.h"
 #include "palpate/signals/coherence.h"
 #include "palpate/signals/first_contact.h"
 #include "palpate/signals/formula.h"
@@ -18,58 +17,23 @@
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruption.h"
+#include "python/result_binding.h"
 
 namespace palpate::python {
 namespace py = pybind11;
 namespace {
 
-// The signals of each frame: one element for each matrix, then one for the whole hand.
-std::vector<std::vector<CharacteristicSignals>> signalRowsOf(const Profile& profile,
-                                                             const Progress& progress) {
-  std::vector<std::vector<CharacteristicSignals>> rows(profile.numFrames());
-  TactileFrame frame;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    reportProgress(progress, i, rows.size());
-    profile.readFrame(i, frame);
-    allSignals(frame, rows[i]);
-  }
-  return rows;
-}
-
-// One signal as an array: of all matrices, or of one place of the rows.
-py::object columnOf(const std::vector<std::vector<CharacteristicSignals>>& rows,
-                    std::size_t numMatrices,
-                    std::optional<std::size_t> place,
-                    SignalKind kind) {
-  const bool whole = kind == SignalKind::kActive;
-  const auto value = [&](std::size_t i, std::size_t m) { return valueOf(rows[i][m], kind); };
-  if (place) {
-    const auto one = [&](std::size_t i) { return value(i, *place); };
-    return whole ? py::object(column<std::int64_t>(rows.size(), one))
-                 : py::object(column<double>(rows.size(), one));
-  }
-  return whole ? py::object(grid<std::int64_t>(rows.size(), numMatrices, value))
-               : py::object(grid<double>(rows.size(), numMatrices, value));
-}
-
-py::dict signals(const Profile& profile, const py::object& matrix) {
+Table signals(const Profile& profile, const py::object& matrix) {
   const std::size_t numMatrices = profile.layout().numMatrices();
-  std::optional<std::size_t> place;
+  SignalRowsOptions options;
   if (py::isinstance<py::str>(matrix))
-    place = choice<std::size_t>("matrix", matrix.cast<std::string>(), {{"hand", numMatrices}});
+    options.ofHand = choice<bool>("matrix", matrix.cast<std::string>(), {{"hand", true}});
   else if (!matrix.is_none())
-    place = checkedIndex("matrix", matrix.cast<std::int64_t>(), numMatrices);
-  const auto rows =
-      unlocked([&](const Progress& progress) { return signalRowsOf(profile, progress); });
-  py::dict table;
-  table["time_ms"] = column<std::int64_t>(
-      rows.size(), [&](std::size_t i) { return profile.frameTimeUs(i) / kUsPerMs; });
-  for (const auto& each : signalColumns(profile.hand().unit, profile.givesReadings())) {
-    const SignalKind kind = signalKindNamed(each.column.name).value();
-    if (place == numMatrices && isComponent(kind)) continue;  // the whole hand has none
-    table[py::str(each.column.name)] = columnOf(rows, numMatrices, place, kind);
-  }
-  return table;
+    options.matrix =
+        static_cast<std::int64_t>(checkedIndex("matrix", matrix.cast<std::int64_t>(), numMatrices));
+  const bool isOne = options.ofHand || options.matrix;
+  return gridOf(isOne ? 0 : numMatrices,
+                [&](const Progress& progress) { return signalTable(profile, options, progress); });
 }
 
 SpectrumOptions optionsOf(int window,

@@ -1,7 +1,7 @@
 // Binds palpate.slip(), slip_segments(), slip_benchmark(), contact_moments() and
 // synthetic_contact().
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <pybind11/stl.h>
@@ -10,23 +10,16 @@
 #include "palpate/laboratory/synthetic_slip.h"
 #include "palpate/slip/contact_moments.h"
 #include "palpate/slip/contact_outline.h"
-#include "palpate/slip/slip_segments.h"
+#include "palpate/slip/slip_rows.h"
 
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/interruption.h"
+#include "python/result_binding.h"
 
 namespace palpate::python {
 namespace py = pybind11;
 namespace {
-
-constexpr double kSlipUnknown = std::numeric_limits<double>::quiet_NaN();
-
-// The arguments of slip() and slip_segments().
-struct Request {
-  SlipRunOptions pass;
-  std::optional<std::size_t> matrix;
-};
 
 void setReference(const Profile& profile, const py::object& reference, SlipRunOptions& pass) {
   if (py::isinstance<py::str>(reference)) {
@@ -40,138 +33,55 @@ void setReference(const Profile& profile, const py::object& reference, SlipRunOp
   pass.referenceFrame = checkedIndex("frame", reference.cast<std::int64_t>(), profile.numFrames());
 }
 
-Request requestOf(const Profile& profile,
-                  std::optional<std::int64_t> matrix,
-                  const std::string& method,
-                  const py::object& reference,
-                  double step,
-                  double limit,
-                  double rotation) {
-  Request request;
-  if (matrix) request.matrix = checkedIndex("matrix", *matrix, profile.layout().numMatrices());
-  SlipDetectorOptions& detector = request.pass.detector;
-  const auto named = slipMethodNamed(method);
-  if (!named) {
+SlipRowsOptions slipOptionsOf(const Profile& profile,
+                              std::optional<std::int64_t> matrix,
+                              const std::string& method,
+                              const py::object& reference,
+                              double step,
+                              double limit,
+                              double rotation) {
+  SlipRowsOptions options{.withCentroid = true};
+  if (matrix)
+    options.matrix =
+        static_cast<std::int64_t>(checkedIndex("matrix", *matrix, profile.layout().numMatrices()));
+  if (!slipMethodNamed(method)) {
     std::string known;
     for (const SlipMethod each : slipMethods())
       known += (known.empty() ? "" : ", ") + std::string(nameOf(each));
     throw py::value_error("method is '" + method + "'; it is one of " + known);
   }
-  detector.method = *named;
-  detector.hypothesisAlarm = detector.method == SlipMethod::kContest;
+  setSlipMethod(options, method);
+  SlipDetectorOptions& detector = options.pass.detector;
   detector.rule.stepTaxels = step;
   detector.rule.referenceTaxels = limit;
   detector.rule.rotationDeg = rotation;
-  setReference(profile, reference, request.pass);
+  setReference(profile, reference, options.pass);
   detector.validate();
-  return request;
+  return options;
 }
 
-struct SlipRow {
-  std::size_t frame = 0;
-  std::int64_t timeUs = 0;
-  std::size_t matrix = 0;
-  SlipDetection detection;
-};
-
-py::dict slipTableOf(const std::vector<SlipRow>& rows) {
-  const std::size_t n = rows.size();
-  py::dict table;
-  const auto whole = [&](const char* name, const auto& of) {
-    table[name] = column<std::int64_t>(n, [&](std::size_t i) { return of(rows[i]); });
-  };
-  const auto number = [&](const char* name, const auto& of) {
-    table[name] = column<double>(
-        n, [&](std::size_t i) { return of(rows[i].detection.motion, rows[i].detection); });
-  };
-  const auto flag = [&](const char* name, const auto& of) {
-    table[name] = column<bool>(n, [&](std::size_t i) { return of(rows[i].detection); });
-  };
-  using Motion = const SlipMotion&;
-  using Detection = const SlipDetection&;
-  whole("frame", [](const SlipRow& row) { return row.frame; });
-  whole("time_ms", [](const SlipRow& row) { return row.timeUs / kUsPerMs; });
-  whole("matrix", [](const SlipRow& row) { return row.matrix; });
-  whole("active", [](const SlipRow& row) { return row.detection.motion.active; });
-  number("x", [](Motion m, Detection) { return m.x; });
-  number("y", [](Motion m, Detection) { return m.y; });
-  flag("valid", [](Detection v) { return v.motion.valid; });
-  number("dx", [](Motion m, Detection) { return m.valid ? m.dx : kSlipUnknown; });
-  number("dy", [](Motion m, Detection) { return m.valid ? m.dy : kSlipUnknown; });
-  number("ref_dx",
-         [](Motion m, Detection) { return m.valid && m.refValid ? m.refDx : kSlipUnknown; });
-  number("ref_dy",
-         [](Motion m, Detection) { return m.valid && m.refValid ? m.refDy : kSlipUnknown; });
-  flag("rotation_valid", [](Detection v) { return v.motion.rotation.valid; });
-  number("rotation_deg", [](Motion m, Detection) {
-    return m.rotation.valid ? m.rotation.rotationDeg : kSlipUnknown;
-  });
-  number("ref_rotation_deg", [](Motion m, Detection) {
-    return m.rotation.valid && m.rotation.refValid ? m.rotation.refRotationDeg : kSlipUnknown;
-  });
-  number("orientation_deg", [](Motion m, Detection) { return m.rotation.axis.orientationDeg; });
-  number("eccentricity", [](Motion m, Detection) { return m.rotation.axis.eccentricity; });
-  number("roundness", [](Motion m, Detection) { return m.rotation.roundness; });
-  number("residual", [](Motion, Detection v) { return v.residual; });
-  number("confidence", [](Motion, Detection v) { return v.confidence; });
-  number("p_moved", [](Motion, Detection v) { return v.pMoved.value_or(kSlipUnknown); });
-  std::vector<std::string> names;
-  for (int state = 0; state <= static_cast<int>(SlipState::kSlip); ++state)
-    names.emplace_back(nameOf(static_cast<SlipState>(state)));
-  std::vector<int> states;
-  for (const SlipRow& row : rows) states.push_back(static_cast<int>(row.detection.state));
-  table["state"] = words(names, states);
-  flag("slipping", [](Detection v) { return v.slipping; });
-  return table;
-}
-
-py::dict slip(const Profile& profile,
-              std::optional<std::int64_t> matrix,
-              const std::string& method,
-              const py::object& reference,
-              double step,
-              double limit,
-              double rotation) {
-  const Request request = requestOf(profile, matrix, method, reference, step, limit, rotation);
-  std::vector<SlipRow> rows;
-  unlocked([&](const Progress& progress) {
-    const auto take =
-        [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections) {
-          for (std::size_t m = 0; m < detections.size(); ++m)
-            if (detections[m].motion.active > 0 && (!request.matrix || *request.matrix == m))
-              rows.push_back({frame, timeUs, m, detections[m]});
-        };
-    runSlipDetector(profile, request.pass, take, progress);
-  });
-  return slipTableOf(rows);
-}
-
-py::dict slipSegments(const Profile& profile,
-                      std::optional<std::int64_t> matrix,
-                      const std::string& method,
-                      const py::object& reference,
-                      double step,
-                      double limit,
-                      double rotation) {
-  const Request request = requestOf(profile, matrix, method, reference, step, limit, rotation);
-  std::vector<SlipSegment> found = unlocked([&](const Progress& progress) {
-    return findSlips(profile, {.pass = request.pass}, progress);
-  });
-  if (request.matrix)
-    std::erase_if(found, [&](const SlipSegment& one) { return one.matrix != *request.matrix; });
-  const std::size_t n = found.size();
-  py::dict table;
-  const auto whole = [&](const char* name, const auto& of) {
-    table[name] = column<std::int64_t>(n, [&](std::size_t i) { return of(found[i]); });
-  };
-  whole("begin", [](const SlipSegment& s) { return s.begin; });
-  whole("end", [](const SlipSegment& s) { return s.end; });
-  whole("begin_ms", [](const SlipSegment& s) { return s.beginUs / kUsPerMs; });
-  whole("end_ms", [](const SlipSegment& s) { return s.endUs / kUsPerMs; });
-  whole("matrix", [](const SlipSegment& s) { return s.matrix; });
-  table["path_taxels"] = column<double>(n, [&](std::size_t i) { return found[i].pathTaxels; });
-  table["rotation_deg"] = column<double>(n, [&](std::size_t i) { return found[i].rotationDeg; });
-  table["confidence"] = column<double>(n, [&](std::size_t i) { return found[i].confidence; });
+// The function slip() or slip_segments().
+template <bool segments>
+Table slipRows(const Profile& profile,
+               std::optional<std::int64_t> matrix,
+               const std::string& method,
+               const py::object& reference,
+               double step,
+               double limit,
+               double rotation) {
+  SlipRowsOptions options =
+      slipOptionsOf(profile, matrix, method, reference, step, limit, rotation);
+  options.segments = segments;
+  Table table =
+      tableOf([&](const Progress& progress) { return slipTable(profile, options, progress); });
+  if constexpr (!segments) {
+    // Wide enough for any state, whichever are in the table.
+    std::size_t longest = 0;
+    for (int state = 0; state <= static_cast<int>(SlipState::kSlip); ++state)
+      longest = std::max(longest, std::string(nameOf(static_cast<SlipState>(state))).size());
+    const py::str key("state");
+    table[key] = py::object(table[key]).attr("astype")("U" + std::to_string(longest));
+  }
   return table;
 }
 
@@ -299,7 +209,7 @@ void bindSlip(py::module_& module) {
   const SlipRuleOptions rule;
   module.def(
       "slip",
-      &slip,
+      &slipRows<false>,
       py::arg("profile"),
       py::arg("matrix") = py::none(),
       py::arg("method") = "contest",
@@ -321,7 +231,7 @@ void bindSlip(py::module_& module) {
       "'rest' (each contact when it rests), or a frame. step, limit [taxels], rotation [deg]: "
       "thresholds per frame, since the reference, and of turning.");
   module.def("slip_segments",
-             &slipSegments,
+             &slipRows<true>,
              py::arg("profile"),
              py::arg("matrix") = py::none(),
              py::arg("method") = "contest",

@@ -9,14 +9,6 @@
 namespace palpate {
 namespace {
 
-struct FrameContact {
-  std::size_t frame = 0;
-  std::int64_t timeUs = 0;
-  std::size_t active = 0;
-  std::optional<Sphere> sphere;
-  std::optional<double> forceN;
-};
-
 // Columns NAMEx, NAMEy, NAMEz of a vector that `of` returns where it is known.
 template <typename Row, typename Of>
 void appendVector(std::vector<ColumnOf<Row>>& columns,
@@ -34,29 +26,18 @@ void appendVector(std::vector<ColumnOf<Row>>& columns,
         }));
 }
 
-std::vector<ColumnOf<FrameContact>> frameColumns() {
-  using Row = FrameContact;
-  std::vector<ColumnOf<Row>> columns = {
-      columnOf<Row>("frame", "", "number of the frame, from 0", &Row::frame),
-      columnOf<Row>("time_ms",
-                    "ms",
-                    "host time, since 1970",
-                    [](const Row& row) { return row.timeUs / kUsPerMs; }),
-      columnOf<Row>("active", "taxels", "touched taxels of all matrices", &Row::active)};
-  appendVector(columns,
-               "sphere_",
-               "_mm",
-               "mm",
-               "centre of the smallest sphere around the touched taxels, in the hand's base frame",
-               [](const Row& row) {
-                 return row.sphere ? std::optional(row.sphere->centreMm) : std::nullopt;
-               });
-  columns.push_back(columnOf<Row>("sphere_radius_mm", "mm", "its radius", [](const Row& row) {
-    return row.sphere ? std::optional(row.sphere->radiusMm) : std::nullopt;
-  }));
-  columns.push_back(
-      columnOf<Row>("force_n", "N", "force of the hand, with a calibration", &Row::forceN));
-  return columns;
+// Columns NAME_x_mm, NAME_y_mm, NAME_z_mm and NAME_radius_mm.
+void appendSphere(std::vector<ColumnOf<FrameContact>>& columns,
+                  const std::string& name,
+                  const std::string& meaning,
+                  std::optional<Sphere> FrameContact::*of) {
+  appendVector(columns, name + "_", "_mm", "mm", meaning, [of](const FrameContact& row) {
+    return row.*of ? std::optional((row.*of)->centreMm) : std::nullopt;
+  });
+  columns.push_back(columnOf<FrameContact>(
+      name + "_radius_mm", "mm", "its radius", [of](const FrameContact& row) {
+        return row.*of ? std::optional((row.*of)->radiusMm) : std::nullopt;
+      }));
 }
 
 // The rows of a run, and what went wrong in it.
@@ -151,12 +132,8 @@ class ContactTable final : public RowTable<Row> {
 using MatrixContactRow = MatrixRow<PlacedContact>;
 
 void addFrame(Counted& counted, std::vector<FrameContact>& rows) {
-  const ContactRun& run = counted.run();
-  rows.push_back({run.frame(),
-                  run.values().hostUs,
-                  run.contact().numActive,
-                  run.isPosed() ? run.contact().taxelSphere : std::nullopt,
-                  counted.forceN()});
+  rows.push_back(contactOfFrame(counted.run()));
+  rows.back().forceN = counted.forceN();
 }
 
 void addMatrices(Counted& counted, std::vector<MatrixContactRow>& rows) {
@@ -196,6 +173,40 @@ bool ContactRun::next() {
   takePose();
   contactOf(values_, pose_, options_.contact, contact_);
   return true;
+}
+
+FrameContact contactOfFrame(const ContactRun& run) {
+  const HandContact& contact = run.contact();
+  FrameContact row{
+      .frame = run.frame(), .timeUs = run.values().hostUs, .active = contact.numActive};
+  if (!run.isPosed()) return row;
+  row.sphere = contact.taxelSphere;
+  row.centroidSphere = contact.centroidSphere;
+  return row;
+}
+
+std::vector<ColumnOf<FrameContact>> frameContactColumns(bool withCentroids) {
+  using Row = FrameContact;
+  std::vector<ColumnOf<Row>> columns = {
+      columnOf<Row>("frame", "", "number of the frame, from 0", &Row::frame),
+      columnOf<Row>("time_ms",
+                    "ms",
+                    "host time, since 1970",
+                    [](const Row& row) { return row.timeUs / kUsPerMs; }),
+      columnOf<Row>("active", "taxels", "touched taxels of all matrices", &Row::active)};
+  appendSphere(columns,
+               "sphere",
+               "centre of the smallest sphere around the touched taxels, in the hand's base frame",
+               &Row::sphere);
+  if (withCentroids)
+    appendSphere(columns,
+                 "centroid_sphere",
+                 "centre of the smallest sphere around the centroids of the matrices, in the "
+                 "hand's base frame",
+                 &Row::centroidSphere);
+  columns.push_back(
+      columnOf<Row>("force_n", "N", "force of the hand, with a calibration", &Row::forceN));
+  return columns;
 }
 
 std::vector<ColumnOf<PlacedContact>> matrixContactColumns(const std::string& unit) {
@@ -266,7 +277,7 @@ std::unique_ptr<ResultTable> contactTable(const Profile& profile,
         counted,
         &addMatrices);
   return std::make_unique<ContactTable<FrameContact>>(
-      "contact", frameColumns(), counted, &addFrame);
+      "contact", frameContactColumns(), counted, &addFrame);
 }
 
 }  // namespace palpate

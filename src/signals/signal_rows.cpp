@@ -17,14 +17,20 @@ class SignalRun {
  public:
   SignalRun(const Profile& profile, const SignalRowsOptions& options, Progress progress)
       : profile_(profile),
-        first_(static_cast<std::size_t>(options.matrix.value_or(0))),
-        last_(options.matrix ? first_ + 1 : profile.layout().numMatrices()),
+        ofHand_(options.ofHand),
+        first_(ofHand_ ? profile.layout().numMatrices()
+                       : static_cast<std::size_t>(options.matrix.value_or(0))),
+        last_(ofHand_ || options.matrix ? first_ + 1 : profile.layout().numMatrices()),
         progress_(std::move(progress)),
         isSmoothed_(!options.smooth.empty()),
-        filter_(options.smooth, profile.layout().numMatrices(), [this](auto timeUs, auto signals) {
-          for (std::size_t m = first_; m < last_; ++m) add(timeUs, m, signals[m]);
-          ++written_;
-        }, profile.givesReadings()) {}
+        filter_(
+            options.smooth,
+            profile.layout().numMatrices() + (ofHand_ ? 1 : 0),
+            [this](auto timeUs, auto signals) {
+              for (std::size_t m = first_; m < last_; ++m) add(timeUs, m, signals[m]);
+              ++written_;
+            },
+            profile.givesReadings()) {}
 
   // Appends what the next frame gives; false after the last one.
   bool next(std::vector<Row>& rows) {
@@ -35,15 +41,18 @@ class SignalRun {
     }
     reportProgress(progress_, frame_, profile_.numFrames());
     profile_.readFrame(frame_++, values_);
-    const std::vector<CharacteristicSignals> signals = characteristicSignals(values_);
+    if (ofHand_)
+      allSignals(values_, signals_);
+    else
+      signals_ = characteristicSignals(values_);
     if (isSmoothed_) {
-      filter_.push(values_.hostUs, signals);
+      filter_.push(values_.hostUs, signals_);
       return true;
     }
     for (std::size_t m = first_; m < last_; ++m) {
       SignalValues row{};
       for (const SignalKind kind : signalKinds(profile_.givesReadings()))
-        row[static_cast<std::size_t>(kind)] = valueOf(signals[m], kind);
+        row[static_cast<std::size_t>(kind)] = valueOf(signals_[m], kind);
       add(values_.hostUs, m, row);
     }
     ++written_;
@@ -56,11 +65,13 @@ class SignalRun {
   }
 
   const Profile profile_;
+  const bool ofHand_;
   const std::size_t first_, last_;
   const Progress progress_;
   const bool isSmoothed_;
   SignalFilter filter_;
   TactileFrame values_;
+  std::vector<CharacteristicSignals> signals_;
   std::vector<Row>* rows_ = nullptr;
   std::size_t frame_ = 0, written_ = 0;
 };
@@ -77,15 +88,15 @@ ColumnOf<SignalValues> signal(SignalKind kind, const std::string& unit, const ch
 
 std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit, bool withComponents) {
   std::vector<ColumnOf<SignalValues>> columns = {
-          signal(SignalKind::kMean, unit, "mean of the touched taxels"),
-          signal(SignalKind::kFilteredMean,
-                 unit,
-                 "mean of the touched taxels of the matrix after a 3 x 3 Gaussian filter"),
-          signal(SignalKind::kMinimum, unit, "minimum of the touched taxels"),
-          signal(SignalKind::kMaximum, unit, "maximum"),
-          signal(SignalKind::kSum, unit, "sum"),
-          signal(SignalKind::kActive, "taxels", "touched taxels"),
-          signal(SignalKind::kArea, "mm^2", "their area")};
+      signal(SignalKind::kMean, unit, "mean of the touched taxels"),
+      signal(SignalKind::kFilteredMean,
+             unit,
+             "mean of the touched taxels of the matrix after a 3 x 3 Gaussian filter"),
+      signal(SignalKind::kMinimum, unit, "minimum of the touched taxels"),
+      signal(SignalKind::kMaximum, unit, "maximum"),
+      signal(SignalKind::kSum, unit, "sum"),
+      signal(SignalKind::kActive, "taxels", "touched taxels"),
+      signal(SignalKind::kArea, "mm^2", "their area")};
   if (!withComponents) return columns;
   const char* const meaning = "sum of the readings over the baseline, along the surface";
   columns.push_back(signal(SignalKind::kX, unit, meaning));
@@ -103,7 +114,8 @@ std::unique_ptr<ResultTable> signalTable(const Profile& profile,
   if (options.smooth.dependsOnRate()) options.smooth.validateForRate(timingOf(profile).rateHz);
   return std::make_unique<RowTable<Row>>(
       "signals",
-      matrixRowColumns(signalColumns(profile.hand().unit, profile.givesReadings())),
+      matrixRowColumns(
+          signalColumns(profile.hand().unit, profile.givesReadings() && !options.ofHand)),
       [run = std::make_shared<SignalRun>(profile, options, progress)](std::vector<Row>& rows) {
         return run->next(rows);
       });

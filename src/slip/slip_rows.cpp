@@ -1,6 +1,7 @@
 #include "palpate/slip/slip_rows.h"
 
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -50,8 +51,8 @@ bool hasTurnedFromReference(Motion m) { return m.rotation.valid && m.rotation.re
 
 }  // namespace
 
-std::vector<ColumnOf<SlipDetection>> slipColumns() {
-  return {
+std::vector<ColumnOf<SlipDetection>> slipColumns(bool withCentroid) {
+  std::vector<ColumnOf<Detection>> columns = {
       columnOf<Detection>(
           "active", "taxels", "touched taxels", [](const auto& v) { return v.motion.active; }),
       columnOf<Detection>("valid",
@@ -119,6 +120,14 @@ std::vector<ColumnOf<SlipDetection>> slipColumns() {
       columnOf<Detection>(
           "state", "", "what the contact does", [](const auto& v) { return nameOf(v.state); }),
       columnOf<Detection>("slipping", "", "whether that is slip", &Detection::slipping)};
+  if (!withCentroid) return columns;
+  for (const auto& [name, meaning, of] :
+       {std::tuple("y", "centroid, downwards", &SlipMotion::y),
+        std::tuple("x", "centroid, to the right", &SlipMotion::x)})
+    columns.insert(columns.begin() + 1,
+                   columnOf<Detection>(
+                       name, "taxels", meaning, [of](const Detection& v) { return v.motion.*of; }));
+  return columns;
 }
 
 std::unique_ptr<ResultTable> slipTable(const Profile& profile,
@@ -136,7 +145,7 @@ std::unique_ptr<ResultTable> slipTable(const Profile& profile,
   using Row = MatrixRow<SlipDetection>;
   auto table = std::make_unique<RowTable<Row>>(
       "slip",
-      matrixRowColumns(slipColumns()),
+      matrixRowColumns(slipColumns(options.withCentroid)),
       [run = std::make_shared<SlipRun>(profile, options.pass),
        numFrames = profile.numFrames(),
        wanted,

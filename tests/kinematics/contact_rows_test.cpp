@@ -69,6 +69,23 @@ TEST(ContactRows, canBeOneForEachMatrix) {
   EXPECT_NE(csv.find(",6.8,17\n"), std::string::npos) << csv;  // column 2, row 5 of 3.4 mm
 }
 
+TEST(ContactRows, haveTheSphereAroundCentroidsWhereWanted) {
+  const auto columns = frameContactColumns(true);
+  EXPECT_EQ(columns.size(), frameContactColumns().size() + 4);
+  ContactRun run(threeFrames(), sdh2Geometry(), {.first = 1, .last = 1});
+  ASSERT_TRUE(run.next());
+  const FrameContact row = contactOfFrame(run);
+  EXPECT_EQ(row.frame, 1u);
+  EXPECT_EQ(row.active, 1u);
+  // The only centroid is the only taxel.
+  for (const char* axis : {"x", "y", "z"})
+    EXPECT_NEAR(
+        numberOf(columnNamed(columns, std::string("centroid_sphere_") + axis + "_mm").cell(row)),
+        numberOf(columnNamed(columns, std::string("sphere_") + axis + "_mm").cell(row)),
+        1e-9);
+  EXPECT_NEAR(numberOf(columnNamed(columns, "centroid_sphere_radius_mm").cell(row)), 0.0, 1e-9);
+}
+
 TEST(ContactRows, sayWhichAnglesAreWrong) {
   std::vector<double> unknown = kStraight;
   unknown[3] = std::numeric_limits<double>::quiet_NaN();

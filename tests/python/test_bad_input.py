@@ -99,8 +99,18 @@ def test_wrong_values(call):
 
 @pytest.mark.parametrize("call", range(len(WRONG_TYPES)))
 def test_wrong_types(call):
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError) as raised:
         WRONG_TYPES[call]()
+    assert str(raised.value) and "\n" not in str(raised.value) and "::" not in str(raised.value)
+
+
+def test_a_wrong_type_is_named():
+    with pytest.raises(TypeError, match=r"^slip\(\) doesn't take \(Profile, str, step=int\): see help\(palpate.slip\)$"):
+        palpate.slip(PROFILE, "1", step=1)
+    with pytest.raises(TypeError, match=r"^Hand\(\) doesn't take \(\)"):
+        palpate.Hand()
+    with pytest.raises(TypeError, match=r"^Profile.matrix\(\) doesn't take \(str\)"):
+        PROFILE.matrix("1")
 
 
 def test_a_recording_without_frames_is_no_trouble():

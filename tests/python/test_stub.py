@@ -1,12 +1,15 @@
-"""The type stub says what the module has: every name, argument and default; and everything is explained."""
+"""The types that are made with the module: every public name has a signature; and everything is explained."""
 import ast
+import inspect
 import re
+from pathlib import Path
 
 import palpate
 import pytest
 from conftest import SOURCE
 
-TREE = ast.parse((SOURCE / "apps/python/palpate.pyi").read_text())
+STUB = Path(palpate.__file__).with_name("palpate.pyi").read_text()
+TREE = ast.parse(STUB)
 CLASSES = {node.name: node for node in TREE.body if isinstance(node, ast.ClassDef)}
 
 
@@ -28,7 +31,10 @@ def arguments(node):
 
 
 def signature(function):
-    return ast.parse(f"def {function.__doc__.splitlines()[0]}: ...").body[0]
+    line = (function.__doc__ or "").splitlines()[0]
+    if not line.startswith(f"{function.__name__}("):  # one that is written in Python
+        line = f"{function.__name__}{inspect.signature(function)}"
+    return ast.parse(f"def {line}: ...").body[0]
 
 
 def test_names_are_those_of_the_module():
@@ -53,6 +59,30 @@ def test_members_are_those_of_the_class(name):
 @pytest.mark.parametrize("name", sorted(functions_of(TREE.body)))
 def test_arguments_are_those_of_the_function(name):
     assert arguments(functions_of(TREE.body)[name]) == arguments(signature(getattr(palpate, name)))
+
+
+@pytest.mark.parametrize("name", sorted(functions_of(TREE.body)))
+def test_types_are_those_of_python(name):
+    node = functions_of(TREE.body)[name]
+    spec = node.args
+    for one in [*spec.args, *spec.kwonlyargs] if name != "render" else []:
+        assert one.annotation, one.arg
+    assert not re.search(r"::|palpate\.|numpy\.|\b(object|Optional|List|Dict)\b", ast.unparse(node))
+    assert "::" not in (getattr(palpate, name).__doc__ or "").splitlines()[0]  # no type of C++
+
+
+def test_types_that_are_known():
+    def definition(line):
+        assert f"\n{line}: ...\n" in STUB or f"\n    {line}: ...\n" in STUB, line
+    definition("def load(path: _Path) -> Profile")
+    definition("def verify(path: _Path) -> dict[str, Any]")
+    definition("def grasps(profile: Profile, *, rule: str='general') -> Table")
+    definition("def strongest_taxel(profile: Profile) -> Any")
+    definition("def first_contact(profile: Profile, *, frames: int=3, taxels: int=3) -> int | None")
+    definition("def __getitem__(self, frames: slice) -> Profile")
+    definition("def matrix(self, m: int, start: int=0, stop: int | None=None) -> NDArray[np.float32]")
+    for name in ("signals", "slip", "slip_segments", "contact", "grasps", "seconds", "compare", "labels", "flat"):
+        assert ast.unparse(functions_of(TREE.body)[name].returns) == "Table", name
 
 
 def test_the_manual_shows_which_arguments_are_given_by_name():

@@ -1,4 +1,6 @@
 """to_pandas() and to_xarray() against the NumPy arrays of the same recording."""
+import copy
+import pickle
 import sys
 
 import numpy as np
@@ -80,7 +82,7 @@ def test_signals_have_a_column_per_matrix_and_units():
         np.testing.assert_array_equal(frame[name], values)
     assert frame.attrs["units"]["mean_3"] == "counts"
     assert frame.attrs["units"]["area_mm2_0"] == "mm^2"
-    assert "active_0" not in frame.attrs["units"]
+    assert frame.attrs["units"]["active_0"] == "taxels"
     assert palpate.to_pandas(table, unit="kPa").attrs["units"]["mean_3"] == "kPa"
     data = palpate.to_xarray(table)
     assert data["mean"].dims == ("time", "matrix") and data["mean"].attrs["units"] == "counts"
@@ -108,6 +110,78 @@ def test_slip_contact_and_grasps():
     same_instants(table.index, 1000 * grasps["begin_ms"])
     assert list(table["fingers"]) == grasps["fingers"] and len(table) == 1
     assert "fingers" not in palpate.to_xarray(grasps)
+
+
+def test_a_table_is_a_dict_with_units_and_meanings():
+    profile = sample()
+    for table in (palpate.signals(profile), palpate.signals(profile, "hand"), palpate.slip(profile),
+                  palpate.slip_segments(profile), palpate.grasps(profile),
+                  palpate.contact(profile, angles_deg=np.zeros(7)), palpate.compare(profile, profile, align="start")):
+        assert isinstance(table, palpate.Table) and isinstance(table, dict)
+        assert set(table.meanings) == set(table) and all(table.meanings.values())
+        assert set(table.units) <= set(table) and all(table.units.values())
+        assert {table.units[name] for name in table if name.endswith("_mm")} <= {"mm"}
+        assert {table.units[name] for name in table if name.endswith("_ms")} <= {"ms"}
+        pandas.testing.assert_frame_equal(table.to_pandas(), palpate.to_pandas(table))
+        assert table.to_xarray().identical(palpate.to_xarray(table))
+        for same in (copy.copy(table), pickle.loads(pickle.dumps(table))):
+            assert type(same) is palpate.Table and list(same) == list(table)
+            assert (same.units, same.meanings, same.notes) == (table.units, table.meanings, table.notes)
+        flat = palpate.flat({name: values for name, values in table.items() if name != "fingers"})
+        assert type(flat) is palpate.Table
+    assert palpate.flat(palpate.signals(profile)).units["area_mm2_5"] == "mm^2"
+    places = palpate.kinematics(np.zeros(7))
+    assert places.units == {"x": "taxels", "y": "taxels", "position_mm": "mm"}
+    assert palpate.surface_points(np.zeros(7), [[0, 1, 2]]).units == {"position_mm": "mm"}
+    assert palpate.to_pandas(dict(palpate.signals(profile))).attrs["units"] == {}
+
+
+def test_the_shapes_and_types_of_tables():
+    profile = sample()
+    signals = palpate.signals(profile)
+    assert list(signals) == ["time_ms", "mean", "filtered_mean", "min", "max", "sum", "active", "area_mm2"]
+    assert signals["time_ms"].shape == (12,) and signals["active"].shape == (12, 6)
+    assert {name: values.dtype.kind for name, values in signals.items() if values.dtype.kind != "f"} == {
+        "time_ms": "i", "active": "i"}
+    masks = [matrix["static_mask"] for matrix in profile.matrices]
+    np.testing.assert_array_equal(signals["sum"], np.transpose(
+        [profile.matrix(m).astype(float)[:, mask].sum(axis=1) for m, mask in enumerate(masks)]))
+    hand = palpate.signals(profile, "hand")
+    np.testing.assert_array_equal(hand["sum"], signals["sum"].sum(axis=1))
+    np.testing.assert_array_equal(palpate.signals(profile, -1)["max"], signals["max"][:, 5])
+    slip = palpate.slip(profile)
+    assert list(slip)[:8] == ["frame", "time_ms", "matrix", "active", "x", "y", "valid", "dx"]
+    assert slip["valid"].dtype == bool and slip["matrix"].dtype == np.int64
+    assert slip["state"].dtype == palpate.slip(palpate.from_arrays([], np.zeros((0, 486))))["state"].dtype
+    contact = palpate.contact(profile, angles_deg=np.zeros(7))
+    assert contact["sphere_mm"].shape == (12, 3) and contact["normal"].shape == (12, 6, 3)
+    assert contact["matrix_active"].dtype == np.int64
+    np.testing.assert_array_equal(contact["sum"], signals["sum"])
+    features = palpate.features(palpate.synthesize(grasps=2)[0])
+    np.testing.assert_array_equal(features.table["begin"], features.begin)
+    np.testing.assert_array_equal(np.transpose([features.table[name] for name in features.names]),
+                                  features.values)
+
+
+def test_a_notebook_shows_the_ends_of_a_table():
+    table = palpate.Table({"n": np.arange(12), "pitch_mm": np.full(12, 3.4), "text": np.array(["<b>"] * 12)},
+                          {"pitch_mm": "mm"}, notes=["a & b"])
+    page = table._repr_html_()
+    rows = page.split("<tr>")[1:]
+    assert len(rows) == 2 + 5 + 1 + 5
+    assert "<th>mm</th>" in rows[1] and "<td>3.4</td>" in rows[2] and "<td>11</td>" in rows[-1]
+    assert "<b>" not in page and "&lt;b&gt;" in page and "a &amp; b" in page and "12 rows" in page
+    assert palpate.Table({"n": np.arange(3)})._repr_html_().count("<tr>") == 2 + 3
+    assert "<pre>" in palpate.Table({"a": 3})._repr_html_()
+    assert "0 rows" in palpate.Table()._repr_html_()
+
+
+def test_unusable_joint_angles_are_noted():
+    angles = np.zeros((12, 7))
+    angles[:, 3] = np.nan
+    profile = palpate.record(np.ones((12, 486)), "sdh2", rate=30, angles=angles)
+    (note,) = palpate.contact(profile).notes
+    assert note.startswith("12 of 12 frames have no usable joint angles")
 
 
 def test_what_is_no_table():

@@ -54,6 +54,24 @@ TEST(SignalRows, AreOneForEachFrameAndMatrix) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2 * 6);
 }
 
+TEST(SignalRows, CanBeOfTheWholeHand) {
+  const std::vector<std::string> kalman = {"kalman"};
+  for (const Recipe& smooth : {Recipe(), parseRecipe(kalman)}) {
+    const auto table = signalTable(oneTaxel(), {.ofHand = true, .smooth = smooth});
+    std::vector<Cell> cells;
+    ASSERT_TRUE(table->next(cells));
+    EXPECT_EQ(numberOf(cells[7]), 0.0);
+    ASSERT_TRUE(table->next(cells));
+    EXPECT_EQ(numberOf(cells[2]), 6.0);  // behind the matrices 0 to 5
+    EXPECT_GT(numberOf(cells[7]), 0.0);  // sum
+    if (smooth.empty()) {
+      EXPECT_EQ(numberOf(cells[7]), 16.0);
+      EXPECT_EQ(numberOf(cells[8]), 1.0);
+    }
+    EXPECT_FALSE(table->next(cells));
+  }
+}
+
 TEST(SignalRows, AreSmoothedOverTime) {
   const std::vector<std::string> kalman = {"kalman"};
   const std::string rows = rowsOf(0, parseRecipe(kalman));

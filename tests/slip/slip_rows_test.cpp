@@ -84,6 +84,20 @@ TEST(SlipRows, OfSlipsAreOneForEachSlip) {
   EXPECT_EQ(std::count(ofThree.begin(), ofThree.end(), '\n'), 1);
 }
 
+TEST(SlipRows, CanHaveTheCentroid) {
+  const std::string csv = csvOf({.matrix = 3, .withCentroid = true});
+  EXPECT_EQ(csv.rfind("frame,time_ms,matrix,active,x,y,valid,dx,", 0), 0U) << csv.substr(0, 100);
+  const auto columns = slipColumns(true);
+  EXPECT_EQ(columns.size(), slipColumns().size() + 2);
+  runSlipDetector(movedContact(), {}, [&](std::size_t, std::int64_t, const auto& detections) {
+    for (const char* name : {"x", "y"}) {
+      const SlipMotion& motion = detections[1].motion;
+      EXPECT_EQ(numberOf(columnNamed(columns, name).cell(detections[1])),
+                *name == 'x' ? motion.x : motion.y);
+    }
+  });
+}
+
 TEST(SlipRows, HaveUnits) {
   EXPECT_EQ(columnNamed(slipColumns(), "ref_dx").column.unit, "taxels");
   EXPECT_EQ(columnNamed(slipColumns(), "orientation_deg").column.unit, "deg");

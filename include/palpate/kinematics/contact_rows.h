@@ -63,6 +63,18 @@ class ContactRun {
   HandContact contact_;
 };
 
+// What a frame says of the whole hand; spheres only where the joint angles are usable.
+struct FrameContact {
+  std::size_t frame = 0;
+  std::int64_t timeUs = 0;  // host time [us since 1970]
+  std::size_t active = 0;
+  std::optional<Sphere> sphere = {}, centroidSphere = {};
+  std::optional<double> forceN = {};  // left empty by contactOfFrame()
+};
+FrameContact contactOfFrame(const ContactRun& run);
+// `withCentroids`: also the sphere around the centroids of the matrices.
+std::vector<ColumnOf<FrameContact>> frameContactColumns(bool withCentroids = false);
+
 // One matrix in a frame, and whether it is placed in space.
 struct PlacedContact {
   MatrixContact contact;

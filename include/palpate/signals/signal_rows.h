@@ -26,10 +26,11 @@ std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit,
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
-  Recipe filters = {};                      // of the frames, first
-  Recipe smooth = {};                       // of the signals, over time
-  bool centres = false;                     // instead: centres of force (signals/centre_rows.h)
-  bool unitsRow = false;                    // of CSV: a second row with the units
+  bool ofHand = false;    // of the whole hand instead, without components; matrix: their number
+  bool centres = false;   // instead: centres of force (signals/centre_rows.h)
+  Recipe filters = {};    // of the frames, first
+  Recipe smooth = {};     // of the signals, over time
+  bool unitsRow = false;  // of CSV: a second row with the units
   TimeChoice times = TimeChoice::kArrival;  // of the frames, before the filters
 };
 // The table "signals" of a profile that is filtered already. Throws std::invalid_argument (a filter

@@ -19,15 +19,16 @@
 
 namespace palpate {
 
-// What is known of a matrix with an active taxel in one frame.
-std::vector<ColumnOf<SlipDetection>> slipColumns();
+// What is known of a matrix with an active taxel in one frame; `withCentroid`: x and y, too.
+std::vector<ColumnOf<SlipDetection>> slipColumns(bool withCentroid = false);
 
 struct SlipRowsOptions {
   SlipRunOptions pass = {};
   std::optional<std::int64_t> matrix = {};  // only this one
-  bool segments = false;  // a row per slip instead of one per frame and matrix
-  bool unitsRow = false;  // of CSV: a second row with the units
-  Recipe filters = {};    // of the frames, first
+  bool withCentroid = false;                // x and y behind `active`
+  bool segments = false;                    // a row per slip instead of one per frame and matrix
+  bool unitsRow = false;                    // of CSV: a second row with the units
+  Recipe filters = {};                      // of the frames, first
   TimeChoice times = TimeChoice::kArrival;
 };
 // The table "slip" of a profile that is filtered already, or "slip_segments". Throws as SlipRun.
