@@ -148,9 +148,9 @@ void computeCentroids(const Profile& profile, const Progress& progress, Computed
   forEachReadable(profile, progress, [&](std::size_t i, const TactileFrame& frame) {
     for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m) {
       const ContactMoments contact = contactMoments(frame.matrix(m));
-      const double pitchMm = profile.layout().matrix(m).pitchMm;
-      out.row(i)[2 * m] = orNotKnown(contact.active > 0, contact.x * pitchMm);
-      out.row(i)[2 * m + 1] = orNotKnown(contact.active > 0, contact.y * pitchMm);
+      const TaxelPitch& pitchMm = profile.layout().matrix(m).pitchMm;
+      out.row(i)[2 * m] = orNotKnown(contact.active > 0, contact.x * pitchMm.x);
+      out.row(i)[2 * m + 1] = orNotKnown(contact.active > 0, contact.y * pitchMm.y);
     }
   });
 }
@@ -192,16 +192,18 @@ void computeSlips(const Profile& profile,
                   ComputedRows& out) {
   const SlipSeries series = slipSeries(profile, options, progress);
   for (std::size_t m = 0; m < series.matrices.size(); ++m) {
-    const double pitchMm = profile.layout().matrix(m).pitchMm;
+    const TaxelPitch& pitchMm = profile.layout().matrix(m).pitchMm;
+    const auto lengthMm = [&](float dx, float dy) {
+      return pitchMm.lengthMm(static_cast<double>(dx), static_cast<double>(dy));
+    };
     const SlipSample* before = nullptr;
     for (const SlipSample& sample : series.matrices[m]) {
       // A step is that since the frame before, in which the matrix was touched, too.
       const double stepS = before ? series.timeS[sample.frame] - series.timeS[before->frame] : 0.0;
-      const double stepMm =
-          std::hypot(static_cast<double>(sample.dx), static_cast<double>(sample.dy)) * pitchMm;
       const std::span<float> row = out.row(sample.frame);
-      row[2 * m] = orNotKnown(sample.valid && stepS > 0.0, stepMm / stepS);
-      row[2 * m + 1] = orNotKnown(sample.refValid, sample.shiftTaxels() * pitchMm);
+      row[2 * m] =
+          orNotKnown(sample.valid && stepS > 0.0, lengthMm(sample.dx, sample.dy) / stepS);
+      row[2 * m + 1] = orNotKnown(sample.refValid, lengthMm(sample.refDx, sample.refDy));
       before = &sample;
     }
   }

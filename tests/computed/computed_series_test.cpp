@@ -109,7 +109,7 @@ TEST(ComputedSeries, WithoutTheAreaOfTheIndenterOnlyPressuresAreKnown) {
 
 TEST(ComputedSeries, CentroidsAreInMillimetresFromTheFirstTaxel) {
   const Profile profile = withComputedSeries(recorded(), {});
-  const double pitchMm = profile.layout().matrix(0).pitchMm;
+  const double pitchMm = profile.layout().matrix(0).pitchMm.x;
   const Series x = read(profile, "m0_centroid_x_mm"), y = read(profile, "m0_centroid_y_mm");
   ASSERT_EQ(x.values.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) {
@@ -117,6 +117,42 @@ TEST(ComputedSeries, CentroidsAreInMillimetresFromTheFirstTaxel) {
     EXPECT_NEAR(y.values[i], static_cast<double>(i) * pitchMm, 1e-4);
   }
   EXPECT_TRUE(std::isnan(read(profile, "m4_centroid_x_mm").values.at(0))) << "not touched";
+}
+
+// A pad of taxels 2 mm apart along a row and 5 mm along a column, touched by one that moves down.
+TEST(ComputedSeries, TaxelsThatAreNotSquareHaveTwoPitches) {
+  HandDescription pad;
+  pad.name = "pad";
+  pad.layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(6, 6, TaxelPitch(2.0, 5.0))});
+  pad.matrices.resize(1);
+  ProfileBuilder builder(pad);
+  for (int i = 0; i < 4; ++i) {
+    TactileFrame frame(pad.layout);
+    frame.matrix(0)(1 + i, 3) = 500.0F;
+    builder.addFrame(1'000'000 + i * 50'000, frame.values);
+  }
+  const Profile source = builder.finish({});
+  const Profile profile = withComputedSeries(source, {});
+  const Series x = read(profile, "m0_centroid_x_mm"), y = read(profile, "m0_centroid_y_mm");
+  const Series speed = read(profile, "m0_slip_speed_mm_s"), slip = read(profile, "m0_slip_mm");
+  const SlipSeries taxels = slipSeries(source);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(x.values.at(i), 3.0 * 2.0, 1e-4);
+    EXPECT_NEAR(y.values.at(i), static_cast<double>(1 + i) * 5.0, 1e-4);
+    const SlipSample* sample = taxels.at(0, i);
+    ASSERT_NE(sample, nullptr);
+    if (sample->valid && i > 0) {
+      const double stepMm = std::hypot(2.0 * static_cast<double>(sample->dx),
+                                       5.0 * static_cast<double>(sample->dy));
+      EXPECT_NEAR(speed.values.at(i), stepMm / 0.05, 1e-3);
+    }
+    if (sample->refValid) {
+      const double shiftMm = std::hypot(2.0 * static_cast<double>(sample->refDx),
+                                        5.0 * static_cast<double>(sample->refDy));
+      EXPECT_NEAR(slip.values.at(i), shiftMm, 1e-3);
+    }
+  }
 }
 
 TEST(ComputedSeries, TheSphereOfOneTaxelIsThatTaxel) {
@@ -139,7 +175,7 @@ TEST(ComputedSeries, SlipIsInMillimetresAndMillimetresPerSecond) {
   const Series speed = read(profile, "m0_slip_speed_mm_s"), slip = read(profile, "m0_slip_mm");
   ASSERT_EQ(speed.values.size(), 10u);
   ASSERT_EQ(slip.values.size(), 10u);
-  const double pitchMm = source.layout().matrix(0).pitchMm;
+  const double pitchMm = source.layout().matrix(0).pitchMm.x;
   EXPECT_TRUE(std::isnan(speed.values[0])) << "there is no frame before";
   for (std::size_t i = 1; i < 10; ++i) {
     const SlipSample* sample = expected.at(0, i);
