@@ -28,6 +28,8 @@ std::string timesText(TimeChoice times) {
   return times == TimeChoice::kFitted ? "; times fitted" : "";
 }
 
+std::string unitsRowText(bool unitsRow) { return unitsRow ? "; units-row" : ""; }
+
 // The recording of an item, filtered; the first half of the progress.
 Recording openFiltered(const BatchItem& item,
                        const Recipe& filters,
@@ -218,7 +220,7 @@ RecordingTable graspsOf(const GraspRowsOptions& options) {
 }
 
 BatchTask tableTask(const RecordingTable& table) {
-  return {.options = table.options + (table.unitsRow ? "; units-row" : ""),
+  return {.options = table.options + unitsRowText(table.unitsRow),
           .work = [table](const BatchItem& item,
                           Overwrite overwrite,
                           const Progress& progress,
@@ -235,7 +237,10 @@ BatchTask tableTask(const RecordingTable& table) {
             BatchAnswer answer{.said = table.rowNoun.empty()
                                            ? counted(recording.profile.numFrames(), "frame")
                                            : counted(count, table.rowNoun),
-                               .problem = partText(item, recording.profile)};
+                               .problem = partText(item,
+                                                   recording.profile,
+                                                   table.readable ? recording.damage.events : 0)};
+            for (const std::string& note : rows->notes()) answer.said += "; " + note;
             if (table.readable && !recording.damage.text.empty())
               answer.problem = item.source.string() + ": " + recording.damage.text;
             for (const std::string& problem : rows->problems())
@@ -244,11 +249,11 @@ BatchTask tableTask(const RecordingTable& table) {
           }};
 }
 
-BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
+BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters, bool unitsRow) {
   filters.validate();
   return {.options = "features; " + std::string(set ? featureSetName(*set) : "default") +
-                     filtersText(filters),
-          .work = [set, filters](const BatchItem& item,
+                     filtersText(filters) + unitsRowText(unitsRow),
+          .work = [set, filters, unitsRow](const BatchItem& item,
                                  Overwrite overwrite,
                                  const Progress& progress,
                                  std::size_t) {
@@ -262,7 +267,8 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
             const std::size_t count = writeTableFile(*featureTable(table),
                                                      item.target,
                                                      overwrite,
-                                                     {.form = tableFormOf(item.target)});
+                                                     {.form = tableFormOf(item.target),
+                                                      .unitsRow = unitsRow});
             BatchAnswer answer{.said = counted(count, "grasp")};
             if (!table.problems.empty()) answer.problem = table.problems.front();
             return answer;

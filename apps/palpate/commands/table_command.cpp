@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kOptionsOfTheRun[] = {
     "output", "force", "resume", "threads", "report", "quiet", "json", "units-row"};
+constexpr const char* kUnitsOfJson = "--units-row is a row of CSV; JSON has the units of its columns";
 
 }  // namespace
 
@@ -34,9 +35,16 @@ std::string choicesText(const CommandLine& given) {
 
 TableTextOptions tableTextOf(const CommandLine& given) {
   const bool asJson = given.has("json"), unitsRow = given.has("units-row");
-  if (asJson && unitsRow)
-    throw UsageError("--units-row is a row of CSV; --json names the units of its columns");
+  if (asJson && unitsRow) throw UsageError(kUnitsOfJson);
   return {.form = asJson ? TableForm::kJson : TableForm::kCsv, .unitsRow = unitsRow};
+}
+
+BatchTemplate tableTemplateOf(const CommandLine& given) {
+  BatchTemplate names = batchTemplateOf(given, {".csv", ".json"});
+  const bool isJson = tableFormOf("x" + names.ending()) == TableForm::kJson;
+  if (given.has("json") && !isJson) throw UsageError("--json with -o: let the template end in .json");
+  if (given.has("units-row") && isJson) throw UsageError(kUnitsOfJson);
+  return names;
 }
 
 void writeTable(const CommandLine& given, ResultTable& table) {
@@ -49,7 +57,7 @@ int runTableCommand(const CommandLine& given, const RecordingTable& table) {
   RecordingTable chosen = table;
   chosen.unitsRow = given.has("units-row");
   if (given.has("output"))
-    return runBatchCommand(given, batchTemplateOf(given, {".csv", ".json"}), tableTask(chosen));
+    return runBatchCommand(given, tableTemplateOf(given), tableTask(chosen));
   refuseBatchOptions(given);
   return writeTables(
       recordingsIn(given.words()),

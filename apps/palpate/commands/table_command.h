@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <palpate/batch/batch_plan.h>
 #include <palpate/batch/batch_task.h>
 
 #include "commands/command_line.h"
@@ -19,6 +20,9 @@ std::string choicesText(const CommandLine& given);
 
 // How the options want a table as text. Throws UsageError.
 TableTextOptions tableTextOf(const CommandLine& given);
+// The template that -o gives, whose ending (.csv, .json) says the form. Throws UsageError, also for
+// --json and --units-row that don't fit it.
+BatchTemplate tableTemplateOf(const CommandLine& given);
 // Writes one table to standard output.
 void writeTable(const CommandLine& given, ResultTable& table);
 

@@ -675,7 +675,8 @@ void HandSceneBuilder::addShear(HandScene& scene, const HandLook& look) const {
     const MatrixLayout& matrix = hand_->layout->matrix(m);
     if (matrix.touch.components != 3 || !matrix.enabled(y, x)) return;
     const TaxelPatch& patch = places[place];
-    const QPointF shear = scale * matrix.pitchMm * shearAt(*handState_.frame, {m, y, x});
+    const double sideMm = std::min(matrix.pitchMm.x, matrix.pitchMm.y);
+    const QPointF shear = scale * sideMm * shearAt(*handState_.frame, {m, y, x});
     if (std::hypot(shear.x(), shear.y()) < kShortestShearMm) return;
     const Vector3f way =
         static_cast<float>(shear.x()) * patch.alongX + static_cast<float>(shear.y()) * patch.alongY;
@@ -684,7 +685,7 @@ void HandSceneBuilder::addShear(HandScene& scene, const HandLook& look) const {
              way.cast<double>(),
              kShearPx,
              color,
-             std::min(0.4 * matrix.pitchMm, 0.4 * std::hypot(shear.x(), shear.y())));
+             std::min(0.4 * sideMm, 0.4 * std::hypot(shear.x(), shear.y())));
   });
 }
 
