@@ -171,17 +171,18 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
 RecordingTable signalsOf(const SignalRowsOptions& options) {
   options.filters.validate();
   SignalFilter(options.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
-  return {.options = "signals; " + recipeText(options.filters) + "; smooth " +
-                     recipeText(options.smooth) + matrixText(options.matrix) +
-                     timesText(options.times),
-          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile = filteredBy(
-                options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
+  return {
+      .options = "signals; " + recipeText(options.filters) + "; smooth " +
+                 recipeText(options.smooth) + matrixText(options.matrix) + timesText(options.times),
+      .of =
+          [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+            const Profile profile =
+                filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
             requireMatrix(file, profile.layout(), options.matrix);
             requireBelowHalfRate(options.smooth, profile, file);
             return signalTable(profile, options, partOf(progress, 0.5, 1.0));
           },
-          .unitsRow = options.unitsRow};
+      .unitsRow = options.unitsRow};
 }
 
 RecordingTable slipOf(const SlipRowsOptions& options) {
@@ -189,12 +190,13 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
   return {.options = std::string("slip") + (options.segments ? "; segments" : "") + "; " +
                      passText(options.pass) + matrixText(options.matrix) +
                      filtersText(options.filters) + timesText(options.times),
-          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile = filteredBy(
-                options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
-            requireThere(file, profile, options);
-            return slipTable(profile, options, partOf(progress, 0.3, 1.0));
-          },
+          .of =
+              [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+                const Profile profile = filteredBy(
+                    options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
+                requireThere(file, profile, options);
+                return slipTable(profile, options, partOf(progress, 0.3, 1.0));
+              },
           .rowNoun = options.segments ? "slip" : "row",
           .unitsRow = options.unitsRow};
 }
@@ -202,11 +204,12 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
 RecordingTable graspsOf(const GraspRowsOptions& options) {
   options.filters.validate();
   const bool isStudy = options.segments.rule == GraspRule::kStudy;
-  return {.options = std::string("grasps; ") + (isStudy ? "study" : "general") +
-                     filtersText(options.filters),
-          .of = [options, isStudy](const fs::path& file,
-                                   const Recording& whole,
-                                   const Progress& progress) {
+  return {
+      .options =
+          std::string("grasps; ") + (isStudy ? "study" : "general") + filtersText(options.filters),
+      .of =
+          [options, isStudy](
+              const fs::path& file, const Recording& whole, const Progress& progress) {
             const Profile profile =
                 filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5));
             const HandDescription& hand = profile.hand();
@@ -216,7 +219,7 @@ RecordingTable graspsOf(const GraspRowsOptions& options) {
                                   hand.name + "' doesn't name: use --rule general");
             return graspTable(profile, options.segments, partOf(progress, 0.5, 1.0));
           },
-          .rowNoun = "grasp"};
+      .rowNoun = "grasp"};
 }
 
 BatchTask tableTask(const RecordingTable& table) {
@@ -229,17 +232,16 @@ BatchTask tableTask(const RecordingTable& table) {
                 item.source, {.threads = threads}, partOf(progress, 0.0, 0.4));
             const std::unique_ptr<ResultTable> rows =
                 table.of(item.source, recording, partOf(progress, 0.4, 1.0));
-            const std::size_t count = writeTableFile(
-                *rows,
-                item.target,
-                overwrite,
-                {.form = tableFormOf(item.target), .unitsRow = table.unitsRow});
-            BatchAnswer answer{.said = table.rowNoun.empty()
-                                           ? counted(recording.profile.numFrames(), "frame")
-                                           : counted(count, table.rowNoun),
-                               .problem = partText(item,
-                                                   recording.profile,
-                                                   table.readable ? recording.damage.events : 0)};
+            const std::size_t count =
+                writeTableFile(*rows,
+                               item.target,
+                               overwrite,
+                               {.form = tableFormOf(item.target), .unitsRow = table.unitsRow});
+            BatchAnswer answer{
+                .said = table.rowNoun.empty() ? counted(recording.profile.numFrames(), "frame")
+                                              : counted(count, table.rowNoun),
+                .problem = partText(
+                    item, recording.profile, table.readable ? recording.damage.events : 0)};
             for (const std::string& note : rows->notes()) answer.said += "; " + note;
             if (table.readable && !recording.damage.text.empty())
               answer.problem = item.source.string() + ": " + recording.damage.text;
@@ -254,9 +256,9 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters, boo
   return {.options = "features; " + std::string(set ? featureSetName(*set) : "default") +
                      filtersText(filters) + unitsRowText(unitsRow),
           .work = [set, filters, unitsRow](const BatchItem& item,
-                                 Overwrite overwrite,
-                                 const Progress& progress,
-                                 std::size_t) {
+                                           Overwrite overwrite,
+                                           const Progress& progress,
+                                           std::size_t) {
             FeatureTable table = extractFeatures(
                 {item.source}, {.set = set, .threads = 1, .filters = filters}, progress);
             if (table.rows.empty())
@@ -264,11 +266,11 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters, boo
                               ? FileError(item.source, "has no grasp with features").what()
                               : table.problems.front());
             for (FeatureRow& row : table.rows) row.className = classIn(item);
-            const std::size_t count = writeTableFile(*featureTable(table),
-                                                     item.target,
-                                                     overwrite,
-                                                     {.form = tableFormOf(item.target),
-                                                      .unitsRow = unitsRow});
+            const std::size_t count =
+                writeTableFile(*featureTable(table),
+                               item.target,
+                               overwrite,
+                               {.form = tableFormOf(item.target), .unitsRow = unitsRow});
             BatchAnswer answer{.said = counted(count, "grasp")};
             if (!table.problems.empty()) answer.problem = table.problems.front();
             return answer;

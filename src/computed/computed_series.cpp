@@ -201,8 +201,7 @@ void computeSlips(const Profile& profile,
       // A step is that since the frame before, in which the matrix was touched, too.
       const double stepS = before ? series.timeS[sample.frame] - series.timeS[before->frame] : 0.0;
       const std::span<float> row = out.row(sample.frame);
-      row[2 * m] =
-          orNotKnown(sample.valid && stepS > 0.0, lengthMm(sample.dx, sample.dy) / stepS);
+      row[2 * m] = orNotKnown(sample.valid && stepS > 0.0, lengthMm(sample.dx, sample.dy) / stepS);
       row[2 * m + 1] = orNotKnown(sample.refValid, lengthMm(sample.refDx, sample.refDy));
       before = &sample;
     }

@@ -110,8 +110,7 @@ std::vector<ColumnOf<SlipDetection>> slipColumns() {
                           "",
                           "of the contact's outline: 1 a circle",
                           [](const auto& v) { return v.motion.rotation.roundness; }),
-      columnOf<Detection>(
-          "residual", "", "what the motion doesn't explain", &Detection::residual),
+      columnOf<Detection>("residual", "", "what the motion doesn't explain", &Detection::residual),
       columnOf<Detection>("confidence", "", "of the state, 0 to 1", &Detection::confidence),
       columnOf<Detection>("p_moved",
                           "",

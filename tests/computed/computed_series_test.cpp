@@ -143,8 +143,8 @@ TEST(ComputedSeries, TaxelsThatAreNotSquareHaveTwoPitches) {
     const SlipSample* sample = taxels.at(0, i);
     ASSERT_NE(sample, nullptr);
     if (sample->valid && i > 0) {
-      const double stepMm = std::hypot(2.0 * static_cast<double>(sample->dx),
-                                       5.0 * static_cast<double>(sample->dy));
+      const double stepMm =
+          std::hypot(2.0 * static_cast<double>(sample->dx), 5.0 * static_cast<double>(sample->dy));
       EXPECT_NEAR(speed.values.at(i), stepMm / 0.05, 1e-3);
     }
     if (sample->refValid) {

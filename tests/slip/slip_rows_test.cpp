@@ -58,20 +58,19 @@ TEST(SlipRows, HaveTheValuesOfTheDetector) {
   const auto table = slipTable(movedContact(), {.matrix = 1});
   std::vector<Cell> cells;
   std::size_t known = 0;
-  runSlipDetector(
-      movedContact(), {}, [&](std::size_t frame, std::int64_t, const auto& detections) {
-        ASSERT_TRUE(table->next(cells));
-        const SlipDetection& detection = detections[1];
-        EXPECT_EQ(std::get<std::int64_t>(cells[0]), static_cast<std::int64_t>(frame));
-        EXPECT_EQ(std::get<bool>(cells[4]), detection.motion.valid);
-        EXPECT_EQ(std::holds_alternative<std::monostate>(cells[5]), !detection.motion.valid);
-        if (detection.motion.valid) {
-          EXPECT_EQ(std::get<double>(cells[6]), detection.motion.dy + 0.0);
-          ++known;
-        }
-        EXPECT_EQ(std::get<std::string>(cells[18]), nameOf(detection.state));
-        EXPECT_EQ(std::get<bool>(cells[19]), detection.slipping);
-      });
+  runSlipDetector(movedContact(), {}, [&](std::size_t frame, std::int64_t, const auto& detections) {
+    ASSERT_TRUE(table->next(cells));
+    const SlipDetection& detection = detections[1];
+    EXPECT_EQ(std::get<std::int64_t>(cells[0]), static_cast<std::int64_t>(frame));
+    EXPECT_EQ(std::get<bool>(cells[4]), detection.motion.valid);
+    EXPECT_EQ(std::holds_alternative<std::monostate>(cells[5]), !detection.motion.valid);
+    if (detection.motion.valid) {
+      EXPECT_EQ(std::get<double>(cells[6]), detection.motion.dy + 0.0);
+      ++known;
+    }
+    EXPECT_EQ(std::get<std::string>(cells[18]), nameOf(detection.state));
+    EXPECT_EQ(std::get<bool>(cells[19]), detection.slipping);
+  });
   EXPECT_GT(known, 50u);
   EXPECT_FALSE(table->next(cells));
 }
@@ -83,6 +82,20 @@ TEST(SlipRows, OfSlipsAreOneForEachSlip) {
             0U);
   const std::string ofThree = csvOf({.matrix = 3, .segments = true});
   EXPECT_EQ(std::count(ofThree.begin(), ofThree.end(), '\n'), 1);
+}
+
+TEST(SlipRows, SayWhereNoRotationIsMeasured) {
+  const auto layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(3, 3, TaxelPitch(2.0, 5.0))});
+  ProfileBuilder builder(layout);
+  builder.addFrame(1'000'000, TactileFrame(layout).values);
+  const Profile oblong = builder.finish({});
+  for (const bool segments : {false, true}) {
+    const SlipRowsOptions options{.segments = segments};
+    EXPECT_EQ(slipTable(oblong, options)->notes(),
+              std::vector<std::string>{"no rotation is measured where taxels aren't square"});
+    EXPECT_TRUE(slipTable(movedContact(), options)->notes().empty());
+  }
 }
 
 TEST(SlipRows, HaveUnits) {

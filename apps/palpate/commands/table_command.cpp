@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* kOptionsOfTheRun[] = {
     "output", "force", "resume", "threads", "report", "quiet", "json", "units-row"};
-constexpr const char* kUnitsOfJson = "--units-row is a row of CSV; JSON has the units of its columns";
+constexpr const char* kUnitsOfJson =
+    "--units-row is a row of CSV; JSON has the units of its columns";
 
 }  // namespace
 
@@ -42,7 +43,8 @@ TableTextOptions tableTextOf(const CommandLine& given) {
 BatchTemplate tableTemplateOf(const CommandLine& given) {
   BatchTemplate names = batchTemplateOf(given, {".csv", ".json"});
   const bool isJson = tableFormOf("x" + names.ending()) == TableForm::kJson;
-  if (given.has("json") && !isJson) throw UsageError("--json with -o: let the template end in .json");
+  if (given.has("json") && !isJson)
+    throw UsageError("--json with -o: let the template end in .json");
   if (given.has("units-row") && isJson) throw UsageError(kUnitsOfJson);
   return names;
 }
@@ -56,13 +58,11 @@ void writeTable(const CommandLine& given, ResultTable& table) {
 int runTableCommand(const CommandLine& given, const RecordingTable& table) {
   RecordingTable chosen = table;
   chosen.unitsRow = given.has("units-row");
-  if (given.has("output"))
-    return runBatchCommand(given, tableTemplateOf(given), tableTask(chosen));
+  if (given.has("output")) return runBatchCommand(given, tableTemplateOf(given), tableTask(chosen));
   refuseBatchOptions(given);
-  return writeTables(
-      recordingsIn(given.words()),
-      given.quiet(),
-      {.of = table.of, .text = tableTextOf(given), .readable = table.readable});
+  return writeTables(recordingsIn(given.words()),
+                     given.quiet(),
+                     {.of = table.of, .text = tableTextOf(given), .readable = table.readable});
 }
 
 }  // namespace palpate::commands

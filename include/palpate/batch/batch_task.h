@@ -12,11 +12,11 @@
 #include <palpate/batch/batch_run.h>
 #include <palpate/batch/export_extras.h>
 #include <palpate/batch/grasp_files.h>
+#include <palpate/core/result_table.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/time_base.h>
 #include <palpate/recognition/feature_table.h>
 #include <palpate/recognition/grasp_segments.h>
-#include <palpate/core/result_table.h>
 #include <palpate/recording/recording.h>
 #include <palpate/signals/signal_rows.h>
 #include <palpate/slip/slip_rows.h>
