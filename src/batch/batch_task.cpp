@@ -29,6 +29,8 @@ std::string timesText(TimeChoice times) {
   return times == TimeChoice::kFitted ? "; times fitted" : "";
 }
 
+std::string unitsRowText(bool unitsRow) { return unitsRow ? "; units-row" : ""; }
+
 // The recording of an item, filtered; the first half of the progress.
 Recording openFiltered(const BatchItem& item,
                        const Recipe& filters,
@@ -221,7 +223,7 @@ RecordingTable graspsOf(const GraspRowsOptions& options) {
 }
 
 BatchTask tableTask(const RecordingTable& table) {
-  return {.options = table.options + (table.unitsRow ? "; units-row" : ""),
+  return {.options = table.options + unitsRowText(table.unitsRow),
           .work = [table](const BatchItem& item,
                           Overwrite overwrite,
                           const Progress& progress,
@@ -232,10 +234,12 @@ BatchTask tableTask(const RecordingTable& table) {
                 table.of(item.source, recording, partOf(progress, 0.4, 1.0));
             const std::size_t count =
                 writeResult(*rows, item.target, overwrite, {.unitsRow = table.unitsRow});
-            BatchAnswer answer{.said = table.rowNoun.empty()
-                                           ? counted(recording.profile.numFrames(), "frame")
-                                           : counted(count, table.rowNoun),
-                               .problem = partText(item, recording.profile)};
+            BatchAnswer answer{
+                .said = table.rowNoun.empty() ? counted(recording.profile.numFrames(), "frame")
+                                              : counted(count, table.rowNoun),
+                .problem = partText(
+                    item, recording.profile, table.readable ? recording.damage.events : 0)};
+            for (const std::string& note : rows->notes()) answer.said += "; " + note;
             if (table.readable && !recording.damage.text.empty())
               answer.problem = item.source.string() + ": " + recording.damage.text;
             for (const std::string& problem : rows->problems())
@@ -244,14 +248,14 @@ BatchTask tableTask(const RecordingTable& table) {
           }};
 }
 
-BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
+BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters, bool unitsRow) {
   filters.validate();
   return {.options = "features; " + std::string(set ? featureSetName(*set) : "default") +
-                     filtersText(filters),
-          .work = [set, filters](const BatchItem& item,
-                                 Overwrite overwrite,
-                                 const Progress& progress,
-                                 std::size_t) {
+                     filtersText(filters) + unitsRowText(unitsRow),
+          .work = [set, filters, unitsRow](const BatchItem& item,
+                                           Overwrite overwrite,
+                                           const Progress& progress,
+                                           std::size_t) {
             FeatureTable table = extractFeatures(
                 {item.source}, {.set = set, .threads = 1, .filters = filters}, progress);
             if (table.rows.empty())
@@ -259,7 +263,8 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
                               ? FileError(item.source, "has no grasp with features").what()
                               : table.problems.front());
             for (FeatureRow& row : table.rows) row.className = classIn(item);
-            const std::size_t count = writeResult(*featureTable(table), item.target, overwrite);
+            const std::size_t count =
+                writeResult(*featureTable(table), item.target, overwrite, {.unitsRow = unitsRow});
             BatchAnswer answer{.said = counted(count, "grasp")};
             if (!table.problems.empty()) answer.problem = table.problems.front();
             return answer;

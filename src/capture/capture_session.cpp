@@ -278,8 +278,8 @@ Rest CaptureSession::restNow() const {
   const auto first = std::find_if(recent.rbegin(), recent.rend(), [&](const SharedFrame& frame) {
     return frame->stored().size() != recent.back()->stored().size();
   });
-  for (auto frame = first.base(); frame != recent.end(); ++frame) meter.add((*frame)->stored());
   try {
+    for (auto frame = first.base(); frame != recent.end(); ++frame) meter.add((*frame)->stored());
     return {meter.baseline(), meter.numFrames()};
   } catch (const std::invalid_argument& error) {
     throw Error(error.what());
@@ -468,9 +468,13 @@ LinkInputs CaptureSession::inputs() const {
   {
     const std::vector<std::string> names = seriesNames();
     const std::lock_guard clocksLock(clocksMutex_);
-    for (const auto& [of, clock] : clocks_)
+    for (const auto& [of, clock] : clocks_) {
+      const bool ofFrames = of == kMaxSeries;
+      // Of a series that was removed nothing more comes.
+      if (!ofFrames && (of >= names.size() || names[of].empty())) continue;
       if (const auto report = clock.report())
-        inputs.clocks.push_back({of < names.size() ? names[of] : "frames", *report});
+        inputs.clocks.push_back({ofFrames ? "frames" : names[of], *report});
+    }
   }
   const std::lock_guard lock(shownMutex_);
   inputs.temperatures = lastTemperatures_;

@@ -193,17 +193,16 @@ void computeSlips(const Profile& profile,
   const SlipSeries series = slipSeries(profile, options, progress);
   for (std::size_t m = 0; m < series.matrices.size(); ++m) {
     const TaxelPitch& pitchMm = profile.layout().matrix(m).pitchMm;
+    const auto lengthMm = [&](float dx, float dy) {
+      return pitchMm.lengthMm(static_cast<double>(dx), static_cast<double>(dy));
+    };
     const SlipSample* before = nullptr;
     for (const SlipSample& sample : series.matrices[m]) {
       // A step is that since the frame before, in which the matrix was touched, too.
       const double stepS = before ? series.timeS[sample.frame] - series.timeS[before->frame] : 0.0;
-      const double stepMm =
-          pitchMm.lengthMm(static_cast<double>(sample.dx), static_cast<double>(sample.dy));
       const std::span<float> row = out.row(sample.frame);
-      row[2 * m] = orNotKnown(sample.valid && stepS > 0.0, stepMm / stepS);
-      row[2 * m + 1] = orNotKnown(
-          sample.refValid,
-          pitchMm.lengthMm(static_cast<double>(sample.refDx), static_cast<double>(sample.refDy)));
+      row[2 * m] = orNotKnown(sample.valid && stepS > 0.0, lengthMm(sample.dx, sample.dy) / stepS);
+      row[2 * m + 1] = orNotKnown(sample.refValid, lengthMm(sample.refDx, sample.refDy));
       before = &sample;
     }
   }

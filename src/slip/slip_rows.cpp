@@ -136,14 +136,19 @@ std::unique_ptr<ResultTable> slipTable(const Profile& profile,
   const auto wanted = [only = options.matrix](std::size_t matrix) {
     return !only || *only == static_cast<std::int64_t>(matrix);
   };
+  const auto noted = [&profile](std::unique_ptr<ResultTable> table) {
+    if (!profile.layout().hasSquareTaxels())
+      table->note("no rotation is measured where taxels aren't square");
+    return table;
+  };
   if (options.segments) {
     std::vector<SlipSegment> found = findSlips(profile, {.pass = options.pass}, progress);
     std::erase_if(found, [&](const SlipSegment& each) { return !wanted(each.matrix); });
-    return std::make_unique<RowTable<SlipSegment>>(
-        "slip_segments", segmentColumns(), std::move(found));
+    return noted(std::make_unique<RowTable<SlipSegment>>(
+        "slip_segments", segmentColumns(), std::move(found)));
   }
   using Row = MatrixRow<SlipDetection>;
-  auto table = std::make_unique<RowTable<Row>>(
+  return noted(std::make_unique<RowTable<Row>>(
       "slip",
       matrixRowColumns(slipColumns(options.withCentroid)),
       [run = std::make_shared<SlipRun>(profile, options.pass),
@@ -157,10 +162,7 @@ std::unique_ptr<ResultTable> slipTable(const Profile& profile,
           if (detections[m].motion.active > 0 && wanted(m))
             rows.push_back({run->frame(), run->timeUs(), m, detections[m]});
         return true;
-      });
-  if (!profile.layout().hasSquareTaxels())
-    table->note("no rotation is measured where taxels aren't square");
-  return table;
+      }));
 }
 
 void setSlipMethod(SlipRowsOptions& table, std::string_view name) {

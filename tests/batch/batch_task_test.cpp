@@ -181,6 +181,11 @@ TEST_F(BatchTasks, FeaturesHaveTheClassOfTheFolder) {
   const std::string table = made(featuresTask(FeatureSet::kStatistics), "f.csv");
   EXPECT_EQ(table.rfind("class,file,begin,end,initial_frame,end_frame,", 0), 0U) << table;
   EXPECT_NE(table.find("\ngolf ball," + item_.source.string() + ","), std::string::npos) << table;
+  const std::string withUnits = made(featuresTask(FeatureSet::kStatistics, {}, true), "u.csv");
+  const std::string head = table.substr(0, table.find('\n'));
+  EXPECT_EQ(withUnits.rfind(head + "\n,,,", 0), 0U) << "features have no units";
+  EXPECT_NE(featuresTask(FeatureSet::kStatistics, {}, true).options,
+            featuresTask(FeatureSet::kStatistics).options);
   item_.source = folder_ / "in/golf_ball/empty.palpate";
   saveRecording(synthesize({.durationS = 2.0, .grasps = 0}), {}, item_.source);
   EXPECT_NE(refusalOf(featuresTask(FeatureSet::kStatistics)).find("empty.palpate"),

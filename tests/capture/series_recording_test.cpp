@@ -405,6 +405,15 @@ TEST(SeriesRecording, ARemovedSensorLeavesNothingInTheRecording) {
   EXPECT_TRUE(openRecording(folder / "a.palpate").furtherSeries().empty());
 }
 
+TEST(SeriesRecording, TheClockOfARemovedSensorIsGone) {
+  Session bench({"wrist"});
+  bench.wires[0]->send("time_ms,fx\n1,2\n");
+  ASSERT_TRUE(awaited([&] { return bench.session->health().clocks.size() == 1; }));
+  EXPECT_EQ(bench.session->health().clocks[0].of, "wrist");
+  bench.session->removeSeries("wrist");
+  EXPECT_TRUE(bench.session->health().clocks.empty());
+}
+
 // A writer that is killed leaves what was committed.
 TEST(SeriesRecording, AKilledWriterLeavesTheSeries) {
   const TemporaryFolder folder;

@@ -138,6 +138,13 @@ TEST_F(BatchOptionsTest, UnitsStandInTheSecondRowOfEachTable) {
   expectOneLineError(palpate({"convert", in(), "-o", out("{name}.npz"), "--units-row"}),
                      2,
                      {"--units-row is for .csv"});
+  for (const std::string command : {"signals", "features"}) {
+    expectOneLineError(palpate({command, in(), "-o", out("{name}.json"), "--units-row"}),
+                       2,
+                       {"--units-row is a row of CSV"});
+    expectOneLineError(
+        palpate({command, in(), "-o", out("{name}.csv"), "--json"}), 2, {"end in .json"});
+  }
 }
 
 // All files below a folder but hidden ones.

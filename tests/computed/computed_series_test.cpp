@@ -119,6 +119,42 @@ TEST(ComputedSeries, CentroidsAreInMillimetresFromTheFirstTaxel) {
   EXPECT_TRUE(std::isnan(read(profile, "m4_centroid_x_mm").values.at(0))) << "not touched";
 }
 
+// A pad of taxels 2 mm apart along a row and 5 mm along a column, touched by one that moves down.
+TEST(ComputedSeries, TaxelsThatAreNotSquareHaveTwoPitches) {
+  HandDescription pad;
+  pad.name = "pad";
+  pad.layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(6, 6, TaxelPitch(2.0, 5.0))});
+  pad.matrices.resize(1);
+  ProfileBuilder builder(pad);
+  for (int i = 0; i < 4; ++i) {
+    TactileFrame frame(pad.layout);
+    frame.matrix(0)(1 + i, 3) = 500.0F;
+    builder.addFrame(1'000'000 + i * 50'000, frame.values);
+  }
+  const Profile source = builder.finish({});
+  const Profile profile = withComputedSeries(source, {});
+  const Series x = read(profile, "m0_centroid_x_mm"), y = read(profile, "m0_centroid_y_mm");
+  const Series speed = read(profile, "m0_slip_speed_mm_s"), slip = read(profile, "m0_slip_mm");
+  const SlipSeries taxels = slipSeries(source);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(x.values.at(i), 3.0 * 2.0, 1e-4);
+    EXPECT_NEAR(y.values.at(i), static_cast<double>(1 + i) * 5.0, 1e-4);
+    const SlipSample* sample = taxels.at(0, i);
+    ASSERT_NE(sample, nullptr);
+    if (sample->valid && i > 0) {
+      const double stepMm =
+          std::hypot(2.0 * static_cast<double>(sample->dx), 5.0 * static_cast<double>(sample->dy));
+      EXPECT_NEAR(speed.values.at(i), stepMm / 0.05, 1e-3);
+    }
+    if (sample->refValid) {
+      const double shiftMm = std::hypot(2.0 * static_cast<double>(sample->refDx),
+                                        5.0 * static_cast<double>(sample->refDy));
+      EXPECT_NEAR(slip.values.at(i), shiftMm, 1e-3);
+    }
+  }
+}
+
 TEST(ComputedSeries, TheSphereOfOneTaxelIsThatTaxel) {
   const Profile profile = withComputedSeries(recorded(), {});
   const HandGeometry geometry(describeGeometry(sdh2()));

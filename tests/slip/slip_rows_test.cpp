@@ -98,6 +98,20 @@ TEST(SlipRows, CanHaveTheCentroid) {
   });
 }
 
+TEST(SlipRows, SayWhereNoRotationIsMeasured) {
+  const auto layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(3, 3, TaxelPitch(2.0, 5.0))});
+  ProfileBuilder builder(layout);
+  builder.addFrame(1'000'000, TactileFrame(layout).values);
+  const Profile oblong = builder.finish({});
+  for (const bool segments : {false, true}) {
+    const SlipRowsOptions options{.segments = segments};
+    EXPECT_EQ(slipTable(oblong, options)->notes(),
+              std::vector<std::string>{"no rotation is measured where taxels aren't square"});
+    EXPECT_TRUE(slipTable(movedContact(), options)->notes().empty());
+  }
+}
+
 TEST(SlipRows, HaveUnits) {
   EXPECT_EQ(columnNamed(slipColumns(), "ref_dx").column.unit, "taxels");
   EXPECT_EQ(columnNamed(slipColumns(), "orientation_deg").column.unit, "deg");

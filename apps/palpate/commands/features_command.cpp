@@ -65,8 +65,9 @@ int featuresCommand(const Arguments& words) {
   if (set) options.set = *featureSetNamed(*set);
   options.filters = recipeOf(given);
   if (given.has("output"))
-    return runBatchCommand(
-        given, batchTemplateOf(given, resultEndings()), featuresTask(options.set, options.filters));
+    return runBatchCommand(given,
+                           tableTemplateOf(given),
+                           featuresTask(options.set, options.filters, given.has("units-row")));
   refuseBatchOptions(given);
   FeatureTable table = gather(given, options);
 

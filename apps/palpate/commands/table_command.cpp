@@ -25,6 +25,8 @@ namespace {
 
 constexpr const char* kOptionsOfTheRun[] = {
     "output", "force", "resume", "threads", "report", "quiet", "json", "units-row"};
+constexpr const char* kUnitsOfJson =
+    "--units-row is a row of CSV; JSON has the units of its columns";
 
 void sayOfTable(const std::string& line) {
   std::fprintf(stderr, "palpate: %s\n", escapedLine(line).c_str());
@@ -97,8 +99,18 @@ TableTextOptions tableTextOf(const CommandLine& given) {
   const TableForm form = formOf(given);
   const bool unitsRow = given.has("units-row");
   if (form == TableForm::kJson && unitsRow)
-    throw UsageError("--units-row is a row of CSV; --json names the units of its columns");
+    throw UsageError(kUnitsOfJson);
   return {.form = form, .unitsRow = unitsRow};
+}
+
+BatchTemplate tableTemplateOf(const CommandLine& given) {
+  BatchTemplate names = batchTemplateOf(given, resultEndings());
+  const std::string ending = lowerEndingOf("x" + names.ending());
+  if (given.has("json") && ending != ".json")
+    throw UsageError("--json with -o: let the template end in .json");
+  if (given.has("units-row") && ending != ".csv")
+    throw UsageError("--units-row is for .csv; other forms have the units with their columns");
+  return names;
 }
 
 ResultOutput::ResultOutput(const CommandLine& given, bool outputTaken) : quiet_(given.quiet()) {
@@ -175,12 +187,7 @@ int runTableCommand(const CommandLine& given, const RecordingTable& table) {
       return withTimeColumn(given, file, recording, of(file, recording, shown));
     };
   }
-  if (given.has("output")) {
-    const BatchTemplate names = batchTemplateOf(given, resultEndings());
-    if (chosen.unitsRow && lowerEndingOf("x" + names.ending()) != ".csv")
-      throw UsageError("--units-row is for .csv; other forms have the units with their columns");
-    return runBatchCommand(given, names, tableTask(chosen));
-  }
+  if (given.has("output")) return runBatchCommand(given, tableTemplateOf(given), tableTask(chosen));
   refuseBatchOptions(given);
   return writeTables(recordingsIn(given.words()),
                      given.quiet(),

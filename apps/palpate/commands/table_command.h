@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <palpate/batch/batch_plan.h>
 #include <palpate/batch/batch_task.h>
 #include <palpate/core/json.h>
 #include <palpate/core/output_file.h>
@@ -39,6 +40,9 @@ std::string choicesText(const CommandLine& given);
 TableForm formOf(const CommandLine& given);
 // How the options want a table as text. Throws UsageError.
 TableTextOptions tableTextOf(const CommandLine& given);
+// The template that -o gives, whose ending says the form. Throws UsageError, also for --json and
+// --units-row that don't fit it.
+BatchTemplate tableTemplateOf(const CommandLine& given);
 
 // Where the one result of a command goes: standard output, or the file of -o, which finish()
 // names on standard output.

@@ -69,5 +69,7 @@ inline BatchTask signalsTask(const SignalRowsOptions& options) {
 }
 inline BatchTask slipTask(const SlipRowsOptions& options) { return tableTask(slipOf(options)); }
 // Without grasps with features the work fails. The class of a grasp is as in feature_table.h.
-BatchTask featuresTask(std::optional<FeatureSet> set = {}, const Recipe& filters = {});
+BatchTask featuresTask(std::optional<FeatureSet> set = {},
+                       const Recipe& filters = {},
+                       bool unitsRow = false);
 }  // namespace palpate

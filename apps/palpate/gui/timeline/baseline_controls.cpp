@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <palpate/core/error.h>
 #include <palpate/model/rest_span.h>
@@ -83,6 +84,8 @@ void BaselineControls::putFilter(FilterStep step) {
       if (key != "from" && key != "to") step.explicitOptions.emplace(key, value);
     step.matrices = there->matrices;
     *there = step;
+    // A rest that was taken is of what the hand sends, before any other filter.
+    if (step.rest) std::rotate(recipe.steps.begin(), there, std::next(there));
   }
   filters.editor().setRecipe(recipe);
   put_ = filters.recipe();
