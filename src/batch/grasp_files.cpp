@@ -105,7 +105,7 @@ void saveGrasps(const fs::path& source,
                 const GraspFilesOptions& options,
                 const Progress& progress) {
   if (paths.size() != grasps.size())
-    throw std::invalid_argument("each grasp needs a file of its own");
+    throw std::invalid_argument("each grasp needs a separate file");
   const auto overwriteOf = [&options](const fs::path& path) {
     const auto& ours = options.replaceable;
     return std::find(ours.begin(), ours.end(), path) != ours.end() ? Overwrite::kReplace

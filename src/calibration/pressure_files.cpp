@@ -113,7 +113,7 @@ Json jsonOf(const PressureModel& model) {
 }
 
 PressureModel pressureModelFrom(const Json& json) {
-  if (!json.isObject()) throw Error("pressure model: no JSON object");
+  if (!json.isObject()) throw Error("pressure model: not a JSON object");
   PressureModel model;
   model.gain = surfaceFrom(json.at("K"), "K");
   model.drift = surfaceFrom(json.at("m"), "m");

@@ -284,8 +284,8 @@ std::vector<std::string> PressureMap::assumptions() const {
                      (calibration_.sensitivityOffset ? "" : " as if K were proportional to it"));
     if (used.thresholdCounts != calibration_.settings.thresholdCounts)
       said.push_back(which +
-                     "another threshold than the calibration's: the band is wider, all counts as "
-                     "out of range");
+                     "a threshold other than the calibration's: the band is wider, everything is "
+                     "treated as out of range");
   }
   if (!options_.changes.empty())
     said.push_back("settings that were changed while recording are followed: " +

@@ -99,13 +99,13 @@ struct Recorder::Impl {
     const double seconds = static_cast<double>(offsetUs - wallOffsetUs) / 1e6;
     wallOffsetUs = offsetUs;
     const std::int64_t atUs = nowUs();
-    const Event event{
-        atUs,
-        atUs,
-        "clock",
-        {},
-        "the wall clock moved by " + fixedText(seconds, 3) + " s; time stamps go on without a jump",
-        Json::object().set("wall_offset_us", offsetUs).text(-1)};
+    const Event event{atUs,
+                      atUs,
+                      "clock",
+                      {},
+                      "the wall clock moved by " + fixedText(seconds, 3) +
+                          " s; time stamps continue without a jump",
+                      Json::object().set("wall_offset_us", offsetUs).text(-1)};
     notify(event);
     out.emplace_back(event);
   }
@@ -232,7 +232,7 @@ struct Recorder::Impl {
     const std::lock_guard lock(mutex);
     // A contact began it later than it was asked for.
     if (parts) requestTime.monoUs = parts->startMonoUs();
-    // Of a recording that has ended the disk says nothing any more.
+    // Free space is not reported after the recording has ended.
     if (parts) next.freeBytes = ask ? freeNow : status.freeBytes;
     status = std::move(next);
   }

@@ -510,7 +510,7 @@ GraspForecast GraspControl::forecast(const GraspRequest& request) const {
 
 std::shared_future<CommandAnswer> GraspControl::change(const DeviceCommand& setting) {
   if (!isSetting(setting))
-    throw std::invalid_argument("GraspControl::change: that is no tactile setting");
+    throw std::invalid_argument("GraspControl::change: that is not a tactile setting");
   const std::lock_guard lock(mutex_);
   if (machine_.underTactileControl())
     throw DeviceError(DeviceFault::kRefused,

@@ -36,7 +36,7 @@ constexpr Reason kUsedTwice{"$1 is used twice"};
 constexpr Reason kHandHasNone{"%1: the hand has none"};
 constexpr Reason kOtherSamples{"%1: $2 is %3 per row, but the hand has %4"};
 constexpr Reason kNoSuchMatrix{"the hand has no matrix %1, only %2"};
-constexpr Reason kOtherNumbers{"$1 is %2 per row, but expected is %3"};
+constexpr Reason kOtherNumbers{"$1 is %2 per row; expected %3"};
 constexpr Reason kNothingMapped{"%1: nothing is mapped to it, its taxels are 0"};
 constexpr Reason kTaxelList{
     "is a list of active taxels, as palpate convert writes it: its columns can't be chosen"};
@@ -75,11 +75,11 @@ constexpr Reason kOrderOfFile{
     "matrices: no names tell them apart; taken in the order of the file: %1 (--matrix NAME=COLUMNS "
     "chooses others)"};
 constexpr Reason kNoFile{
-    "no file is called as the matrix $1; call the files as the matrices of the hand (%2), or "
+    "no file has the name of the matrix $1; name the files after the matrices of the hand (%2), or "
     "choose the columns of each matrix (--matrix ~1='NAME*')"};
 constexpr Reason kOtherFile{"$1 has %2 per row, but its matrix has %3"};
 constexpr Reason kNothingFits{
-    "no columns fit the hand $1, which has %2 (as many columns are expected, or arrays of rows x "
+    "no columns fit the hand $1, which has %2 (expected one column per taxel, or arrays of rows x "
     "%3); the file has %4"};
 constexpr Reason kNotUsed{"not used: %1"};
 // Further series.

@@ -185,7 +185,7 @@ SessionAdaptiveClassifier::SessionAdaptiveClassifier(SessionAdaptiveParameters d
   const auto d = static_cast<Eigen::Index>(data_.features.size());
   if (d == 0) throw Error("a model without features");
   if (data_.sizeColumn && *data_.sizeColumn >= data_.features.size())
-    throw Error("a model whose size is none of its features");
+    throw Error("a model whose size doesn't match its features");
   if (!(data_.degreesOfFreedom > 2.0 && std::isfinite(data_.degreesOfFreedom)))
     throw Error("a model with degrees of freedom not above 2");
   if (!(data_.fewShotScatterScale > 0.0 && std::isfinite(data_.fewShotScatterScale)) ||
@@ -199,7 +199,7 @@ SessionAdaptiveClassifier::SessionAdaptiveClassifier(SessionAdaptiveParameters d
   background_ = prepare(data_.background, "the background");
   for (const SessionComponent& component : data_.today) {
     if (component.classIndex >= data_.classes.size())
-      throw Error("a model that saw today what is none of its classes");
+      throw Error("a model that saw a class today that is not one of its own");
     sessionComponents_.push_back(
         prepare(component.distribution,
                 "class '" + shortened(data_.classes[component.classIndex]) + "' of today"));

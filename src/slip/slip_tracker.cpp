@@ -116,7 +116,7 @@ void SlipTracker::clearReference() {
 
 const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap) {
   if (frame.rows() != layout_.rows || frame.cols() != layout_.columns)
-    throw std::invalid_argument("SlipTracker: the frame hasn't the size of the matrix");
+    throw std::invalid_argument("SlipTracker: the frame doesn't have the size of the matrix");
   const int activeBefore = motion_.active;
   const ContactMoments moments = contactMoments(frame);
   motion_ = {};

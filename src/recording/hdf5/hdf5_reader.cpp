@@ -633,8 +633,8 @@ void requireUndamaged(const fs::path& path, int descriptor) {
     throw FormatError(path,
                       "is an HDF5 file of another program; import its tables ('palpate import')");
   if (!block.starts_with(kHdf5RecordingStart))
-    throw FormatError(path,
-                      "can't be opened as HDF5: its beginning is damaged, or of another file");
+    throw FormatError(
+        path, "can't be opened as HDF5: its header is damaged or belongs to another format");
   if (block !=
       hdf5_layout::userBlock(sha256OfDescriptor(descriptor, hdf5_layout::kUserBlockBytes, path)))
     throw FormatError(

@@ -9,7 +9,7 @@ void writeHdf5(const RecordingContent&,
                Overwrite,
                const Progress&,
                const Hdf5WriteOptions&) {
-  throw FileError(path, "HDF5 can't be written here: name a file that ends in .h5 or .hdf5");
+  throw FileError(path, "this program is built without HDF5: use a name that ends in .h5 or .hdf5");
 }
 
 }  // namespace palpate

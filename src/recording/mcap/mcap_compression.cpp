@@ -157,7 +157,7 @@ std::string mcapDecompress(std::string_view packed,
   }
   if (compression == "lz4") return mcapFromLz4(packed, size, raw);
   if (compression == "zstd") return mcapFromZstd(packed, size, raw);
-  return "has a compression that is not known, " + inQuotes(compression) +
+  return "has an unknown compression, " + inQuotes(compression) +
          "; write it with zstd, lz4 or without";
 }
 

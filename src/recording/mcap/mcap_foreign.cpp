@@ -95,8 +95,8 @@ class ForeignChunks {
     kept_.clear();
     if (again > std::max(kForeignUnpackedAgain, 4 * all))
       throw FormatError(path(),
-                        "has its messages in too many chunks at a time to be read in order; write "
-                        "it anew with 'mcap sort'");
+                        "has its messages in too many chunks at a time to be read in order; "
+                        "rewrite it with 'mcap sort'");
   }
 
  private:

@@ -126,7 +126,7 @@ class McapOwnFile {
   bool saysFloat() const { return saysFloat_; }
   std::optional<std::uint16_t> eventChannel() const { return eventChannel_; }
 
-  // Returns the records of the chunk so many behind; nothing where there is none.
+  // The records of chunk (current + ahead), or nullopt past the end.
   using Next = std::function<std::optional<std::string>(std::size_t ahead)>;
   // Throws FormatError, which begins with `place`. Of a salvage a frame that was cut is left out.
   McapBlock block(std::string records,

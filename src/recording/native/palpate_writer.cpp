@@ -194,7 +194,7 @@ void settleJournal(const fs::path& path) {
   fs::remove(journal, ignored);
 }
 
-// Without the name of the temporary file, which is nobody's business.
+// Without the name of the temporary file, which callers must not see.
 [[noreturn]] void rethrowAs(const fs::path& path, const FileError& error) {
   const std::string what = error.what();
   const std::string own = error.path().string() + ": ";

@@ -155,7 +155,7 @@ QWidget* BatchFields::makeFilters() {
   filters_ = named(new QLineEdit, "batchFilters");
   filters_->setPlaceholderText("none; as median:size=3 | kalman");
   auto* take = makeButton(
-      nullptr, "batchTakeFilters", "As sho&wn", "The filters that the window applies now");
+      nullptr, "batchTakeFilters", "As sho&wn", "The filters currently applied in the window");
   connect(take, &QPushButton::clicked, this, [this] { filters_->setText(windowFilters()); });
   auto* row = makeBox(inRow({{filters_, 1}, take}));
   row->setFocusProxy(filters_);

@@ -112,7 +112,7 @@ QWidget* ComparePanel::makeCurveHeader() {
   overlayBox_ = box("compareOverlay", "Which curves the chart shows, all aligned with A");
   for (const CompareOverlay overlay : kAllCompareOverlays)
     overlayBox_->addItem(gui::nameOf(overlay));
-  bandBox_ = box("compareBand", "The average over the curves of the chart, with a band");
+  bandBox_ = box("compareBand", "Average the curves of the chart, with a band");
   for (const CompareBand band : kAllCompareBands) bandBox_->addItem(gui::nameOf(band));
   figures_ = makeLines(header, "compareFigures");
   figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);

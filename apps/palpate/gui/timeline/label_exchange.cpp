@@ -51,9 +51,9 @@ LabelExchange::LabelExchange(WindowState& windowState, QObject* parent)
     : QObject(parent), windowState_(windowState) {
   ActionRegistry& book = windowState.actions;
   QAction* exported = book.make("exportLabels", "File", "Export labels…");
-  exported->setToolTip("Labels, notes and marked grasps as a table (CSV)");
+  exported->setToolTip("Export labels, notes and marked grasps as a table (CSV)");
   QAction* imported = book.make("importLabels", "File", "Import labels…");
-  imported->setToolTip("Adds the labels of a table (CSV): begin_s, end_s, kind, text, matrix");
+  imported->setToolTip("Add the labels of a table (CSV): begin_s, end_s, kind, text, matrix");
   connect(exported, &QAction::triggered, this, &LabelExchange::exportLabels);
   connect(imported, &QAction::triggered, this, &LabelExchange::importLabels);
   connect(&windowState.events, &EventController::changed, this, &LabelExchange::withdrawWhenUndone);
@@ -73,8 +73,8 @@ void LabelExchange::exportLabels() {
   EventEditor* editor = windowState_.events.editor();
   if (!recording || !editor) return;
   const auto& events = editor->events();
-  const auto count = static_cast<std::size_t>(
-      std::count_if(events.begin(), events.end(), isTabledLabel));
+  const auto count =
+      static_cast<std::size_t>(std::count_if(events.begin(), events.end(), isTabledLabel));
   if (count == 0) return windowState_.messages.flash("there are no labels to export");
   const QFileInfo source(pathText(recording->path));
   QString path = windowState_.ask.newFile(
@@ -85,8 +85,7 @@ void LabelExchange::exportLabels() {
   if (QFileInfo(path).suffix().isEmpty()) path += ".csv";
   try {
     // The dialogue has already asked whether an existing file may be replaced.
-    writeTableFile(
-        *labelRows(events, recording->profile), path.toStdString(), Overwrite::kReplace);
+    writeTableFile(*labelRows(events, recording->profile), path.toStdString(), Overwrite::kReplace);
     windowState_.messages.flash("written: " + path + " (" + labelCount(count) + ")");
   } catch (const Error& error) {
     windowState_.messages.fail(QString::fromUtf8(error.what()));

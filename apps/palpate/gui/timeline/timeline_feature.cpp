@@ -322,8 +322,8 @@ void TimelineFeature::connectLiveChart() {
     const bool frozen = !liveChart_->following();
     actions_.freeze->setChecked(frozen);
     actions_.freeze->setIconText(frozen ? "To the newest" : "Freeze");
-    actions_.freeze->setToolTip(frozen ? "The chart follows the newest frame again (End)"
-                                       : "The chart stays as it is, data go on arriving");
+    actions_.freeze->setToolTip(frozen ? "Follow the newest frame again (End)"
+                                       : "Freeze the chart; data keep arriving");
   };
   showFrozen();
   connect(liveChart_, &LiveChart::followingChanged, this, showFrozen);
