@@ -158,7 +158,7 @@ BatchTemplate::BatchTemplate(const std::string& text) {
   if (name_.empty() || fs::path(name_).extension().string().size() < 2 ||
       ending().find_first_of("{}") != std::string::npos)
     throw std::invalid_argument("template '" + shortened(text) +
-                                "': it must end in a name with an ending, as out/{name}.csv");
+                                "': it must end in a name with an ending, such as out/{name}.csv");
   bool fixed = true;
   for (const fs::path& part : path.parent_path()) {
     fixed = fixed && part.string().find('{') == std::string::npos;

@@ -352,7 +352,7 @@ void Recorder::start(RecordingOptions options) {
   if (impl.newestUs.load() == 0) time.nowUs = INT64_MIN / 2;
   const QueueLosses lost = impl.queue.stats().lost;
   const std::lock_guard lock(impl.mutex);
-  if (impl.active) throw std::logic_error("Recorder: records already");
+  if (impl.active) throw std::logic_error("Recorder: already recording");
   impl.lostAtStart = lost;
   impl.active = true;
   const bool armed = options.startOnContact;
@@ -367,7 +367,7 @@ void Recorder::start(RecordingOptions options) {
 void Recorder::continueIn(const fs::path& folder) {
   requireWritableFolder(folder);
   const std::lock_guard lock(impl_->mutex);
-  if (!impl_->active) throw std::logic_error("Recorder: records nothing");
+  if (!impl_->active) throw std::logic_error("Recorder: not recording");
   impl_->folderRequest = folder;
   impl_->queue.wake();
 }

@@ -304,7 +304,7 @@ void SeriesLines::takeObject(const Json& object, const Sink& sink) {
     }
     if (!isNumberOrNull(value)) return refuse(inQuotes(key) + " is not a number");
     if (!at->unit.empty() && columnOf(key).unit != at->unit && !isGiven_)
-      return refuse(inQuotes(key) + " has another unit than before, " + inQuotes(at->unit));
+      return refuse(inQuotes(key) + " has a different unit than before, " + inQuotes(at->unit));
     numbers_[static_cast<std::size_t>(at - all_.begin())] = jsonValueOf(value);
     isRow = true;
   }

@@ -45,8 +45,8 @@ constexpr Reason kTaxelListOfComponents{
     "convert the recording to .h5 or .npz instead"};
 // Rows and columns of a matrix.
 constexpr Reason kOtherShape{
-    "%1 has as many numbers as %2, but other rows and columns; save it as frames x rows x columns, "
-    "or as frames x taxels"};
+    "%1 has as many numbers as %2, but different rows and columns; save it as frames x rows x "
+    "columns, or as frames x taxels"};
 constexpr Reason kAxesTransposed{
     "%1: $2 has columns x rows, as the names of its axes say, and is transposed"};
 constexpr Reason kRowByRow{

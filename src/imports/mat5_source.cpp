@@ -303,10 +303,10 @@ class Mat5Source::Scan {
         std::find(header.shape.begin(), header.shape.end(), 0u) != header.shape.end();
     if (isEmpty ? tag.bytes != 0
                 : stored.kind == NumberKind::kOther || header.numBytes() != tag.bytes)
-      throw FormatError(source_.path_,
-                        inQuotes(name_) +
-                            " declares another number of numbers than it holds: it is cut off, or "
-                            "damaged");
+      throw FormatError(
+          source_.path_,
+          inQuotes(name_) +
+              " declares a different number of numbers than it holds: it is cut off, or damaged");
     const bool isComplex = (flags & kComplexFlag) != 0;
     const bool isLogical = (flags & kLogicalFlag) != 0;
     if (isLogical && header.kind == NumberKind::kUnsigned) header.kind = NumberKind::kBool;

@@ -192,7 +192,7 @@ SessionAdaptiveClassifier::SessionAdaptiveClassifier(SessionAdaptiveParameters d
       !(data_.seenInSessionLogPrior >= 0.0 && std::isfinite(data_.seenInSessionLogPrior)))
     throw Error("a model with a weight that is not a number");
   if (data_.pooled.rows() != d || data_.pooled.cols() != d || !data_.pooled.allFinite())
-    throw Error("a model with a scatter of another size than its features");
+    throw Error("a model with a scatter of a different size than its features");
   for (std::size_t c = 0; c < data_.classComponents.size(); ++c)
     classComponents_.push_back(
         prepare(data_.classComponents[c], "class '" + shortened(data_.classes[c]) + "'"));
@@ -211,7 +211,7 @@ SessionAdaptiveClassifier::Prepared SessionAdaptiveClassifier::prepare(
   const auto d = static_cast<Eigen::Index>(data_.features.size());
   if (distribution.mean.size() != d || distribution.scatter.rows() != d ||
       distribution.scatter.cols() != d)
-    throw Error("a model with a description of another size than its features: " + what);
+    throw Error("a model with a description of a different size than its features: " + what);
   if (!distribution.mean.allFinite() || !distribution.scatter.allFinite())
     throw Error("a model with values that are not numbers: " + what);
   // The features differ by orders of magnitude; scaling makes the decomposition well conditioned.

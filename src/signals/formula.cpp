@@ -429,7 +429,8 @@ Formula::Formula(const std::string& given) : text_(given) {
   try {
     FormulaParser parser(parsed_);
     parser.parser.Eval();
-    if (parser.parser.GetNumResults() != 1) refuseFormula(text, "a comma makes two formulas of it");
+    if (parser.parser.GetNumResults() != 1)
+      refuseFormula(text, "a comma would make it two formulas");
     for (const auto& [name, value] : parser.variables)
       if (name != kTime && name.rfind(kCallVariable, 0) != 0) names.insert(name);
   } catch (const mu::Parser::exception_type& error) {

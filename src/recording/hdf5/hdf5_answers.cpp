@@ -480,7 +480,7 @@ std::string Hdf5Answers::numbers(const std::string& name, ByteReader& in) {
   const auto type = static_cast<Hdf5Number>(in.u8());
   const auto axis = static_cast<Hdf5Axis>(in.u8());
   if (!in.ok() || type > Hdf5Number::kF64 || axis > Hdf5Axis::kLast)
-    fault("was asked for in a wrong way");
+    fault("was requested incorrectly");
   const Array& from = arrayToRead(name);
   const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
   Hdf5Id memory;

@@ -153,7 +153,7 @@ std::string mcapDecompress(std::string_view packed,
                            std::string& raw) {
   if (compression.empty()) {
     raw = packed;
-    return raw.size() == size ? "" : "has another size than it says";
+    return raw.size() == size ? "" : "has a different size than it says";
   }
   if (compression == "lz4") return mcapFromLz4(packed, size, raw);
   if (compression == "zstd") return mcapFromZstd(packed, size, raw);

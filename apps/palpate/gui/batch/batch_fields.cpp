@@ -92,7 +92,7 @@ BatchFields::BatchFields(QWidget* parent)
   ending_ = batchComboBox("batchForm", formItems());
   filtersRow_ = makeFilters();
   smooth_ = named(new QLineEdit, "batchSmooth", "Filters over time of the signals themselves");
-  smooth_->setPlaceholderText("none; as kalman:q=0.05");
+  smooth_->setPlaceholderText("none; e.g. kalman:q=0.05");
   matrix_ = named(new QSpinBox, "batchMatrix");
   matrix_->setRange(-1, kMaxBatchMatrix);
   matrix_->setSpecialValueText("all");

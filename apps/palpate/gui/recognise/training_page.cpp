@@ -46,9 +46,9 @@ constexpr std::array kTaughtSets = {
         "Size and shape of the contact, force and compression on the load plateau: what holds "
         "in another session"},
     TaughtSet{FeatureSet::kStudy, "The 54 numbers of the study, to compare with it"},
-    TaughtSet{FeatureSet::kSession,
-              "best, with joint angles at rest: most accurate within one session, of no use in "
-              "another one"},
+    TaughtSet{
+        FeatureSet::kSession,
+        "best, with joint angles at rest: most accurate within one session, useless in another"},
     TaughtSet{FeatureSet::kStatistics,
               "Load, extent and position of the contact on every matrix, of any hand"}};
 
@@ -106,7 +106,8 @@ TrainingPage::TrainingPage(TrainingController& controller, Ask& ask, QWidget* pa
   const auto field = [this](const char* name, const char* accessible, const char* tip) {
     return named(new QComboBox(this), name, tip, accessible);
   };
-  set_ = field("teachSet", "Features", "What is measured of each grasp; Train and Check use it");
+  set_ =
+      field("teachSet", "Features", "Features measured for each grasp; Train and Check use them");
   set_->addItem("automatic");
   set_->setItemData(0, "best where two pads pinch, else statistics", Qt::ToolTipRole);
   for (const TaughtSet& each : kTaughtSets) {

@@ -308,9 +308,8 @@ void PlanDialog::exportTable() {
 }
 
 void PlanDialog::beginAnew() {
-  if (windowState_.ask.confirmed(
-          "All takes of the plan are to be made again; their files stay. Start over?",
-          "Start over"))
+  if (windowState_.ask.confirmed("Make all takes of the plan again? Their files stay.",
+                                 "Start over"))
     controller_.beginAnew();
 }
 

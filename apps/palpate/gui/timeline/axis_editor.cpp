@@ -56,7 +56,7 @@ void AxisEditor::rebuild() {
     const QCPRange range = axes_->of(unit)->range();
     auto* automatic = named(new QCheckBox("automatic", rows_),
                             "automaticAxis",
-                            "The axis follows the values that are visible",
+                            "The axis follows the visible values",
                             name + ": automatic");
     automatic->setChecked(!byHand);
     constexpr int kUsualDecimals = 2;
