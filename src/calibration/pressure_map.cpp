@@ -262,9 +262,9 @@ std::vector<std::string> PressureMap::assumptions() const {
   else if (!calibration_.serial.empty() && !options_.serial.empty() &&
            calibration_.serial != options_.serial)
     said.push_back("measured on the sensor with serial number " + calibration_.serial +
-                   "; that this one (" + options_.serial + ") answers alike is assumed");
+                   "; this one (" + options_.serial + ") is assumed to answer alike");
   said.push_back("measured on matrix " + std::to_string(calibration_.matrix) +
-                 "; that the others answer alike is assumed");
+                 "; the others are assumed to answer alike");
   if (!calibration_.pressure.knowsArea()) said.emplace_back(kUnknownAreaText);
   const auto settingsText = [](const SensorSettings& s) {
     return "sensitivity " + numberText(s.sensitivity) + ", threshold " +

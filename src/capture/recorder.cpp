@@ -293,7 +293,7 @@ void Recorder::run() {
       } catch (const std::exception& error) {  // out of memory: committed data are safe
         impl.giveUp(error.what());
       } catch (...) {
-        impl.giveUp("an exception of no known kind");
+        impl.giveUp("an unknown exception");
       }
     }
   });

@@ -124,7 +124,7 @@ void GraspControl::runTasks() noexcept {
     } catch (const std::exception& failure) {
       failed(failure.what());
     } catch (...) {
-      failed("an exception of no known kind");
+      failed("an unknown exception");
     }
 }
 
@@ -134,7 +134,7 @@ void GraspControl::guarded(auto&& work) noexcept {
   } catch (const std::exception& failure) {
     fault(failure.what());
   } catch (...) {
-    fault("an exception of no known kind");
+    fault("an unknown exception");
   }
 }
 

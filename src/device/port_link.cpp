@@ -97,7 +97,7 @@ void PortLink::step() noexcept {
   } catch (const std::exception& failure) {
     fail(failure.what());
   } catch (...) {
-    fail("an exception of no known kind");
+    fail("an unknown exception");
   }
 }
 

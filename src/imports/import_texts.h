@@ -92,7 +92,7 @@ constexpr Reason kSeriesNoNumbers{"series $1: no column of numbers; there are %2
 constexpr Reason kSeriesNoTimes{
     "series $1: no column of times was found; give the rate of its rows (--series-rate %1=HZ)"};
 constexpr Reason kSeriesTooWide{
-    "series $1: it has %2 columns, but a series has at most %3; save those that are wanted"};
+    "series $1: it has %2 columns, but a series has at most %3; save only those needed"};
 // Which axis, and which rows, are the frames.
 constexpr Reason kSameSizes{
     "the %1 axis of ~2 is taken for the frames, but the %3 one has the same size, %4; if the "

@@ -216,7 +216,7 @@ struct RemoteServer::Impl {
     } catch (const std::exception& failure) {
       pending->give(RemoteAnswer::refused("failed", failure.what()));
     } catch (...) {
-      pending->give(RemoteAnswer::refused("failed", "an exception of no known kind"));
+      pending->give(RemoteAnswer::refused("failed", "an unknown exception"));
     }
   }
 

@@ -174,7 +174,7 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   const TextTable assumptions = tables[1].make();
   ASSERT_GE(assumptions.numRows, 1u);
   EXPECT_EQ(assumptions.row(0).front(),
-            "measured on matrix 3; that the others answer alike is assumed");
+            "measured on matrix 3; the others are assumed to answer alike");
   find<QPushButton>("forceDrop")->click();
   settle();
   EXPECT_TRUE(why().contains("No calibration"));

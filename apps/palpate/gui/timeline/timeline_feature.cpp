@@ -150,15 +150,15 @@ void TimelineFeature::connectSubject() {
     state().menus.edit->popup(at);
   });
   connect(&chart_->store(), &SeriesStore::changed, this, &TimelineFeature::showReading);
-  connect(chart_,
-          &TimelineChart::rangeDropped,
-          this,
-          [this](const QString& name, const AxisRange& range) {
-            state().messages.flash("the axis " + name + " is automatic again: no value of this " +
-                                   "recording lies in the range set by hand, " +
-                                   QString::number(range.from) + " to " +
-                                   QString::number(range.to));
-          });
+  connect(
+      chart_,
+      &TimelineChart::rangeDropped,
+      this,
+      [this](const QString& name, const AxisRange& range) {
+        state().messages.flash("the axis " + name + " was reset to automatic: no value of this " +
+                               "recording is in the range set by hand, " +
+                               QString::number(range.from) + " to " + QString::number(range.to));
+      });
   ViewAppearance& look = state().appearance;
   followUnits(signalTree_);
   connect(&look, &ViewAppearance::changed, this, [this, &look] { showCurves(); });
