@@ -83,7 +83,7 @@ void findSources(const std::vector<fs::path>& paths, BatchPlan& plan, const Prog
       continue;
     }
     if (isWithin(realPath(plan.folder), realPath(path)))
-      throw FileError(plan.folder, "lies in the folder that is read; name one outside");
+      throw FileError(plan.folder, "is in the folder being read; name one outside it");
     const RecordingFolder found = recordingsBelow(path, progress);
     for (const fs::path& file : found.files) add(file, path);
     for (const std::string& problem : found.problems) plan.problems.push_back(problem);
@@ -131,7 +131,7 @@ void requireDifferent(BatchPlan& plan, SameResults sameResults) {
                           item.source.string() +
                           "'; make the names differ with {folder}, {ending}, {date} or {time}");
     if (sources.contains(real) || sources.contains(realPath(item.target)))
-      throw FileError(item.target, "would be written onto a recording that is read");
+      throw FileError(item.target, "would overwrite a recording that is being read");
   }
 }
 
@@ -158,7 +158,7 @@ BatchTemplate::BatchTemplate(const std::string& text) {
   if (name_.empty() || fs::path(name_).extension().string().size() < 2 ||
       ending().find_first_of("{}") != std::string::npos)
     throw std::invalid_argument("template '" + shortened(text) +
-                                "': it must end in a name with an ending, as out/{name}.csv");
+                                "': it must end in a name with an ending, such as out/{name}.csv");
   bool fixed = true;
   for (const fs::path& part : path.parent_path()) {
     fixed = fixed && part.string().find('{') == std::string::npos;
@@ -176,7 +176,7 @@ BatchTemplate::BatchTemplate(const fs::path& folder, const std::string& below)
   const fs::path path(below);
   if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
     throw std::invalid_argument("template '" + shortened(below) +
-                                "': it must lie below the folder of the results");
+                                "': it must be below the folder of the results");
   folder_ = folder_ == "." ? folder : folder / folder_;
 }
 
@@ -200,8 +200,7 @@ fs::path BatchTemplate::pathFor(const BatchNameFields& fields) const {
   const std::string name = filledText(name_, fields, false);
   const std::string stem = fs::path(name).stem().string();
   if (name.starts_with('.') || stem.empty())
-    throw Error("'" + shortened(name) +
-                "' isn't a name for a result: nothing in front of its ending");
+    throw Error("'" + shortened(name) + "' isn't a name for a result: nothing before its ending");
   if (name.size() > kMostNameBytes)
     throw Error("'" + shortened(name) + "' is longer than the 255 bytes of a name");
   return path / name;

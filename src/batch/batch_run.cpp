@@ -47,7 +47,7 @@ std::vector<WrittenFile> filesOf(const JournalEntry& entry) {
 Known knownAs(const BatchJournal& journal, const JournalEntry& now, const BatchItem& item) {
   const JournalEntry* before = journal.find(item.target);
   if (!before) return Known::kNew;
-  // The result of another recording or command is as precious as anybody's file.
+  // The result of another recording or command must be protected like any user file.
   const auto command = [](const std::string& options) {
     return options.substr(0, options.find(';'));
   };

@@ -112,12 +112,12 @@ BatchTask convertTask(const ConvertOptions& options) {
         if (const std::string leftOut = leftOutText(profile, item.target); !leftOut.empty())
           answer.said += "; " + leftOut;
         if (saved.movedStamps > 0)
-          answer.said += "; " + std::to_string(saved.movedStamps) +
-                         " time stamps moved behind the one before: whole milliseconds must "
-                         "grow";
+          answer.said +=
+              "; " + std::to_string(saved.movedStamps) +
+              " time stamps moved after the previous one: whole milliseconds must increase";
         if (!saved.beside.empty())
           answer.said +=
-              "; " + std::to_string(saved.beside.size()) + " further series in files beside it";
+              "; " + std::to_string(saved.beside.size()) + " further series in separate files";
         answer.problem = partText(item, profile, recording.damage.events);
         return answer;
       }};

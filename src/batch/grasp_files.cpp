@@ -72,8 +72,8 @@ std::vector<GraspFrames> graspFrames(const Profile& profile,
 GraspTemplate::GraspTemplate(std::string text) : text_(std::move(text)) {
   if (fs::path(text_).filename().string().find(kNumberField) == std::string::npos)
     throw std::invalid_argument("'" + shortened(text_) +
-                                "' has no {n} in its name, the number of the grasp: as "
-                                "out/{name}_{n}.palpate");
+                                "' has no {n}, the number of the grasp, in its name; use one such "
+                                "as out/{name}_{n}.palpate");
   planned();
 }
 
@@ -105,7 +105,7 @@ void saveGrasps(const fs::path& source,
                 const GraspFilesOptions& options,
                 const Progress& progress) {
   if (paths.size() != grasps.size())
-    throw std::invalid_argument("each grasp needs a file of its own");
+    throw std::invalid_argument("each grasp needs a separate file");
   const auto overwriteOf = [&options](const fs::path& path) {
     const auto& ours = options.replaceable;
     return std::find(ours.begin(), ours.end(), path) != ours.end() ? Overwrite::kReplace

@@ -67,7 +67,7 @@ ForceSeries forceSeries(const Profile& profile,
     series.assumptions.push_back(
         "no temperatures were recorded: " +
         std::to_string(static_cast<int>(calibration.pressure.options.assumedDegC)) +
-        " deg C assumed, and the band is wider");
+        " °C assumed, and the band is wider");
   const std::size_t numFrames = profile.numFrames();
   series.timeS.reserve(numFrames);
   series.rows.reserve(numFrames * series.numMatrices);

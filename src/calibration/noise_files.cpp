@@ -146,8 +146,8 @@ NoiseFloor noiseFloorFrom(const Json& json) {
 std::string noiseXml(const NoiseFloor& floor) {
   if (!floor.notAtRest.empty())
     throw Error(floor.notAtRest +
-                "; these lines are no noise, which an .xml file can't say: save them as .json, or "
-                "record the hand while nothing touches it");
+                "; these lines are not noise, and an .xml file can't record that: save them as "
+                ".json, or record the hand while nothing touches it");
   std::string xml = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<calibration>\n";
   for (const NoiseLine& line : floor.lines) {
     xml += "  <matrix id=\"" + std::to_string(line.matrix) + "\">\n";

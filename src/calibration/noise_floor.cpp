@@ -186,9 +186,9 @@ NoiseLine fitNoiseLine(std::span<const double> degC,
     settleForMean(sums, points.size(), line);
     if (line.bins.empty())
       line.notes.push_back("one temperature only (" + fixedText(line.minDegC, 2) +
-                           " deg C): no slope; there the mean is " + fixedText(line.intercept, 1) +
+                           " °C): no slope; there the mean is " + fixedText(line.intercept, 1) +
                            " counts, sd " + fixedText(line.rmse, 1) +
-                           ". For a line measure again when the hand is warmer or colder");
+                           ". For a line, measure again when the hand is warmer or colder");
     else if (!silent)
       line.notes.push_back("fewer than two bins with a spread: no slope; the mean holds");
     return line;

@@ -61,7 +61,7 @@ Surface surfaceFrom(const Json& json, const std::string& where) {
              hull = json.at("valid_range_hull");
   if (!c.isArray() || c.size() == 0 || c.size() > 12) fail("lacks its coefficients 'c'");
   if (terms.size() != c.size() || covariance.size() != c.size())
-    fail("has terms or covariance of another number than c");
+    fail("has terms or covariance of a different number than c");
   const auto p = static_cast<Eigen::Index>(c.size());
   surface.c.resize(p);
   surface.covariance.resize(p, p);
@@ -113,7 +113,7 @@ Json jsonOf(const PressureModel& model) {
 }
 
 PressureModel pressureModelFrom(const Json& json) {
-  if (!json.isObject()) throw Error("pressure model: no JSON object");
+  if (!json.isObject()) throw Error("pressure model: not a JSON object");
   PressureModel model;
   model.gain = surfaceFrom(json.at("K"), "K");
   model.drift = surfaceFrom(json.at("m"), "m");

@@ -262,9 +262,9 @@ std::vector<std::string> PressureMap::assumptions() const {
   else if (!calibration_.serial.empty() && !options_.serial.empty() &&
            calibration_.serial != options_.serial)
     said.push_back("measured on the sensor with serial number " + calibration_.serial +
-                   "; that this one (" + options_.serial + ") answers alike is assumed");
+                   "; this one (" + options_.serial + ") is assumed to answer alike");
   said.push_back("measured on matrix " + std::to_string(calibration_.matrix) +
-                 "; that the others answer alike is assumed");
+                 "; the others are assumed to answer alike");
   if (!calibration_.pressure.knowsArea()) said.emplace_back(kUnknownAreaText);
   const auto settingsText = [](const SensorSettings& s) {
     return "sensitivity " + numberText(s.sensitivity) + ", threshold " +
@@ -284,8 +284,8 @@ std::vector<std::string> PressureMap::assumptions() const {
                      (calibration_.sensitivityOffset ? "" : " as if K were proportional to it"));
     if (used.thresholdCounts != calibration_.settings.thresholdCounts)
       said.push_back(which +
-                     "another threshold than the calibration's: the band is wider, all counts as "
-                     "out of range");
+                     "a threshold other than the calibration's: the band is wider, everything is "
+                     "treated as out of range");
   }
   if (!options_.changes.empty())
     said.push_back("settings that were changed while recording are followed: " +

@@ -33,7 +33,7 @@ void addAreaShare(std::span<const PressureSample> samples, PressureModel& model)
   if (!(model.options.indenterAreaMm2 > 0.0)) {
     model.notes.push_back(
         "the indenter's area isn't known (--area): forces include the whole area of every active "
-        "taxel, although the rubber spreads a load to taxels beside the indenter");
+        "taxel, although the rubber spreads a load to taxels around the indenter");
     return;
   }
   if (shares.empty()) return;
@@ -63,11 +63,11 @@ void addNotes(const std::vector<SurfacePoint>& points,
   const auto [coldest, warmest] =
       std::minmax_element(points.begin(), points.end(), [](auto& a, auto& b) { return a.t < b.t; });
   if (withoutTemperature > 0)
-    note(std::to_string(withoutTemperature) + " steps have no temperature: " +
-         fixedText(model.options.assumedDegC, 0) + " deg C assumed");
+    note(std::to_string(withoutTemperature) +
+         " steps have no temperature: " + fixedText(model.options.assumedDegC, 0) + " °C assumed");
   if (warmest->t - coldest->t < kOneTemperatureC)
     note("one temperature only (" + fixedText(coldest->t, 1) + " to " + fixedText(warmest->t, 1) +
-         " deg C): the model holds there, not elsewhere");
+         " °C): the model is valid only there");
   if (!model.gain.valid)
     note("no P(K, T): " +
          (model.gain.notes.empty() ? std::string("see its notes") : model.gain.notes.back()));

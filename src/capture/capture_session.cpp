@@ -321,7 +321,7 @@ void CaptureSession::undoBaseline() {
     baseline_ = before;
   }
   Event event = baselineEvent(*before, nowUs());
-  event.text = "the baseline before the last one";
+  event.text = "the previous baseline";
   note(event);
 }
 

@@ -83,7 +83,7 @@ void addRecorderAlarms(const RecorderStatus& recorder,
   if (!recorder.relocation.empty()) alarms.push_back({AlarmKind::kWriteError, recorder.relocation});
   if (!recorder.mcapFailure.empty())
     alarms.push_back({AlarmKind::kMcapStopped,
-                      "the MCAP file stopped, the recording goes on: " + recorder.mcapFailure +
+                      "the MCAP file stopped, the recording continues: " + recorder.mcapFailure +
                           "; make an MCAP file of the recording afterwards"});
   if (recorder.blockedS > kBlockedAlarmS)
     alarms.push_back({AlarmKind::kSlowDisk,
@@ -244,7 +244,7 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
   if (const auto hottest = hottestOf(inputs); hottest && *hottest > options.maxTemperatureDegC)
     health.alarms.push_back({AlarmKind::kTooHot,
                              "the hand is " + fixedText(*hottest, 0) +
-                                 " deg C hot: relax it and let it cool down below " +
+                                 " °C hot: relax it and let it cool down below " +
                                  fixedText(options.maxTemperatureDegC, 0)});
   return health;
 }
@@ -275,8 +275,8 @@ PreflightCheck checkPreflight(const LinkInputs& inputs,
   std::string text = "ready: " + fixedText(frames.rateHz, 1) + " frames/s";
   if (const auto hottest = hottestOf(inputs)) {
     if (*hottest > options.maxTemperatureDegC)
-      return red("the hand is " + fixedText(*hottest, 0) + " deg C hot: let it cool down");
-    text += ", up to " + fixedText(*hottest, 0) + " deg C";
+      return red("the hand is " + fixedText(*hottest, 0) + " °C hot: let it cool down");
+    text += ", up to " + fixedText(*hottest, 0) + " °C";
   } else if (inputs.device.motion) {
     return red("no temperature has been received yet");
   }

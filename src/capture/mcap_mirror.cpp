@@ -69,7 +69,7 @@ std::vector<std::filesystem::path> McapMirror::paths() const {
   return paths;
 }
 
-// The first reason is the one that is said.
+// Only the first failure is reported.
 void McapMirror::fail(const std::string& why) {
   if (stopped_.exchange(true)) return;
   const std::lock_guard lock(mutex_);

@@ -99,13 +99,13 @@ struct Recorder::Impl {
     const double seconds = static_cast<double>(offsetUs - wallOffsetUs) / 1e6;
     wallOffsetUs = offsetUs;
     const std::int64_t atUs = nowUs();
-    const Event event{
-        atUs,
-        atUs,
-        "clock",
-        {},
-        "the wall clock moved by " + fixedText(seconds, 3) + " s; time stamps go on without a jump",
-        Json::object().set("wall_offset_us", offsetUs).text(-1)};
+    const Event event{atUs,
+                      atUs,
+                      "clock",
+                      {},
+                      "the wall clock moved by " + fixedText(seconds, 3) +
+                          " s; time stamps continue without a jump",
+                      Json::object().set("wall_offset_us", offsetUs).text(-1)};
     notify(event);
     out.emplace_back(event);
   }
@@ -232,7 +232,7 @@ struct Recorder::Impl {
     const std::lock_guard lock(mutex);
     // A contact began it later than it was asked for.
     if (parts) requestTime.monoUs = parts->startMonoUs();
-    // Of a recording that has ended the disk says nothing any more.
+    // Free space is not reported after the recording has ended.
     if (parts) next.freeBytes = ask ? freeNow : status.freeBytes;
     status = std::move(next);
   }
@@ -293,7 +293,7 @@ void Recorder::run() {
       } catch (const std::exception& error) {  // out of memory: committed data are safe
         impl.giveUp(error.what());
       } catch (...) {
-        impl.giveUp("an exception of no known kind");
+        impl.giveUp("an unknown exception");
       }
     }
   });
@@ -352,7 +352,7 @@ void Recorder::start(RecordingOptions options) {
   if (impl.newestUs.load() == 0) time.nowUs = INT64_MIN / 2;
   const QueueLosses lost = impl.queue.stats().lost;
   const std::lock_guard lock(impl.mutex);
-  if (impl.active) throw std::logic_error("Recorder: records already");
+  if (impl.active) throw std::logic_error("Recorder: already recording");
   impl.lostAtStart = lost;
   impl.active = true;
   const bool armed = options.startOnContact;
@@ -367,7 +367,7 @@ void Recorder::start(RecordingOptions options) {
 void Recorder::continueIn(const fs::path& folder) {
   requireWritableFolder(folder);
   const std::lock_guard lock(impl_->mutex);
-  if (!impl_->active) throw std::logic_error("Recorder: records nothing");
+  if (!impl_->active) throw std::logic_error("Recorder: not recording");
   impl_->folderRequest = folder;
   impl_->queue.wake();
 }

@@ -394,7 +394,7 @@ bool RecordingParts::goesOnAnew(std::unique_ptr<PalpateWriter>& part,
       ++counts_.writeFailures;
       const std::string told =
           why + "; " + std::to_string(lost) + " frames that were in it are lost";
-      noteRelocation(told + ", and it goes on in " + part->path().string(), time);
+      noteRelocation(told + ", and it continues in " + part->path().string(), time);
       return true;
     } catch (const std::exception& error) {
       whyNotKept_ = error.what();
@@ -518,7 +518,7 @@ void RecordingParts::keepUncommitted(const CaptureItem& item) {
 }
 
 // Puts a new part in the present folder, with what the disk has not got, in place of an open one.
-// Throws FileError: nothing has changed then, but a file that was begun in vain may remain.
+// Throws FileError: nothing has changed then, but a file whose start failed may remain.
 void RecordingParts::replace(std::unique_ptr<PalpateWriter>& part) {
   const bool isLast = &part == &writer_;
   std::deque<CaptureItem>& items = isLast ? uncommitted_ : uncommittedBefore_;
@@ -603,7 +603,7 @@ void RecordingParts::continueIn(const fs::path& folder, RoundTime time) {
     if (movesClosing) replace(closing_);
     if (movesWriter) replace(writer_);
   } catch (const std::exception& error) {
-    // A part that was begun in vain remains, unfinished and without anything that is missing here.
+    // A part whose start failed is left behind, unfinished and without anything that is missing here.
     base_ = base;
     folder_ = folderBefore;
     nextPart_ = partBefore;
@@ -695,7 +695,7 @@ void RecordingParts::lookAfterMcap(RoundTime time) {
           time.nowUs,
           "alarm",
           {},
-          "the MCAP file stopped, the recording goes on: " + failure,
+          "the MCAP file stopped, the recording continues: " + failure,
           ""});
 }
 

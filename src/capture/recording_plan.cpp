@@ -134,7 +134,7 @@ int RecordingPlan::total() const noexcept {
   return total;
 }
 
-// More takes than repetitions of one row don't stand for those of another.
+// Extra takes of one row do not count for another.
 int RecordingPlan::numDone() const noexcept {
   int done = 0;
   for (const PlanRow& row : rows_) done += std::min(row.numDone(), row.repetitions);

@@ -103,7 +103,7 @@ struct Replay::Impl {
     } catch (const std::exception& error) {
       fault = std::string("the replay has ended: ") + error.what();
     } catch (...) {
-      fault = "the replay has ended: an exception of no known kind";
+      fault = "the replay has ended: an unknown exception";
     }
     try {
       sink->onEvent({lastUs, lastUs, "alarm", {}, fault, ""});

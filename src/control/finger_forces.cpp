@@ -25,7 +25,7 @@ PressureMapOptions mapOptions(const std::vector<MatrixSettings>& settings, std::
 const Calibration& fitting(const Calibration& calibration, const HandDescription& hand) {
   if (!calibration.pressure.valid()) throw std::invalid_argument("the calibration has no P(K, T)");
   if (!calibration.hand.empty() && calibration.hand != hand.name)
-    throw std::invalid_argument("the calibration is of another hand: " + calibration.hand);
+    throw std::invalid_argument("the calibration is for another hand: " + calibration.hand);
   return calibration;
 }
 

@@ -197,7 +197,7 @@ std::string TouchMemory::text() const {
 TouchMemory TouchMemory::parse(std::string_view text, const std::filesystem::path& file) {
   const JsonField root = JsonField::parse(text, file, "the remembered touches");
   if (!root.has("format") || root.at("format").text() != "palpate-touches")
-    root.fail("is no list of touches: 'format' must be \"palpate-touches\"");
+    root.fail("is not a list of touches: 'format' must be \"palpate-touches\"");
   root.required("version").integer(1, kTouchesVersion);
   TouchMemory memory;
   for (const JsonField& each : root.required("touches").items(kMostTouches)) {

@@ -124,7 +124,7 @@ void GraspControl::runTasks() noexcept {
     } catch (const std::exception& failure) {
       failed(failure.what());
     } catch (...) {
-      failed("an exception of no known kind");
+      failed("an unknown exception");
     }
 }
 
@@ -134,7 +134,7 @@ void GraspControl::guarded(auto&& work) noexcept {
   } catch (const std::exception& failure) {
     fault(failure.what());
   } catch (...) {
-    fault("an exception of no known kind");
+    fault("an unknown exception");
   }
 }
 
@@ -510,7 +510,7 @@ GraspForecast GraspControl::forecast(const GraspRequest& request) const {
 
 std::shared_future<CommandAnswer> GraspControl::change(const DeviceCommand& setting) {
   if (!isSetting(setting))
-    throw std::invalid_argument("GraspControl::change: that is no tactile setting");
+    throw std::invalid_argument("GraspControl::change: that is not a tactile setting");
   const std::lock_guard lock(mutex_);
   if (machine_.underTactileControl())
     throw DeviceError(DeviceFault::kRefused,

@@ -53,7 +53,7 @@ void GraspStateMachine::reportFriction(const GripSlip& slip) {
   std::string text = "slips at " + numberText(grip_.sumCounts()) + " counts in sum";
   if (holding.newtonsPerCount > 0.0 && grip_.sumCounts() > 0.0) {
     report_.friction = holding.weightN / (holding.newtonsPerCount * grip_.sumCounts());
-    text += ": friction roughly " + fixedText(*report_.friction, 2);
+    text += ": friction about " + fixedText(*report_.friction, 2);
   }
   note("friction", text, slip.matrix);
 }

@@ -234,7 +234,7 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   if (!active() && !isTouched(peak_.counts)) forgetHeld();
   if (calibration_) newest_ = frame;
   if (anotherLayout && underTactileControl())
-    return fault("the layout of the tactile sensor is another one than at the begin", monoUs);
+    return fault("the layout of the tactile sensor has changed since the start", monoUs);
   if (active() && forces_) forces_->apply(frame, degC_);
   if (active() && isSlipAware()) grip_.onFrame(frame);
   // From the stop until the reading has settled.

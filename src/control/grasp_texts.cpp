@@ -24,7 +24,7 @@ std::string GraspStateMachine::heldText() const {
   return "finished: held for " + numberText(report_.request.holding.holdS) + " s, " +
          counted(static_cast<std::uint64_t>(report_.slips), "slip") + ", limit " +
          std::to_string(limit_) + " counts" +
-         (report_.friction ? ", friction roughly " + fixedText(*report_.friction, 2)
+         (report_.friction ? ", friction about " + fixedText(*report_.friction, 2)
                            : std::string()) +
          "; the hand keeps holding";
 }

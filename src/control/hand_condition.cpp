@@ -9,12 +9,12 @@ namespace {
 using Condition = HandCondition;
 
 constexpr std::string_view kPowerOff =
-    "use the emergency stop, or switch the power of the hand off, if it moves";
+    "if the hand moves, use the emergency stop or switch its power off";
 
 ExplainedCondition whileGone(const GraspStatus& status) {
   const std::string powerOff = std::string(kPowerOff) + "; " + status.cannotMove;
   if (status.phase != GraspPhase::kIdle && status.running)
-    return {Condition::kGone, "stops are sent to the hand, and none is answered: " + powerOff};
+    return {Condition::kGone, "stop commands are sent, but the hand does not answer: " + powerOff};
   if (status.portGone)
     return {Condition::kGone,
             status.portGone->text + "; plug it in again" +
@@ -23,7 +23,7 @@ ExplainedCondition whileGone(const GraspStatus& status) {
                      : std::string())};
   if (status.lastMotion && status.lastMotion->stateUnknown)
     return {Condition::kGone,
-            "no stop was answered, and what the hand does is not known: " + powerOff};
+            "no stop was answered, and the state of the hand is unknown: " + powerOff};
   return {Condition::kGone, "the hand can't be moved: " + status.cannotMove};
 }
 

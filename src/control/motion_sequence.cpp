@@ -203,7 +203,7 @@ std::string sequenceText(const MotionSequence& sequence) {
 MotionSequence parseSequence(std::string_view text, const std::filesystem::path& file) {
   const JsonField root = JsonField::parse(text, file, "the sequence");
   if (!root.has("format") || root.at("format").text() != "palpate-sequence")
-    root.fail("is no sequence: 'format' must be \"palpate-sequence\"");
+    root.fail("is not a sequence: 'format' must be \"palpate-sequence\"");
   root.required("version").integer(1, kSequenceVersion);
   MotionSequence sequence;
   sequence.hand = root.required("hand").text();

@@ -74,7 +74,7 @@ std::string posesText(const std::vector<SavedPose>& poses) {
 std::vector<SavedPose> parsePoses(std::string_view text, const std::filesystem::path& file) {
   const JsonField root = JsonField::parse(text, file, "the list of poses");
   if (!root.has("format") || root.at("format").text() != "palpate-poses")
-    root.fail("is no list of poses: 'format' must be \"palpate-poses\"");
+    root.fail("is not a list of poses: 'format' must be \"palpate-poses\"");
   root.required("version").integer(1, kPosesVersion);
   std::vector<SavedPose> poses;
   for (const JsonField& each : root.required("poses").items(kMostPoses))

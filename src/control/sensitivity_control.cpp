@@ -78,7 +78,7 @@ void SensitivityControl::beginHighSensitivity(const NoiseFloor& floor,
   if (!usable) throw std::invalid_argument("the noise calibration has no valid line");
   for (const NoiseLine& line : floor.lines)
     if (line.matrix >= matrices)
-      throw std::invalid_argument("the noise lines are of another hand: matrix " +
+      throw std::invalid_argument("the noise lines are for another hand: matrix " +
                                   std::to_string(line.matrix) + " of " + std::to_string(matrices));
   floor_ = floor;
   highOptions_ = options;

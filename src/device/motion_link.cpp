@@ -157,7 +157,7 @@ void MotionLink::connect(ByteChannel& channel) {
     prepareLastStop();
     confirmStops();
     if (!leftMoving) {
-      eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");
+      eventNow("motion", "stopped: the hand was moving unattended when it was connected");
       updateStatus([&](PortStatus& status) { status.foundMovingUs = time_.nowUs(); });
     }
   }
@@ -183,7 +183,7 @@ void MotionLink::disconnected() {
   if (std::exchange(session_.moving, false)) stopAfterReconnect_ = true;
   for (QueuedCommand& order : std::exchange(sentStops_, {}))
     order.answer.set_exception(std::make_exception_ptr(DeviceError(
-        DeviceFault::kSilent, port_, "the stop was sent, and what the hand does is not known")));
+        DeviceFault::kSilent, port_, "the stop was sent, and the state of the hand is unknown")));
   std::lock_guard lock(mutex_);
   states_.clear();
 }

@@ -97,7 +97,7 @@ void PortLink::step() noexcept {
   } catch (const std::exception& failure) {
     fail(failure.what());
   } catch (...) {
-    fail("an exception of no known kind");
+    fail("an unknown exception");
   }
 }
 
@@ -151,7 +151,7 @@ void PortLink::fail(const char* what) noexcept {
   }
   whateverHappens([&] {
     const std::string message = port_ + ": the program failed at the " + what_ + " (" + what +
-                                "); the port was closed and is tried anew";
+                                "); the port was closed and will be retried";
     setState(PortState::kFault, message);
     if (std::exchange(lastFailure_, message) != message) eventNow("alarm", message);
   });
@@ -177,7 +177,7 @@ void PortLink::closeAfterError(const DeviceError& error) {
   if (isGone && namesAPtyByNumber(port_)) {
     permanentlyFailed_ = true;
     const std::string message = port_ +
-                                ": there is no such pseudo-terminal (any more); connect anew (a "
+                                ": this pseudo-terminal doesn't exist (any more); connect again (a "
                                 "link to it would be followed)";
     setState(PortState::kLost, message, /*unplugged=*/true);
     eventNow("alarm", message);

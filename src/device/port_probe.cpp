@@ -215,7 +215,7 @@ PortProbe probePort(const std::string& port, const PortProbeOptions& options, co
     probe.message = std::string("the program failed while it asked: ") + failure.what();
   } catch (...) {
     probe.answer = PortAnswer::kNotFound;
-    probe.message = "the program failed while it asked: an exception of no known kind";
+    probe.message = "the program failed while it asked: an unknown exception";
   }
   probe.port = port;
   return probe;

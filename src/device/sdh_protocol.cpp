@@ -258,7 +258,7 @@ std::string sdhErrorAdvice(int code) {
     case 33:
       return "check cable and adapter: bytes are lost on the way to the hand";
     case 24:
-      return "the value lies outside the hand's own limits";
+      return "the value is outside the hand's own limits";
     case 27:
       return "do a reference run, with the fingers free to move";
     case 28:

@@ -47,7 +47,7 @@ inline constexpr SdhQuantity kAcceleration{
 inline constexpr SdhQuantity kState{SdhCommand::kState, "state", "", 0.0, 7.0, true};
 inline constexpr SdhQuantity kPower{SdhCommand::kPower, "power", "", 0.0, 1.0, true};
 inline constexpr SdhQuantity kTemperature{
-    SdhCommand::kTemperature, "temperature", " deg C", -55.0, 150.0};
+    SdhCommand::kTemperature, "temperature", " °C", -55.0, 150.0};
 inline constexpr SdhQuantity kVelocityLimit{
     SdhCommand::kVelocityLimit, "velocity limit", " deg/s", 1e-3, kMaxDegPerS};
 inline constexpr SdhQuantity kAccelerationLimit{

@@ -300,11 +300,11 @@ void SeriesLines::takeObject(const Json& object, const Sink& sink) {
     const auto at = std::ranges::find(all_, columnOf(key).name, &Column::name);
     if (at == all_.end()) {
       if (isGiven_ || !isNumberOrNull(value)) continue;
-      return refuse(inQuotes(key) + " is none of its columns (" + namesText(all_) + ")");
+      return refuse(inQuotes(key) + " is not one of its columns (" + namesText(all_) + ")");
     }
     if (!isNumberOrNull(value)) return refuse(inQuotes(key) + " is not a number");
     if (!at->unit.empty() && columnOf(key).unit != at->unit && !isGiven_)
-      return refuse(inQuotes(key) + " has another unit than before, " + inQuotes(at->unit));
+      return refuse(inQuotes(key) + " has a different unit than before, " + inQuotes(at->unit));
     numbers_[static_cast<std::size_t>(at - all_.begin())] = jsonValueOf(value);
     isRow = true;
   }
@@ -331,15 +331,15 @@ void SeriesLines::takeHeader(std::vector<Column> header, bool isSure) {
   }
   if (!isSure) return refuse(inQuotes(namesText(header)) + " is neither a row nor its header");
   isOther_ = true;
-  refuse("the columns are other ones now, " + namesText(header) + " instead of " + namesText(all_) +
+  refuse("the columns have changed: " + namesText(header) + " instead of " + namesText(all_) +
          ": rows are refused until they are as before");
 }
 
 void SeriesLines::takeNumbers(const Sink& sink) {
-  if (isOther_) return refuse("the columns are others than before");
+  if (isOther_) return refuse("the columns have changed");
   // A greeting was taken for a header.
   if (!hasRows_ && !isSure_ && !all_.empty() && numbers_.size() != all_.size()) {
-    refuse(inQuotes(namesText(all_)) + " is no header of what follows");
+    refuse(inQuotes(namesText(all_)) + " is not a header for what follows");
     all_.clear();
   }
   if (all_.empty() && !learn(unnamed(numbers_.size()), /*isNamed=*/false, /*isSure=*/false)) return;

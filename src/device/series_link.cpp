@@ -155,7 +155,7 @@ std::optional<std::int64_t> SeriesLink::deviceTime(std::optional<std::int64_t> d
   minOffsetUs_ = {};
   const auto before = std::exchange(session_.clockReportedUs, nowUs);
   if (!before || nowUs - *before >= kToldAgainUs)
-    eventNow("link", "the clock of the " + what_ + " jumped or started anew");
+    eventNow("link", "the clock of the " + what_ + " jumped or restarted");
   return us;
 }
 

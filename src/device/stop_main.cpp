@@ -82,8 +82,7 @@ void leavePort() {
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    constexpr char kUsage[] =
-        "palpate_stop: palpate starts this program; it isn't called by hand\n";
+    constexpr char kUsage[] = "palpate_stop: palpate starts this program; don't run it directly\n";
     return ::write(STDERR_FILENO, kUsage, sizeof kUsage - 1) > 0 ? 2 : 3;
   }
   keepAlive();

@@ -267,7 +267,7 @@ bool StreamLineParser::leaveOutOtherLabels() {
   placeOf_.clear();
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     if (isAlone(labels_[i])) {
-      refuse("the label " + inQuotes(labels_[i]) + " is none of those of the frame");
+      refuse("the label " + inQuotes(labels_[i]) + " is not one of those of the frame");
       continue;
     }
     partValues_[kept.size()] = partValues_[i];

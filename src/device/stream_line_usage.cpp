@@ -76,7 +76,7 @@ bool StreamLineParser::isOfFrames(std::string_view name,
     return true;
   }
   if (hasOwnFrames_) {
-    refuse(inQuotes(name) + " is no name of the hand's, and its frames come without it");
+    refuse(inQuotes(name) + " is not one of the hand's names, and its frames come without it");
     return false;
   }
   if (heldLine_) {
@@ -92,13 +92,15 @@ bool StreamLineParser::isOfFrames(std::string_view name,
     return false;
   }
   if (!otherName_.accepts(std::string(name))) {
-    refuse(inQuotes(name) + " is no name of the hand's, and the first frames were lines with " +
+    refuse(inQuotes(name) +
+           " is not one of the hand's names, and the first frames were lines with " +
            inQuotes(before));
     return false;
   }
   if (otherName_.value != before && mayWait)
     note("lines with " + inQuotes(name) +
-         " are taken for the frames: it is no name of the hand's, but no other lines are frames" +
+         " are taken for the frames: it is not one of the hand's names, but no other lines are "
+         "frames" +
          (before.empty() ? "" : " from line " + std::to_string(stats_.lines) + " on"));
   return true;
 }
@@ -107,12 +109,12 @@ bool StreamLineParser::isOfFrames(std::string_view name,
 void StreamLineParser::noteOwnFrames() {
   if (std::exchange(hasOwnFrames_, true)) return;
   if (const auto held = std::exchange(heldLine_, std::nullopt))
-    return refuse(
-        held->first,
-        inQuotes(otherName_.value) + " is no name of the hand's, and its frames come without it");
+    return refuse(held->first,
+                  inQuotes(otherName_.value) +
+                      " is not one of the hand's names, and its frames come without it");
   if (otherName_.times > 0)
     note("the frames before line " + std::to_string(stats_.lines) + " were lines with " +
-         inQuotes(otherName_.value) + ", which is no name of the hand's: they may be wrong");
+         inQuotes(otherName_.value) + ", which is not one of the hand's names: they may be wrong");
 }
 
 // The line that waited is a frame: no other lines are.
@@ -120,7 +122,8 @@ void StreamLineParser::releaseHeld(const Sink& sink) {
   const auto held = std::exchange(heldLine_, std::nullopt);
   if (!held) return;
   note("lines with " + inQuotes(otherName_.value) +
-       " are taken for the frames: it is no name of the hand's, but no other lines are frames");
+       " are taken for the frames: it is not one of the hand's names, but no other lines are "
+       "frames");
   const std::uint64_t now = std::exchange(stats_.lines, held->first);
   takeText(held->second, sink);
   stats_.lines = now;
@@ -153,7 +156,7 @@ bool StreamLineParser::takeHeader(std::string_view line, const Head& head) {
   headerOrder_.clear();
   if (std::ranges::is_sorted(places)) return true;
   headerOrder_ = std::move(places);
-  note("the values behind line " + std::to_string(stats_.lines) +
+  note("the values after line " + std::to_string(stats_.lines) +
        " are in the order of its names (" + inQuotes(names.front()) + " to " +
        inQuotes(names.back()) + ")");
   return true;

@@ -268,7 +268,7 @@ void StreamLineParser::takeText(std::string_view line, const Sink& sink) {
     if (line.empty()) return refuse("an empty list");
   }
   if (line.front() == '>') line = trimmed(line.substr(1), " \t");
-  if (line.empty()) return refuse("nothing stands behind '>'");
+  if (line.empty()) return refuse("nothing follows '>'");
   if (isLetter(line.front()) && std::ranges::count(line, ':') > 1)
     readLabelled(line, sink);
   else

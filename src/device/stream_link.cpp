@@ -294,9 +294,7 @@ FrameNumbers::Step StreamLink::stepOf(const StreamItem& item, std::int64_t monot
   if (!step.renumbered) return step;
   const auto before = std::exchange(session_.renumberedUs, monotonicUs);
   if (!before || monotonicUs - *before >= kRenumberedAgainUs)
-    eventNow("link",
-             "the numbers of the frames started anew: the sender was restarted, or a second one "
-             "sends");
+    eventNow("link", "frame numbering restarted: the sender was restarted, or a second one sends");
   return step;
 }
 
@@ -307,7 +305,7 @@ std::optional<std::int64_t> StreamLink::deviceTime(const StreamItem& item,
   if (session_.clock.restarted() && !session_.speedReported) {
     const auto before = std::exchange(session_.clockReportedUs, monotonicUs);
     if (!before || monotonicUs - *before >= kClockAgainUs)
-      eventNow("link", "the sender's clock jumped or started anew");
+      eventNow("link", "the sender's clock jumped or restarted");
     minOffsetUs_ = {};
   }
   if (!options_.isInput && !session_.speedReported) {

@@ -190,7 +190,7 @@ void TactileLink::checkStamp(TactileFrame&& frame, const DsaFrame& packet) {
       deliver(std::move(frame), session_.deviceClock.deviceMs(), packet.packetBytes);
       break;
     case DsaClock::FrameAcceptance::kRestarted:
-      eventNow("link", "the tactile controller's clock started anew: it was switched off and on");
+      eventNow("link", "the tactile controller's clock restarted: it was switched off and on");
       resetRateEstimate();
       minOffsetUs_ = {};
       if (session_.held) {
@@ -327,7 +327,7 @@ void TactileLink::watchChecksums() {
       "alarm",
       std::to_string(newBad) + " bad checksums in 3 s: cable, or a second program on the port");
   if (std::exchange(session_.restartedForChecksums, !session_.restartedForChecksums))
-    throw DeviceError(DeviceFault::kProtocol, port_, "too many bad checksums: opening it anew");
+    throw DeviceError(DeviceFault::kProtocol, port_, "too many bad checksums: reopening it");
   controller_->whilePaused([] {});
 }
 
@@ -354,7 +354,7 @@ void TactileLink::restoreSettings() {
   learn();
   const std::int64_t nowUs = time_.nowUs();
   event("settings",
-        "the settings of before were restored",
+        "the previous settings were restored",
         nowUs,
         nowUs,
         std::nullopt,

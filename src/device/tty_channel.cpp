@@ -39,10 +39,10 @@ void throwOpenError(int error, const std::string& name) {
     case ENXIO:
     case ENODEV:
     case EIO:
-      throw DeviceError(DeviceFault::kNotFound,
-                        name,
-                        "nothing is plugged in behind this port; plug the adapter in, or name "
-                        "another port");
+      throw DeviceError(
+          DeviceFault::kNotFound,
+          name,
+          "nothing is plugged into this port; plug the adapter in, or name another port");
     default:
       throw DeviceError(
           DeviceFault::kNotFound,

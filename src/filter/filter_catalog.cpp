@@ -116,8 +116,8 @@ std::vector<FilterKind> spatialKinds() {
       {"nlm",
        "Non-local means",
        FilterDomain::kSpatial,
-       {odd("patch", 9, 3, "taxels", "width of the patches that are compared"),
-        odd("search", 21, 5, "taxels", "width of the region that is searched"),
+       {odd("patch", 9, 3, "taxels", "width of the compared patches"),
+        odd("search", 21, 5, "taxels", "width of the searched region"),
         real("h",
              0.01,
              10000,
@@ -148,22 +148,22 @@ std::vector<FilterKind> spatialKinds() {
        "Threshold",
        FilterDomain::kSpatial,
        {real("above", 0, kLargestThreshold, 10, "counts", "values up to this become 0")},
-       "Values up to the threshold become 0, others stay: noise of a sensor without a threshold of "
-       "its own is no contact.",
-       "every taxel by itself",
+       "Values up to the threshold become 0, others stay: removes the noise of a sensor that has "
+       "no threshold.",
+       "each taxel separately",
        "what the SDH-2's controller does"},
       {"baseline",
        "Baseline",
        FilterDomain::kSpatial,
        {real("from", 0, kLargestSecond, 0, "s", "where the readings at rest begin"),
         real("to", 0, kLargestSecond, 1, "s", "where they end; from the first frame on"),
-        real("sigmas", 0, 100, 5, "", "so many standard deviations of the rest become 0"),
+        real("sigmas", 0, 100, 5, "", "this many standard deviations of the rest become 0"),
         real("above", 0, kLargestThreshold, 0, "counts", "as do values up to this above the rest"),
         masked()},
        "Subtracts the readings at rest; what doesn't exceed them by more than their noise becomes "
-       "0. The rest is the mean of a span of the recording, or of a connected hand the last second "
+       "0. The rest is the mean of a span of the recording, or the last second of a connected hand "
        "(Baseline).",
-       "every taxel by itself",
+       "each taxel separately",
        "what skins and pads need whose readings aren't 0 at rest"},
   };
 }
@@ -191,7 +191,7 @@ FilterOption zeroPhase() {
 std::vector<FilterKind> butterworthKinds() {
   const char* const border =
       "begins as if the first value had always been there, and again after a gap; centred=1: the "
-      "signal goes on as its reflection through the end point";
+      "signal continues as its reflection through the end point";
   const char* const source =
       "Butterworth 1930, bilinear transform in sections of second order; as scipy.signal.butter";
   return {
@@ -252,8 +252,7 @@ std::vector<FilterKind> temporalKinds() {
        "Temporal Gaussian",
        FilterDomain::kTemporal,
        {window(5),
-        real(
-            "sigma", 0.01, 1000, 1.5, "frames", "width; causal: of the half that lies in the past"),
+        real("sigma", 0.01, 1000, 1.5, "frames", "width; causal: of the past half"),
         centred()},
        "Weighted mean of the last frames, the newest the most.",
        kShrinks,

@@ -81,7 +81,7 @@ std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view 
     const auto index = parseInteger(part);
     if (!index || *index < 0 || *index >= static_cast<std::int64_t>(kMostMatrices))
       throw std::invalid_argument(step.name +
-                                  ": matrices must be numbers joined by +, as 1+3, is \"" +
+                                  ": matrices must be numbers joined by +, such as 1+3, is \"" +
                                   shortened(text) + "\"");
     matrices.push_back(static_cast<std::size_t>(*index));
   }
@@ -96,7 +96,7 @@ std::vector<float> parseRest(const FilterStep& step, std::string_view key, std::
     const auto number = parseDouble(part);
     if (!number || !(std::abs(*number) <= static_cast<double>(kLargestRest)))
       throw std::invalid_argument(step.name + ": " + std::string(key) +
-                                  " must be numbers joined by /, as 3/2.5, is \"" +
+                                  " must be numbers joined by /, such as 3/2.5, is \"" +
                                   shortened(text) + "\"");
     values.push_back(static_cast<float>(*number));
   }
@@ -232,7 +232,7 @@ FilterStep parseFilterStep(std::string_view text) {
   const auto colon = text.find(':');
   step.name = trimmed(text.substr(0, colon));
   if (step.name.empty())
-    throw std::invalid_argument("a filter is wanted, as \"median:size=3\"; there are: " +
+    throw std::invalid_argument("expected a filter, such as \"median:size=3\"; there are: " +
                                 filterNames());
   const FilterKind& kind = step.kind();
   if (colon != std::string_view::npos) {

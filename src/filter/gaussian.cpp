@@ -77,7 +77,7 @@ MatrixValues gaussianFiltered(const Eigen::Ref<const MatrixValues>& values,
                               const GaussianOptions& options) {
   options.validate();
   if (values.rows() != layout.rows || values.cols() != layout.columns)
-    throw std::invalid_argument("gaussian: the matrix has not the size of its layout");
+    throw std::invalid_argument("gaussian: the matrix doesn't have the size of its layout");
   const std::vector<float> kernel = gaussianWeights(options);
   if (layout.numEnabled() == layout.numCells()) return convolvedBothWays(values, kernel);
 

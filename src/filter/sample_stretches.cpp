@@ -11,7 +11,7 @@ std::vector<SampleRange> sampleStretches(std::size_t numSamples,
   std::size_t begin = 0;
   for (const std::size_t gap : gapSamples) {
     if (gap < begin || gap + 1 >= numSamples)
-      throw std::invalid_argument("gap behind sample " + std::to_string(gap) +
+      throw std::invalid_argument("gap after sample " + std::to_string(gap) +
                                   ": gaps must ascend and lie between two of the " +
                                   std::to_string(numSamples) + " samples");
     stretches.push_back({begin, gap + 1});

@@ -127,7 +127,7 @@ std::vector<SampleRow> fullRows(const Candidate& table, char decimal) {
   std::vector<SampleRow> rows;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Cells& cells = table.rows[i];
-    // Names may lack a last empty cell that each row has, and the other way round.
+    // The header may have one trailing empty cell fewer than the rows, or vice versa.
     const bool fits = cells.size() == table.numCells || cells.size() + 1 == table.numCells;
     if (!fits) continue;
     SampleRow row{i, {}};
@@ -697,7 +697,7 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
       }))
     throw FormatError(path,
                       "line " + std::to_string(numbers[0]) +
-                          ": holds no numbers: no table (cells are separated by commas, "
+                          ": holds no numbers: not a table (cells are separated by commas, "
                           "semicolons, tabs or blanks)");
   for (std::size_t c = 0; c < shape.columns.size(); ++c)
     if (shape.columns[c].name.empty()) shape.columns[c].name = "column " + std::to_string(c + 1);

@@ -154,7 +154,7 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
     if (at != labelled_.end()) {
       cells_[at->second] = values_[i];
     } else if (shape_.nested && (!shape_.cellNames.empty() || names_[i].ends_with(']'))) {
-      row.fault = " has a value that the first lines have not: " + shortened(names_[i]);
+      row.fault = " has a value that the first lines lack: " + shortened(names_[i]);
       return false;
     }
   }
@@ -350,7 +350,7 @@ bool CsvSource::readFrame(TableRow& row) {
     row.fault = " begins a frame that is cut off by bytes 0";
   else if (frames_.brokenAt != 0)
     row.fault = " begins a frame at or after line " + std::to_string(frames_.brokenAt) +
-                ", which is none of a frame: nothing marks where the next one begins";
+                ", which belongs to no frame: nothing marks where the next one begins";
   else if (!row.complete)
     row.fault = " begins a frame of " + counted(count, "line") + " instead of " +
                 std::to_string(frames_.lines);
@@ -403,7 +403,7 @@ bool CsvSource::readPads(TableRow& row) {
     const bool begins = row.line == 0;
     if (begins) row.line = number;
     if (at == shape_.pads.end()) {
-      fail(" begins a frame with a line that is of no matrix, line " + std::to_string(number));
+      fail(" begins a frame with a line that belongs to no matrix, line " + std::to_string(number));
       continue;
     }
     if (begins && index != 0) fail(" begins a frame without " + inQuotes(shape_.pads[0].name));

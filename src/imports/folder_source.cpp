@@ -124,7 +124,7 @@ void FolderSource::findFiles() {
                       "is a folder with " + counted(files_.size(), "file") + " " +
                           shortened(best->first) + " and " + counted(others.size(), "other") +
                           " (" + firstOf(others) +
-                          "): which ones are the frames can't be told; leave only these in it");
+                          "): which ones are the frames is unclear; leave only those in it");
   }
   if (!others.empty()) note_ = "files that are not used: " + firstOf(others);
   if (!numbered.empty())
@@ -138,7 +138,7 @@ void FolderSource::findFiles() {
     throw FormatError(
         path_,
         "has two files of the same number, " + shortened(same->path.filename().string()) + " and " +
-            shortened((same + 1)->path.filename().string()) + ": their order can't be told");
+            shortened((same + 1)->path.filename().string()) + ": their order is unclear");
 }
 
 // Whether one number tells the files apart: it may be the time, or count the frames.
@@ -150,7 +150,7 @@ void FolderSource::findVarying() {
     });
     if (differs && varying_) {
       note_ += std::string(note_.empty() ? "" : "; ") +
-               "several numbers in the names differ: missing files can't be told from them";
+               "several numbers in the names differ: missing files can't be detected from them";
       return varying_.reset();
     }
     if (differs) varying_ = n;
@@ -211,7 +211,7 @@ std::vector<std::string> FolderSource::doubts(double mostCounted) const {
         " by more, first by " + numberText(*first) + " before " +
         shortened(
             files_[static_cast<std::size_t>(first - steps.begin()) + 1].path.filename().string()) +
-        ": files may be missing, and the times don't know it");
+        ": files may be missing, and the times don't show it");
   return doubts;
 }
 
@@ -268,10 +268,9 @@ void FolderSource::start(std::span<const std::size_t> columns, std::optional<std
   next_ = 0;
   numOpenEnded_ = 0;
   if (time_ == 0u && !varying_)
-    throw FormatError(
-        path_,
-        "has names with several numbers that differ, which are no time; give the rate "
-        "of the files (--rate)");
+    throw FormatError(path_,
+                      "has names with several numbers that differ, which are not times; give the "
+                      "rate of the files (--rate)");
 }
 
 bool FolderSource::next(TableRow& row) {

@@ -78,8 +78,7 @@ void Hdf5Source::describe(TableColumn& column) {
   column.scale = numberOf("scale_factor").value_or(1.0);
   column.offset = numberOf("add_offset").value_or(0.0);
   if (!std::isfinite(column.scale) || column.scale == 0.0 || !std::isfinite(column.offset))
-    throw FormatError(path_,
-                      inQuotes(column.name) + " has a scale_factor or add_offset that is none");
+    throw FormatError(path_, inQuotes(column.name) + " has an invalid scale_factor or add_offset");
   for (const char* key : {"_FillValue", "missing_value"})
     if (const auto number = numberOf(key); number && std::isfinite(*number))
       column.missing.push_back(*number);

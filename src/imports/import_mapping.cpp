@@ -200,7 +200,7 @@ ImportMapping mappingFromJson(const std::string& text, const std::filesystem::pa
   }
   const MappingField field(std::move(json), "", source);
   if (field.text("format") != kMappingFormat)
-    field.fail("has not \"format\": \"" + std::string(kMappingFormat) + "\": no import mapping");
+    field.fail("lacks \"format\": \"" + std::string(kMappingFormat) + "\": not an import mapping");
   field.only({"format", "text", "time", "components", "matrices", "angles", "temperatures"});
   ImportMapping mapping;
   if (field.has("text")) mapping.text = textFrom(field.object("text"));

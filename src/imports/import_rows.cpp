@@ -153,7 +153,7 @@ void ImportRows::finishSeries() {
     const std::int64_t apart =
         isBefore ? *firstUs_ - further.lastUs : further.firstUs - lastFrameUs_;
     if (apart > 0 && atEnd_)
-      report_.doubts.push_back("series " + series->further.name + ": all of it lies " +
+      report_.doubts.push_back("series " + series->further.name + ": all of it is " +
                                fixedText(static_cast<double>(apart) / kUsPerS, 3) + " s " +
                                (isBefore ? "before the first frame" : "after the last frame"));
   }
@@ -188,8 +188,8 @@ std::int64_t ImportRows::shiftOf(const PlannedSeries& series, std::int64_t first
     return areDates && !wereDates ? 0 : ofCount;
   }
   report_.doubts.push_back(name +
-                           (areDates ? "its times are dates, those of the frames are not"
-                                     : "its times are no dates, those of the frames are") +
+                           (areDates ? "its times are dates, but those of the frames are not"
+                                     : "its times are not dates, but those of the frames are") +
                            ": its first row is taken to be at the first frame");
   return framesUs - firstUs;
 }
@@ -528,7 +528,7 @@ void ImportRows::noteOthers() {
     report_.doubts.push_back(counted(rows, "row") + " from " + names +
                              (shown > kShown ? ", .." : "") + " left out: only " +
                              inQuotes(origin.taken) +
-                             " is imported; save each of them in a file of its own");
+                             " is imported; save each of them in a separate file");
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 // What the cells of a column hold instead of numbers: "text such as "0x1F": hexadecimal".
 std::string whyNoNumbers(const TableColumn& column) {
   if (column.example.empty())
-    return column.type == "structure" ? "structure: save each field as an array of its own"
+    return column.type == "structure" ? "structure: save each field as a separate array"
                                       : column.type;
   const std::string_view cell = column.example;
   const std::string text = column.type + " such as " + inQuotes(cell);

@@ -36,7 +36,7 @@ constexpr Reason kUsedTwice{"$1 is used twice"};
 constexpr Reason kHandHasNone{"%1: the hand has none"};
 constexpr Reason kOtherSamples{"%1: $2 is %3 per row, but the hand has %4"};
 constexpr Reason kNoSuchMatrix{"the hand has no matrix %1, only %2"};
-constexpr Reason kOtherNumbers{"$1 is %2 per row, but expected is %3"};
+constexpr Reason kOtherNumbers{"$1 is %2 per row; expected %3"};
 constexpr Reason kNothingMapped{"%1: nothing is mapped to it, its taxels are 0"};
 constexpr Reason kTaxelList{
     "is a list of active taxels, as palpate convert writes it: its columns can't be chosen"};
@@ -45,8 +45,8 @@ constexpr Reason kTaxelListOfComponents{
     "convert the recording to .h5 or .npz instead"};
 // Rows and columns of a matrix.
 constexpr Reason kOtherShape{
-    "%1 has as many numbers as %2, but other rows and columns; save it as frames x rows x columns, "
-    "or as frames x taxels"};
+    "%1 has as many numbers as %2, but different rows and columns; save it as frames x rows x "
+    "columns, or as frames x taxels"};
 constexpr Reason kAxesTransposed{
     "%1: $2 has columns x rows, as the names of its axes say, and is transposed"};
 constexpr Reason kRowByRow{
@@ -75,11 +75,11 @@ constexpr Reason kOrderOfFile{
     "matrices: no names tell them apart; taken in the order of the file: %1 (--matrix NAME=COLUMNS "
     "chooses others)"};
 constexpr Reason kNoFile{
-    "no file is called as the matrix $1; call the files as the matrices of the hand (%2), or "
+    "no file has the name of the matrix $1; name the files after the matrices of the hand (%2), or "
     "choose the columns of each matrix (--matrix ~1='NAME*')"};
 constexpr Reason kOtherFile{"$1 has %2 per row, but its matrix has %3"};
 constexpr Reason kNothingFits{
-    "no columns fit the hand $1, which has %2 (as many columns are expected, or arrays of rows x "
+    "no columns fit the hand $1, which has %2 (expected one column per taxel, or arrays of rows x "
     "%3); the file has %4"};
 constexpr Reason kNotUsed{"not used: %1"};
 // Further series.
@@ -92,7 +92,7 @@ constexpr Reason kSeriesNoNumbers{"series $1: no column of numbers; there are %2
 constexpr Reason kSeriesNoTimes{
     "series $1: no column of times was found; give the rate of its rows (--series-rate %1=HZ)"};
 constexpr Reason kSeriesTooWide{
-    "series $1: it has %2 columns, but a series has at most %3; save those that are wanted"};
+    "series $1: it has %2 columns, but a series has at most %3; save only those needed"};
 // Which axis, and which rows, are the frames.
 constexpr Reason kSameSizes{
     "the %1 axis of ~2 is taken for the frames, but the %3 one has the same size, %4; if the "

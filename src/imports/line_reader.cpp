@@ -103,8 +103,8 @@ bool LineReader::nextPiece(std::string_view& line) {
   while ((end = endFrom(searched)) == std::string::npos) {
     const std::size_t waiting = buffer_.size() - begin_;
     if (waiting > kMaxLineBytes)
-      throw FormatError(path_,
-                        "line " + std::to_string(number_ + 1) + " is longer than 4 MB: no table");
+      throw FormatError(
+          path_, "line " + std::to_string(number_ + 1) + " is longer than 4 MB: not a table");
     if (!fill()) {
       if (waiting == 0) return false;
       end = buffer_.size();

@@ -303,10 +303,10 @@ class Mat5Source::Scan {
         std::find(header.shape.begin(), header.shape.end(), 0u) != header.shape.end();
     if (isEmpty ? tag.bytes != 0
                 : stored.kind == NumberKind::kOther || header.numBytes() != tag.bytes)
-      throw FormatError(source_.path_,
-                        inQuotes(name_) +
-                            " declares another number of numbers than it holds: it is cut off, or "
-                            "damaged");
+      throw FormatError(
+          source_.path_,
+          inQuotes(name_) +
+              " declares a different number of numbers than it holds: it is cut off, or damaged");
     const bool isComplex = (flags & kComplexFlag) != 0;
     const bool isLogical = (flags & kLogicalFlag) != 0;
     if (isLogical && header.kind == NumberKind::kUnsigned) header.kind = NumberKind::kBool;
@@ -360,7 +360,7 @@ Mat5Source::Mat5Source(const std::filesystem::path& path) : StoredArraySource(pa
   const std::string_view version = text.substr(kVersionAt);
   isBigEndian_ = version == std::string_view("\1\0MI", 4);
   if (!isBigEndian_ && version != std::string_view("\0\1IM", 4))
-    throw FormatError(path, "is no MAT file of version 5: its header is damaged");
+    throw FormatError(path, "is not a MAT file of version 5: its header is damaged");
   for (std::uint64_t at = kMatHeaderBytes; at < file_.size();) {
     std::array<std::byte, kTagBytes> tag{};
     const auto number = [&](std::span<const std::byte> bytes) {

@@ -98,7 +98,7 @@ std::string NpzSource::rowNote() const {
   const std::uint64_t end = header.dataOffset + header.numBytes().value_or(0);
   if (isArchive_ || header.kind == NumberKind::kOther || end >= file_.size()) return {};
   return std::to_string(file_.size() - end) +
-         " bytes behind the array are not read: what they hold (another array?) is not imported";
+         " bytes after the array are not read: what they hold (another array?) is not imported";
 }
 
 }  // namespace palpate

@@ -136,10 +136,8 @@ std::vector<TableElement> findSamples(Planning& p,
       elements.push_back({all[i], 0, {}});
       order += (i > 0 ? ", " : "") + names[i] + " = " + shortened(columns[all[i]].name);
     }
-    notes.push_back(what +
-                    ": their names are others than the hand's; taken in the order of the "
-                    "file: " +
-                    order);
+    notes.push_back(
+        what + ": their names differ from the hand's; taken in the order of the file: " + order);
     return elements;
   }
   for (auto group = groups.begin(); group != groups.end(); ++group) {

@@ -115,7 +115,7 @@ void TimeChoice::refuse(const std::string& why) const {
 void TimeChoice::refuseText(const TableColumn& column) const {
   refuse(inQuotes(column.name) + " holds " +
          (column.example.empty() ? column.type : inQuotes(column.example)) +
-         ", which is no time that is read: numbers, 2026-11-22T10:31:05.123Z, 22.11.2026 "
+         ", which is not a readable time: numbers, 2026-11-22T10:31:05.123Z, 22.11.2026 "
          "10:31:05.123, 11/22/2026 1:31:05 PM, 10:31:05.123");
 }
 
@@ -490,7 +490,7 @@ bool TimeChoice::leaveOutFirst(PlannedSeries& series, std::size_t column, bool i
   if (counting.isRowNumber || (counting.countsFrames && mapping_.time.rateHz)) {
     rowNumber_ = name;
     counter_ = column;
-    plan_.notes.push_back(name + " counts the rows and is no time");
+    plan_.notes.push_back(name + " counts the rows and is not a time");
     return true;
   }
   const bool hasTime = time_ || joinedTime_ ||

@@ -112,7 +112,7 @@ std::vector<ZipEntry> readZipDirectory(const RandomReader& file) {
     if ((flags & 1u) != 0) throw FormatError(file.path(), inQuotes(entry.name) + " is encrypted");
     if (method != 0 && method != 8)
       throw FormatError(file.path(),
-                        inQuotes(entry.name) + " is compressed in a way that isn't known (" +
+                        inQuotes(entry.name) + " is compressed with an unknown method (" +
                             std::to_string(method) + ")");
     entry.deflated = method == 8;
     entries.push_back(std::move(entry));

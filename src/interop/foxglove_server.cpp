@@ -215,7 +215,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
     if (error) {
       server_.refuse(error == beast::error::timeout
                          ? "a client did not finish its handshake in time"
-                         : "a connection was no HTTP request");
+                         : "a connection sent no valid HTTP request");
       return server_.server.ended(this);
     }
     const auto& request = parser_.get();

@@ -66,7 +66,7 @@ std::optional<RemoteAnswer> noHand(const LinkHealth& health, const StartLimits& 
   std::string why = ageMs ? "no frame has arrived for " + fixedText(*ageMs / kMsPerS, 1) + " s"
                           : std::string("no frame has arrived yet");
   const PortStatus& tactile = health.device.tactile;
-  why += tactile.message.empty() ? "; is the hand switched on, and its cable in?"
+  why += tactile.message.empty() ? "; is the hand switched on and its cable plugged in?"
                                  : ": " + tactile.message;
   return RemoteAnswer::refused("no_hand", why);
 }

@@ -150,7 +150,7 @@ struct RemoteRecorder::Impl {
       } catch (const std::exception& failure) {
         done(RemoteAnswer::refused("failed", failure.what()));
       } catch (...) {
-        done(RemoteAnswer::refused("failed", "an exception of no known kind"));
+        done(RemoteAnswer::refused("failed", "an unknown exception"));
       }
     } catch (...) {
       // Most likely out of memory. When no copy of `done` is left, the server answers.

@@ -215,7 +215,7 @@ class RemoteServer::Impl::Session : public std::enable_shared_from_this<Session>
     } catch (const std::exception& failure) {
       pending->give(RemoteAnswer::refused("failed", failure.what()));
     } catch (...) {
-      pending->give(RemoteAnswer::refused("failed", "an exception of no known kind"));
+      pending->give(RemoteAnswer::refused("failed", "an unknown exception"));
     }
   }
 

@@ -23,7 +23,7 @@ void requireSameSizes(const TactileFrame& frame, const SensorLayout& layout) {
   for (std::size_t m = 0; same && m < layout.numMatrices(); ++m)
     same = frame.layout->matrix(m).rows == layout.matrix(m).rows &&
            frame.layout->matrix(m).columns == layout.matrix(m).columns;
-  if (!same) throw std::invalid_argument("contactOf: frame and pose are of different sensors");
+  if (!same) throw std::invalid_argument("contactOf: frame and pose belong to different sensors");
 }
 
 // Uses the masks of the frame, since a recording knows its sensor best.
@@ -120,7 +120,7 @@ void contactOf(const TactileFrame& frame,
                const ContactOptions& options,
                HandContact& out) {
   options.validate();
-  if (pose.empty()) throw std::invalid_argument("contactOf: the pose is of no hand");
+  if (pose.empty()) throw std::invalid_argument("contactOf: the pose belongs to no hand");
   requireSameSizes(frame, pose.description().layout);
   out.matrices.clear();
   out.activeMm.clear();

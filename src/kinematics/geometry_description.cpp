@@ -247,7 +247,7 @@ void GeometryDescription::validate() const {
     if (surface.positionsMm.empty() && surface.normals.empty()) continue;
     const std::size_t places = layout.matrix(m).numCells();
     if (surface.positionsMm.size() != places || surface.normals.size() != places)
-      misfit(name + " has not one position and one normal per place");
+      misfit(name + " doesn't have one position and one normal per place");
     for (std::size_t i = 0; i < places; ++i)
       if (!surface.positionsMm[i].allFinite() ||
           !(std::abs(surface.normals[i].norm() - 1.0) < 1e-6))

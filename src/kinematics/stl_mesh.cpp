@@ -99,7 +99,7 @@ std::vector<StlTriangle> readStl(const std::filesystem::path& path) {
     if (bytes.size() == kHeaderBytes + 4 + count * kTriangleBytes) return readBinary(bytes, path);
   }
   if (!bytes.starts_with("solid"))
-    throw FormatError(path, "no STL file: neither its length nor its first word is of one");
+    throw FormatError(path, "not an STL file: neither its length nor its first word fits");
   return readText(bytes, path);
 }
 

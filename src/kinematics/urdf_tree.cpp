@@ -88,7 +88,7 @@ urdf::ModelInterfaceSharedPtr parseModel(const std::string& text, const fs::path
   console_bridge::restorePreviousOutputHandler();
   if (model && messages.first().empty() && thrown.empty()) return model;
   const std::string& why = messages.first().empty() ? thrown : messages.first();
-  throw FormatError(source, "no valid URDF" + (why.empty() ? why : ": " + shortened(why)));
+  throw FormatError(source, "not a valid URDF" + (why.empty() ? why : ": " + shortened(why)));
 }
 
 class UrdfTreeBuilder {
@@ -136,8 +136,7 @@ class UrdfTreeBuilder {
                                              finite(pose.position.z, kFarM, where));
     const Eigen::Quaterniond rotation(
         pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
-    if (!(std::abs(rotation.norm() - 1.0) < 1e-6))
-      fail("has a rotation in " + where + " that is none");
+    if (!(std::abs(rotation.norm() - 1.0) < 1e-6)) fail("has an invalid rotation in " + where);
     Eigen::Matrix3d matrix = rotation.normalized().toRotationMatrix();
     const Eigen::Matrix3d rounded = matrix.array().round().matrix();
     if ((matrix - rounded).cwiseAbs().maxCoeff() < kRightAngle) matrix = rounded;

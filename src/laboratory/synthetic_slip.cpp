@@ -124,7 +124,7 @@ void SyntheticSensor::validate() const {
 void idealCounts(const SyntheticContact& contact, const SyntheticSensor& sensor, MatrixMap counts) {
   const MatrixLayout& layout = sensor.layout;
   if (counts.rows() != layout.rows || counts.cols() != layout.columns)
-    throw std::invalid_argument("idealCounts: the matrix hasn't the size of the layout");
+    throw std::invalid_argument("idealCounts: the matrix doesn't have the size of the layout");
   // Gauss-Legendre nodes on a taxel of width 1.
   const double offset = 0.5 * std::sqrt(0.6);
   const std::array<double, 3> places{-offset, 0.0, offset};

@@ -76,14 +76,14 @@ void removeFreeLocks(std::span<const fs::path> parts) {
 std::vector<fs::path> renameRecording(std::span<const fs::path> parts, const std::string& stem) {
   if (parts.empty()) throw std::invalid_argument("renameRecording: no parts");
   if (stem.empty() || stem.front() == '.' || stem.find('/') != std::string::npos)
-    throw std::invalid_argument("renameRecording: '" + shortened(stem) + "' is no name");
+    throw std::invalid_argument("renameRecording: '" + shortened(stem) + "' is not a valid name");
   const std::string oldStem = parts.front().stem().string();
   std::vector<std::pair<fs::path, fs::path>> moves;
   std::vector<fs::path> named;
   for (const fs::path& part : parts) {
     if (!isThere(part)) throw FileError(part, "isn't there any more");
     if (!part.stem().string().starts_with(oldStem))
-      throw std::invalid_argument("renameRecording: " + part.string() + " is no part of it");
+      throw std::invalid_argument("renameRecording: " + part.string() + " is not a part of it");
     requireFreeOfWriters(part);
     if (isThere(withMore(part, kRecordingJournal)))
       throw FileError(part, "was never finished; recover it first");

@@ -70,7 +70,7 @@ void LiveMeasurement::add(const CaptureItem& item) {
 
 void LiveMeasurement::addFrame(const TactileFrame& frame) {
   if (frame.layout != hand_.layout && (!frame.layout || !(*frame.layout == *hand_.layout)))
-    return fail("other taxels are scanned than at the start");
+    return fail("the scanned taxels differ from those at the start");
   const bool first = numFrames() == 0;
   if (!first && frame.hostUs > lastUs_ && gaps_.afterGap(frame.hostUs))
     return fail("no frames for " + fixedText(secondsBetween(lastUs_, frame.hostUs), 1) + " s");

@@ -11,7 +11,7 @@ namespace palpate {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-// Forgotten samples are removed when there are so many, and at least as many as others.
+// Expired samples are compacted once they outnumber the live ones (and this minimum).
 constexpr std::size_t kLeastRemoved = 1024;
 
 double valueIn(const std::vector<double>& values, std::size_t index) {

@@ -71,7 +71,7 @@ void ProcessingChain::run(const std::stop_token& stop) {
     failure_ = error.what();
   } catch (...) {
     const std::lock_guard lock(mutex_);
-    failure_ = "an exception of no known kind";
+    failure_ = "an unknown exception";
   }
   queue->close();  // otherwise a lossless source would wait forever
 }

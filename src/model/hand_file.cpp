@@ -105,7 +105,7 @@ MatrixSurface surfaceOf(const JsonField& field, const MatrixLayout& layout) {
   if (field.has("taxels")) {
     if (field.has("origin_mm") || field.has("x_axis") || field.has("y_axis") || field.has("bend"))
       field.fail(
-          "has \"taxels\" beside \"origin_mm\", \"x_axis\", \"y_axis\" or \"bend\"; give one");
+          "has both \"taxels\" and \"origin_mm\", \"x_axis\", \"y_axis\" or \"bend\"; give one");
     const JsonField list = field.at("taxels");
     const std::vector<JsonField> taxels = list.items(layout.numCells());
     if (taxels.size() != layout.numCells())
@@ -451,7 +451,7 @@ HandDescription parseHand(const std::string& json,
     file->characteristics = characteristicsOf(root.at("characteristics"), *hand.layout);
   if (root.has("pinch")) file->pinch = pinchOf(root.at("pinch"), hand);
   if (root.has("urdf")) {
-    if (urdf.empty()) root.at("urdf").fail("names a file that is empty or not at hand");
+    if (urdf.empty()) root.at("urdf").fail("names a file that is empty or missing");
     file->urdf = urdf;
   } else {
     for (const MatrixSurface& surface : file->surfaces)

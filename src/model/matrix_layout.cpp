@@ -79,7 +79,7 @@ void MatrixLayout::validate() const {
       throw std::invalid_argument("MatrixLayout: pitchMm must be above 0 and at most 1000 mm, is " +
                                   std::to_string(mm));
   if (staticMask.size() != numCells() || dynamicMask.size() != numCells())
-    throw std::invalid_argument("MatrixLayout: a mask has not rows * columns places");
+    throw std::invalid_argument("MatrixLayout: a mask doesn't have rows * columns places");
   if (touch.components != 1 && touch.components != 3)
     throw std::invalid_argument("MatrixLayout: components must be 1 or 3, is " +
                                 std::to_string(touch.components));

@@ -15,7 +15,7 @@ Rest restIn(const Profile& profile, double fromS, double toS, RestOf what) {
                                 fixedText(toS, 3) + " s: " + why);
   };
   const double lastsS = static_cast<double>(profile.durationUs()) / kUsPerS;
-  if (!(fromS >= 0.0 && toS > fromS)) refuse("that is no span of a recording");
+  if (!(fromS >= 0.0 && toS > fromS)) refuse("that is not a span of a recording");
   if (!(toS <= lastsS + static_cast<double>(kToleranceUs) / kUsPerS))
     refuse("the recording ends after " + fixedText(lastsS, 3) + " s");
   const std::int64_t beginUs = profile.frameTimeUs(0);

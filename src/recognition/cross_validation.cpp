@@ -139,7 +139,7 @@ std::vector<LearningPoint> learningCurve(const SampleSet& samples,
   std::vector<LearningPoint> curve;
   for (std::size_t k = 0; k < perClass.size(); ++k) {
     if (perClass[k] < 2)
-      throw std::invalid_argument("learningCurve: two grasps a class are the least");
+      throw std::invalid_argument("learningCurve: at least two grasps per class are needed");
     std::vector<SampleSplit> part = whole;
     double taught = 0.0;
     for (SampleSplit& split : part) {

@@ -19,7 +19,7 @@ constexpr std::size_t kAnglesWithoutFrames = 2000;
 
 void GraspCollectorOptions::validate() const {
   if (minFingers < 1 || minFingers > kMostFingers)
-    throw std::invalid_argument("minFingers must lie in 1..8");
+    throw std::invalid_argument("minFingers must be 1..8");
   if (framesAfter < bridgedFrames)
     throw std::invalid_argument("framesAfter must be bridgedFrames or more");
   if (maxFrames <= moreThanFrames)

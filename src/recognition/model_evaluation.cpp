@@ -217,7 +217,7 @@ ModelEvaluation evaluateModel(const TrainedModel& model,
     }
   }
   if (evaluation.grasps.empty())
-    throw Error("no grasp is left to examine: all " + std::to_string(samples.numSamples()) +
+    throw Error("no grasp is left to test: all " + std::to_string(samples.numSamples()) +
                 " adapt the model");
   return evaluation;
 }

@@ -64,7 +64,7 @@ void requireAgreement(const TrainedModel& model) {
       pipeline.sessionAdaptive ? pipeline.sessionAdaptive->numFeatures()
                                : static_cast<std::size_t>(pipeline.standardisation.mean.size()));
   if (features != model.features.size() || pipeline.numClasses != model.classes.size())
-    throw Error("model: its classifier has other classes or features than it names");
+    throw Error("model: its classifier has different classes or features than it names");
   if (pipeline.sessionAdaptive && (pipeline.sessionAdaptive->data().features != model.features ||
                                    pipeline.sessionAdaptive->data().classes != model.classes))
     throw Error("model: its classifier names other classes or features");

@@ -80,7 +80,7 @@ PinchFrames readPinch(const Profile& profile,
         !std::all_of(out.anglesDeg.back().begin(), out.anglesDeg.back().end(), [](double deg) {
           return std::isfinite(deg);
         }))
-      out.problem = "joint angles that are missing or no numbers" + inFrame(i);
+      out.problem = "joint angles that are missing or not numbers" + inFrame(i);
   }
   return out;
 }

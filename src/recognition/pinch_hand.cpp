@@ -96,7 +96,7 @@ void PinchHand::validate() const {
   const GeometryDescription& mine = effectiveGeometry->description();
   require(studyGeometry->description().layout.numMatrices() == mine.layout.numMatrices() &&
               studyGeometry->description().numAxes == mine.numAxes,
-          "the two geometries are of different hands");
+          "the two geometries belong to different hands");
   require(pads[0] != pads[1], "pads must be two");
   for (const std::size_t pad : pads) {
     require(pad < mine.layout.numMatrices(), "there is no such pad");

@@ -64,7 +64,7 @@ SupportVectorMachine svmFrom(const Json& json, std::size_t numClasses, Eigen::In
   if (!pairs.isArray() || pairs.size() == 0) refusePipelineFile("'pairs' is empty");
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const Json pair = pairs.at(p);
-    if (pair.size() != 2) refusePipelineFile("'pairs' holds something that is no pair");
+    if (pair.size() != 2) refusePipelineFile("'pairs' holds something that is not a pair");
     const auto first = pair.at(0).asInteger(), second = pair.at(1).asInteger();
     if (first < 0 || second <= first || static_cast<std::size_t>(second) >= numClasses)
       refusePipelineFile("'pairs' names a class that isn't there");

@@ -69,7 +69,7 @@ void SampleSet::validate() const {
     if (label < 0 || static_cast<std::size_t>(label) >= classes.size())
       fail("label " + std::to_string(label) + " of " + std::to_string(classes.size()) + " classes");
   if (std::set<std::string>(classes.begin(), classes.end()).size() != classes.size())
-    fail("two classes of one name");
+    fail("two classes have the same name");
 }
 
 SampleSet samplesOf(const FeatureTable& table) { return samplesOf(table, table.classes()); }

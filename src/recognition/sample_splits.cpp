@@ -80,7 +80,7 @@ std::vector<SampleSplit> stratifiedSplits(const std::vector<int>& y,
                                           std::uint64_t seed,
                                           double testFraction) {
   if (!(testFraction > 0.0) || !(testFraction < 1.0))
-    throw std::invalid_argument("the share that examines must lie between 0 and 1");
+    throw std::invalid_argument("the share for testing must be between 0 and 1");
   const Members members = membersOf(y);
   const auto wanted =
       static_cast<std::size_t>(std::ceil(testFraction * static_cast<double>(y.size())));
@@ -105,7 +105,7 @@ std::vector<SampleSplit> stratifiedSplits(const std::vector<int>& y,
 }
 
 std::vector<SampleSplit> blockSplits(const std::vector<int>& y, std::size_t blocks) {
-  if (blocks < 2) throw std::invalid_argument("two blocks are the least");
+  if (blocks < 2) throw std::invalid_argument("at least two blocks are needed");
   const Members members = membersOf(y);
   std::vector<SampleSplit> all(blocks);
   for (const auto& items : members)

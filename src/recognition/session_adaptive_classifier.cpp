@@ -185,21 +185,21 @@ SessionAdaptiveClassifier::SessionAdaptiveClassifier(SessionAdaptiveParameters d
   const auto d = static_cast<Eigen::Index>(data_.features.size());
   if (d == 0) throw Error("a model without features");
   if (data_.sizeColumn && *data_.sizeColumn >= data_.features.size())
-    throw Error("a model whose size is none of its features");
+    throw Error("a model whose size doesn't match its features");
   if (!(data_.degreesOfFreedom > 2.0 && std::isfinite(data_.degreesOfFreedom)))
     throw Error("a model with degrees of freedom not above 2");
   if (!(data_.fewShotScatterScale > 0.0 && std::isfinite(data_.fewShotScatterScale)) ||
       !(data_.seenInSessionLogPrior >= 0.0 && std::isfinite(data_.seenInSessionLogPrior)))
     throw Error("a model with a weight that is not a number");
   if (data_.pooled.rows() != d || data_.pooled.cols() != d || !data_.pooled.allFinite())
-    throw Error("a model with a scatter of another size than its features");
+    throw Error("a model with a scatter of a different size than its features");
   for (std::size_t c = 0; c < data_.classComponents.size(); ++c)
     classComponents_.push_back(
         prepare(data_.classComponents[c], "class '" + shortened(data_.classes[c]) + "'"));
   background_ = prepare(data_.background, "the background");
   for (const SessionComponent& component : data_.today) {
     if (component.classIndex >= data_.classes.size())
-      throw Error("a model that saw today what is none of its classes");
+      throw Error("a model that saw a class today that is not one of its own");
     sessionComponents_.push_back(
         prepare(component.distribution,
                 "class '" + shortened(data_.classes[component.classIndex]) + "' of today"));
@@ -211,7 +211,7 @@ SessionAdaptiveClassifier::Prepared SessionAdaptiveClassifier::prepare(
   const auto d = static_cast<Eigen::Index>(data_.features.size());
   if (distribution.mean.size() != d || distribution.scatter.rows() != d ||
       distribution.scatter.cols() != d)
-    throw Error("a model with a description of another size than its features: " + what);
+    throw Error("a model with a description of a different size than its features: " + what);
   if (!distribution.mean.allFinite() || !distribution.scatter.allFinite())
     throw Error("a model with values that are not numbers: " + what);
   // The features differ by orders of magnitude; scaling makes the decomposition well conditioned.

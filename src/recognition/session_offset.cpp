@@ -362,7 +362,7 @@ SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
     if (count > 0.0) ln += sum / count * std::min(count, options.maxEffectiveReferences);
   }
   if (confident.size() != y.size())
-    throw std::invalid_argument("session offset: a label that is no class of the model");
+    throw std::invalid_argument("session offset: a label that is not a class of the model");
   if (confident.empty()) return out;
   if (!isFixed(before)) {
     setDistribution(out, ln);

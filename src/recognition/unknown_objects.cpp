@@ -54,7 +54,7 @@ UnknownReport unknownObjectsReportOf(const SampleSet& samples,
   }
   report.known = known.size();
   report.unknown = unknown.size();
-  if (known.empty() || unknown.empty()) throw Error("unknown objects: no grasp to examine");
+  if (known.empty() || unknown.empty()) throw Error("unknown objects: no grasp to test");
   report.auroc = auroc(unknown, known);
   return report;
 }
@@ -62,7 +62,7 @@ UnknownReport unknownObjectsReportOf(const SampleSet& samples,
 void requireThreeClasses(const SampleSet& samples) {
   const std::vector<std::size_t> counts = samples.counts();
   if (std::count_if(counts.begin(), counts.end(), [](std::size_t count) { return count >= 2; }) < 3)
-    throw Error("unknown objects: three classes with two grasps each are the least");
+    throw Error("unknown objects: at least three classes with two grasps each are needed");
 }
 
 SessionOffset offsetOf(const SessionAdaptiveClassifier& model,

@@ -69,7 +69,7 @@ bool needsSaving(const fs::path& path,
   if (there == countsOf(events)) return false;
   if (there != countsOf(asRead.events))
     throw FileError(path,
-                    "its notes were changed by somebody else meanwhile; open it again and repeat "
+                    "its notes have since been changed by someone else; open it again and repeat "
                     "the change, so that theirs aren't lost");
   return true;
 }
@@ -77,7 +77,7 @@ bool needsSaving(const fs::path& path,
 void requireThere(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored))
-    throw FileError(path, "was deleted or moved meanwhile; its notes can't be saved there");
+    throw FileError(path, "has since been deleted or moved; its notes can't be saved there");
 }
 
 // Throws FileError where a file, or the folder that must take its journal or sidecar, is read-only.
@@ -165,7 +165,7 @@ void saveEventRows(const fs::path& given,
     database.execute("BEGIN IMMEDIATE");
     checkTables(database);
     // It may be another file by now.
-    if (readMeta(database)["finished"] != "1") throw FileError(path, "was replaced meanwhile");
+    if (readMeta(database)["finished"] != "1") throw FileError(path, "has since been replaced");
     const EventsReport now = readEventRows(database);
     if (needsSaving(path, now.events, asRead, events)) {
       replaceRows(database, events);

@@ -14,7 +14,7 @@
 namespace palpate {
 
 // Keeps other threads out of the library; a thread may take it several times. Errors of the library
-// are not printed: who calls it reports them.
+// are not printed: callers report them.
 std::unique_lock<std::recursive_mutex> hdf5Lock();
 
 // Owns an identifier of the library; the lock is taken to give it back.

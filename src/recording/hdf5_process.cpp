@@ -120,7 +120,7 @@ std::string Hdf5Process::ending(Hdf5Request wanted, const std::string& name) {
   const bool wantedValues = wanted == Hdf5Request::kRead || wanted == Hdf5Request::kTexts;
   if (tookTooLong && use_ == Hdf5Use::kImport && wantedValues)
     return inQuotes(name) +
-           " takes too long to read: its chunks don't fit to rows; write it anew with larger "
+           " takes too long to read: its chunks don't match rows; write it again with larger "
            "chunks";
   std::string how = "crashed";
   if (tookTooLong)

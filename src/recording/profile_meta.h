@@ -1,4 +1,4 @@
-// What every form of a file says of a recording as a whole (docs/notes/palpate_format.md, "meta").
+// Metadata common to all file formats (docs/notes/palpate_format.md, "meta").
 // Private to this module; inline, because the library of HDF5 files, which this module links, needs
 // it, too.
 #pragma once
@@ -18,7 +18,7 @@
 namespace palpate {
 
 // Keys and values to be written: `said`, which was said of the recording before, and what the
-// profile says by itself (`info` and `hand`), which is the newer truth. Left out is what
+// profile says by itself (`info` and `hand`), which takes precedence. Left out is what
 // belongs to the file that it was read from: its form, the numbers of its samples.
 inline RecordingMeta writtenMeta(const ProfileInfo& info,
                                  const HandDescription& hand,

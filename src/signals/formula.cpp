@@ -290,7 +290,7 @@ std::string messageOf(const mu::Parser::exception_type& error) {
   return message;
 }
 
-// muParser would speak of an unexpected bracket. `parsed`: without the functions of series.
+// muParser would only report an unexpected parenthesis. `parsed`: without the functions of series.
 void refuseUnknownFunctions(const std::string& text, const std::string& parsed) {
   const mu::funmap_type known = mu::Parser().GetFunDef();
   for (std::size_t open = parsed.find('('); open != std::string::npos;
@@ -300,7 +300,7 @@ void refuseUnknownFunctions(const std::string& text, const std::string& parsed) 
     std::size_t begin = end;
     while (begin > 0 && ofName(parsed[begin - 1])) --begin;
     const std::string name = parsed.substr(begin, end - begin);
-    // A number is no name.
+    // Skip numeric literals.
     if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0 ||
         known.contains(name))
       continue;
@@ -308,8 +308,8 @@ void refuseUnknownFunctions(const std::string& text, const std::string& parsed) 
     for (const SeriesFunction& function : kSeriesFunctions)
       ours += (ours.empty() ? "" : ", ") + std::string(function.name);
     refuseFormula(text,
-                  "there is no function " + shortened(name) + "; of signals there are " + ours +
-                      ", of numbers abs, sqrt, min, max, exp, ln, sin and others");
+                  "there is no function " + shortened(name) + "; functions of signals are " + ours +
+                      ", functions of numbers abs, sqrt, min, max, exp, ln, sin and others");
   }
 }
 
@@ -429,7 +429,8 @@ Formula::Formula(const std::string& given) : text_(given) {
   try {
     FormulaParser parser(parsed_);
     parser.parser.Eval();
-    if (parser.parser.GetNumResults() != 1) refuseFormula(text, "a comma makes two formulas of it");
+    if (parser.parser.GetNumResults() != 1)
+      refuseFormula(text, "a comma would make it two formulas");
     for (const auto& [name, value] : parser.variables)
       if (name != kTime && name.rfind(kCallVariable, 0) != 0) names.insert(name);
   } catch (const mu::Parser::exception_type& error) {

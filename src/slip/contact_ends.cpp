@@ -16,7 +16,7 @@ constexpr float kAboveNoise = 3.0F;
 
 double loadAtTwoSides(const MatrixLayout& layout, const ConstMatrixMap& frame) {
   if (frame.rows() != layout.rows || frame.cols() != layout.columns)
-    throw std::invalid_argument("loadAtTwoSides: the frame hasn't the size of the layout");
+    throw std::invalid_argument("loadAtTwoSides: the frame doesn't have the size of the layout");
   const auto isMissing = [&](int y, int x) {
     return y < 0 || x < 0 || y >= layout.rows || x >= layout.columns || !layout.enabled(y, x);
   };

@@ -120,7 +120,7 @@ KeyFrame::KeyFrame(const MatrixLayout& layout, const KeyFrameOptions& options)
 
 bool KeyFrame::set(const ConstMatrixMap& frame) {
   if (frame.rows() != layout_.rows || frame.cols() != layout_.columns)
-    throw std::invalid_argument("KeyFrame: the frame hasn't the size of the matrix");
+    throw std::invalid_argument("KeyFrame: the frame doesn't have the size of the matrix");
   const ContactMoments moments = contactMoments(frame);
   active_ = 0;
   if (moments.active < kMinTaxels) return false;

@@ -27,7 +27,7 @@ SlipArrow slipArrow(const HandPose& pose,
                     double weight) {
   if (!std::isfinite(dx) || !std::isfinite(dy) || !(pitchMm.x > 0.0) || !(pitchMm.y > 0.0) ||
       !(weight > 0.0) || !std::isfinite(weight) || (turnDeg && !std::isfinite(*turnDeg)))
-    throw std::invalid_argument("slipArrow: motion, pitch or weight is no such number");
+    throw std::invalid_argument("slipArrow: motion, pitch or weight is invalid");
   const Eigen::Isometry3d surface = pose.baseFromSurface(matrix, x * pitchMm.x, y * pitchMm.y);
   SlipArrow arrow;
   arrow.matrix = matrix;

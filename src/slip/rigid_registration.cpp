@@ -54,7 +54,8 @@ RegistrationResult registerFrame(const KeyFrame& key,
   result.motion = start;
   const MatrixLayout& layout = key.layout();
   if (frame.rows() != layout.rows || frame.cols() != layout.columns)
-    throw std::invalid_argument("registerFrame: the frame hasn't the size of the key's matrix");
+    throw std::invalid_argument(
+        "registerFrame: the frame doesn't have the size of the key's matrix");
   if (key.empty()) return result;
 
   float least = 0.0F;

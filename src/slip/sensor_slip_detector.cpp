@@ -23,7 +23,7 @@ SensorSlipDetector::SensorSlipDetector(const HandDescription& hand,
 const std::vector<SlipDetection>& SensorSlipDetector::update(const TactileFrame& frame,
                                                              std::span<const double> jointsDeg) {
   if (!frame.layout || frame.layout->numMatrices() != detectors_.size())
-    throw std::invalid_argument("SensorSlipDetector: the frame has another layout");
+    throw std::invalid_argument("SensorSlipDetector: the frame has a different layout");
   for (std::size_t m = 0; m < detectors_.size(); ++m)
     detections_[m] = detectors_[m].update(frame.matrix(m), frame.hostUs, jointsDeg);
   return detections_;

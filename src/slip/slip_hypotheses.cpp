@@ -24,7 +24,7 @@ constexpr std::array<std::pair<int, int>, 4> kNeighbors = {{{-1, 0}, {1, 0}, {0,
 
 void checkSize(const KeyFrame& key, const ConstMatrixMap& frame) {
   if (frame.rows() != key.layout().rows || frame.cols() != key.layout().columns)
-    throw std::invalid_argument("contest: the frame hasn't the size of the key's matrix");
+    throw std::invalid_argument("load shift: the frame doesn't have the size of the key's matrix");
 }
 
 float minActiveTaxels(const ConstMatrixMap& frame) {
@@ -142,7 +142,7 @@ SlipHypothesisResult compareSlipHypotheses(const KeyFrame& key,
                                            std::span<const RigidMotion> starts,
                                            const SlipHypothesisOptions& options) {
   if (key.options().blurTaxels > 0.0)
-    throw std::invalid_argument("contest: the key frame is blurred");
+    throw std::invalid_argument("load shift: the key frame is blurred");
   SlipHypothesisResult result;
   const LoadFieldResult still = fitLoadField(key, frame, options.registration);
   if (still.taxels == 0) return result;

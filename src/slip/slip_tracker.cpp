@@ -116,7 +116,7 @@ void SlipTracker::clearReference() {
 
 const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap) {
   if (frame.rows() != layout_.rows || frame.cols() != layout_.columns)
-    throw std::invalid_argument("SlipTracker: the frame hasn't the size of the matrix");
+    throw std::invalid_argument("SlipTracker: the frame doesn't have the size of the matrix");
   const int activeBefore = motion_.active;
   const ContactMoments moments = contactMoments(frame);
   motion_ = {};
@@ -199,7 +199,7 @@ SensorSlipTracker::SensorSlipTracker(const SensorLayout& layout, const SlipTrack
 
 const std::vector<SlipMotion>& SensorSlipTracker::update(const TactileFrame& frame) {
   if (!frame.layout || frame.layout->numMatrices() != trackers_.size())
-    throw std::invalid_argument("SensorSlipTracker: the frame has another layout");
+    throw std::invalid_argument("SensorSlipTracker: the frame has a different layout");
   const bool afterGap = gaps_.afterGap(frame.hostUs);
   for (std::size_t m = 0; m < trackers_.size(); ++m)
     motions_[m] = trackers_[m].update(frame.matrix(m), afterGap);

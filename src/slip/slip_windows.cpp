@@ -55,7 +55,7 @@ const SlipEvidence& SlipWindows::add(const ConstMatrixMap& frame,
                                      std::int64_t timeUs,
                                      std::span<const double> jointsDeg) {
   if (frame.rows() != layout_.rows || frame.cols() != layout_.columns)
-    throw std::invalid_argument("SlipWindows: the frame hasn't the size of the matrix");
+    throw std::invalid_argument("SlipWindows: the frame doesn't have the size of the matrix");
   afterGap_ = gaps_.afterGap(timeUs);
   for (std::size_t i = 0; i < current_.size(); ++i) {
     const float value = frame.data()[i];

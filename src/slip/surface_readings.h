@@ -1,4 +1,4 @@
-// What a registered frame tells of a surface, and the registration of a frame to a surface: the
+// Observations of a surface from a registered frame, and the registration of a frame to a surface: the
 // same for LearnedSurface and MostProbableSurface.
 #pragma once
 
@@ -184,7 +184,8 @@ RegistrationResult registerToSurface(const Surface& surface,
   const KeyFrame& key = surface.start();
   const MatrixLayout& layout = key.layout();
   if (frame.rows() != layout.rows || frame.cols() != layout.columns)
-    throw std::invalid_argument("registerFrame: the frame hasn't the size of the key's matrix");
+    throw std::invalid_argument(
+        "registerFrame: the frame doesn't have the size of the key's matrix");
   if (surface.empty()) return result;
   float least = 0.0F;
   const Frame view{frame.data(),

@@ -123,14 +123,14 @@ TEST_F(BatchPlanning, OrLetsTheSecondOneFail) {
 }
 
 TEST_F(BatchPlanning, RefusesTargetsThatAreSourcesOrLieAmongThem) {
-  EXPECT_NE(refusalOf({folder_ / "in"}, "in/made/{name}.csv").find("lies in the folder"),
+  EXPECT_NE(refusalOf({folder_ / "in"}, "in/made/{name}.csv").find("is in the folder"),
             std::string::npos);
   fs::create_directory_symlink(folder_ / "in", folder_ / "link");
-  EXPECT_NE(refusalOf({folder_ / "in"}, "link/made/{name}.csv").find("lies in the folder"),
+  EXPECT_NE(refusalOf({folder_ / "in"}, "link/made/{name}.csv").find("is in the folder"),
             std::string::npos);
-  EXPECT_NE(refusalOf({folder_ / "in/b.dsa"}, "in/{name}.dsa").find("onto a recording"),
+  EXPECT_NE(refusalOf({folder_ / "in/b.dsa"}, "in/{name}.dsa").find("would overwrite a recording"),
             std::string::npos);
-  EXPECT_NE(refusalOf({folder_ / "in/b.dsa"}, "link/{name}.dsa").find("onto a recording"),
+  EXPECT_NE(refusalOf({folder_ / "in/b.dsa"}, "link/{name}.dsa").find("would overwrite a recording"),
             std::string::npos);
 }
 

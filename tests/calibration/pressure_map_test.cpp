@@ -204,9 +204,9 @@ TEST(PressureMap, SaysThatItWasMeasuredOnAnotherHandOrSensor) {
   calibration.serial = "A1";
   EXPECT_EQ(saidFirst(calibration, "A1"), usual);
   EXPECT_EQ(saidFirst(calibration, ""), usual) << "not known";
-  EXPECT_EQ(saidFirst(calibration, "B2"),
-            "measured on the sensor with serial number A1; that this one (B2) answers alike is "
-            "assumed");
+  EXPECT_EQ(
+      saidFirst(calibration, "B2"),
+      "measured on the sensor with serial number A1; this one (B2) is assumed to answer alike");
   EXPECT_EQ(calibrationFrom(Json::parse(jsonOf(calibration).text())).serial, "A1");
   calibration.hand = "My pad";
   EXPECT_EQ(saidFirst(calibration, "A1"),

@@ -307,7 +307,7 @@ TEST(CaptureSession, theCheckBeforeARunLooksAtTheFolderToo) {
   scripted.run(3.0);
   const PreflightCheck good = scripted.session->checkPreflight(folder.path());
   EXPECT_TRUE(good.ready) << good.text;
-  EXPECT_NE(good.text.find("up to 30 deg C"), std::string::npos);
+  EXPECT_NE(good.text.find("up to 30 °C"), std::string::npos);
   EXPECT_FALSE(scripted.session->checkPreflight(folder / "none").ready);
   scripted.session->stop();
   EXPECT_FALSE(scripted.session->checkPreflight(folder.path()).ready);

@@ -171,7 +171,7 @@ TEST(LinkHealth, everyTroubleHasItsAlarm) {
   inputs.recorder.mcapFailure = "a.mcap: the disk is full";
   const LinkHealth stopped = assessHealth(inputs);
   EXPECT_EQ(kindsOf(stopped), std::vector{AlarmKind::kMcapStopped});
-  EXPECT_NE(stopped.alarms[0].text.find("the recording goes on: a.mcap: the disk is full"),
+  EXPECT_NE(stopped.alarms[0].text.find("the recording continues: a.mcap: the disk is full"),
             std::string::npos);
   inputs = streaming();
   inputs.recorder.freeBytes = 18'000 * 3600 / 2;  // half an hour, at the nominal rate
@@ -237,7 +237,7 @@ TEST(LinkHealth, aHandThatIsTooHotIsAnAlarm) {
   inputs.temperatures = Sample{0, {30.0, 70.2, 0.0}, kTemperatureSeries};
   const LinkHealth hot = assessHealth(inputs);
   ASSERT_EQ(kindsOf(hot), std::vector{AlarmKind::kTooHot});
-  EXPECT_EQ(hot.alarms[0].text, "the hand is 70 deg C hot: relax it and let it cool down below 65");
+  EXPECT_EQ(hot.alarms[0].text, "the hand is 70 °C hot: relax it and let it cool down below 65");
 }
 
 const FolderState kGoodFolder{"/data", true, std::uint64_t{18'000} * 3600 * 120};
@@ -251,7 +251,7 @@ TEST(CheckBeforeRun, saysReadyInOneLine) {
   inputs.temperatures = temperatures;
   const PreflightCheck check = checkPreflight(inputs, kGoodFolder);
   EXPECT_TRUE(check.ready);
-  EXPECT_EQ(check.text, "ready: 31.2 frames/s, up to 38 deg C, disk for 5 days");
+  EXPECT_EQ(check.text, "ready: 31.2 frames/s, up to 38 °C, disk for 5 days");
 }
 
 TEST(CheckBeforeRun, isDoubtfulWhenValuesAreOutsideOfTheRange) {
@@ -298,7 +298,7 @@ TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
   inputs.temperatures = Sample{0, {30.0, 70.2}, kTemperatureSeries};
   const PreflightCheck hot = checkPreflight(inputs, kGoodFolder);
   EXPECT_FALSE(hot.ready);
-  EXPECT_NE(hot.text.find("70 deg C"), std::string::npos);
+  EXPECT_NE(hot.text.find("70 °C"), std::string::npos);
 }
 
 TEST(LinkHealth, theTimeForWhichADiskLastsIsSaidInTheUnitThatSuitsIt) {

@@ -532,7 +532,7 @@ TEST(RecorderGoneFiles, oneThatIsOverwrittenInPlaceGoesOnInANewPart) {
       EXPECT_EQ(report.paths, std::vector{session.here / "a_002.palpate"});
       EXPECT_FALSE(report.complete);
       EXPECT_EQ(report.lost, static_cast<std::int64_t>(onDisk));
-      EXPECT_NE(report.message.find("goes on in " + (session.here / "a_002.palpate").string()),
+      EXPECT_NE(report.message.find("continues in " + (session.here / "a_002.palpate").string()),
                 std::string::npos)
           << "the reason is told at the end, too: " << report.message;
       EXPECT_EQ(report.frames, static_cast<std::int64_t>(session.scripted.frames - onDisk));
@@ -542,7 +542,7 @@ TEST(RecorderGoneFiles, oneThatIsOverwrittenInPlaceGoesOnInANewPart) {
         ASSERT_EQ(numberOf(profile.frame(i)), onDisk + i);
       ASSERT_FALSE(session.told.empty());
       EXPECT_NE(session.told.front().find(std::to_string(onDisk) +
-                                          " frames that were in it are lost, and it goes on in " +
+                                          " frames that were in it are lost, and it continues in " +
                                           (session.here / "a_002.palpate").string()),
                 std::string::npos)
           << session.told.front();

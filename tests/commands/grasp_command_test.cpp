@@ -63,9 +63,8 @@ TEST(GraspCommand, SaysThatTheHandWasMovingWhenItWasConnected) {
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(statesOf(result.out), (States{"connecting", "stopped", "ready", "closing", "finished"}))
       << result.out;
-  EXPECT_NE(
-      result.out.find("stopped: the hand was moving when it was connected, watched by nobody\n"),
-      std::string::npos)
+  EXPECT_NE(result.out.find("stopped: the hand was moving unattended when it was connected\n"),
+            std::string::npos)
       << result.out;
 }
 

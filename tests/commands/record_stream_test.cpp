@@ -117,10 +117,9 @@ TEST(RecordStream, OtherLinesAreLeftOutAndNamed) {
   const ProgramResult result = recordText(
       folder, "pad:1,2,3,4,5,6\nimu:0,1,2,900,5,6\npad:7,8,9,10,11,12\n", smallPad(folder));
   EXPECT_EQ(result.exitCode, 3);
-  EXPECT_EQ(
-      result.err,
-      "palpate: 1 refused (the last: line 2: \"imu\" is no name of the hand's, and its frames "
-      "come without it)\n");
+  EXPECT_EQ(result.err,
+            "palpate: 1 refused (the last: line 2: \"imu\" is not one of the hand's names, and its "
+            "frames come without it)\n");
   const Profile profile = openRecording(folder / "a.palpate");
   ASSERT_EQ(profile.numFrames(), 2u);
   EXPECT_EQ(profile.frame(1).values, (std::vector<float>{7, 8, 9, 10, 11, 12}));
@@ -130,10 +129,9 @@ TEST(RecordStream, ALoneLineWithAnotherNameIsAFrameAndSaid) {
   const TemporaryFolder folder;
   const ProgramResult result = recordText(folder, "raw:1,2,3,4,5,6\n", smallPad(folder));
   EXPECT_EQ(result.exitCode, 0);
-  EXPECT_EQ(
-      result.err,
-      "palpate: lines with \"raw\" are taken for the frames: it is no name of the hand's, but "
-      "no other lines are frames\n");
+  EXPECT_EQ(result.err,
+            "palpate: lines with \"raw\" are taken for the frames: it is not one of the hand's "
+            "names, but no other lines are frames\n");
 }
 
 TEST(RecordStream, ValuesOverTheFullScaleAreKeptAndTold) {

@@ -179,10 +179,11 @@ TEST(StreamDevice, TwoSendersAreOneEventAndNoLoss) {
   EXPECT_EQ(bench.status().lost, 0u);
   std::vector<std::string> told;
   for (const Event& event : bench.sink.events) told.push_back(event.kind + ": " + event.text);
-  EXPECT_EQ(told,
-            (std::vector<std::string>{"link: the stream is connected",
-                                      "link: the numbers of the frames started anew: the sender "
-                                      "was restarted, or a second one sends"}));
+  EXPECT_EQ(
+      told,
+      (std::vector<std::string>{
+          "link: the stream is connected",
+          "link: frame numbering restarted: the sender was restarted, or a second one sends"}));
 }
 
 // What is lost is in the file, with the figure that is counted, and not one event per frame.
@@ -369,10 +370,9 @@ TEST(StreamDevice, LinesThatAreTakenForFramesAreSaidOnce) {
   bench.send("raw:1,2,3\nraw:4,5,6\n");
   EXPECT_EQ(bench.sink.frames.size(), 4u);
   ASSERT_EQ(bench.link->remarks().size(), 1u);
-  EXPECT_EQ(
-      bench.link->remarks()[0],
-      "lines with \"raw\" are taken for the frames: it is no name of the hand's, but no other "
-      "lines are frames");
+  EXPECT_EQ(bench.link->remarks()[0],
+            "lines with \"raw\" are taken for the frames: it is not one of the hand's names, but "
+            "no other lines are frames");
 }
 
 TEST(StreamDevice, BytesWithoutTheEndOfALineAreNamed) {

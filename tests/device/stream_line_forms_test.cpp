@@ -367,7 +367,7 @@ TEST(StreamLineForms, LinesWithAnotherNameAreNoFramesOnceOwnOnesCame) {
     const FormReading reading = readForm(text, hand, withLabels(hand));
     EXPECT_EQ(reading.frames, kTwoFrames) << text;
     EXPECT_EQ(reading.stats.refused, 1u) << text << reading.fault;
-    EXPECT_NE(reading.fault.find(" is no name of the hand's, and its frames come without it"),
+    EXPECT_NE(reading.fault.find(" is not one of the hand's names, and its frames come without it"),
               std::string::npos)
         << reading.fault;
   }
@@ -388,14 +388,13 @@ TEST(StreamLineForms, AFirstLineWithAnotherNameWaitsForTheNextOne) {
     EXPECT_EQ(reading.labelNotes, std::vector<std::string>{});
   }
   EXPECT_EQ(readForm("offsets: 512 510 498 505 500 511\n0,1,2,3,4,5\n", onePad(2, 3)).fault,
-            "line 1: \"offsets\" is no name of the hand's, and its frames come without it");
+            "line 1: \"offsets\" is not one of the hand's names, and its frames come without it");
 }
 
 TEST(StreamLineForms, ALoneOtherNameIsReadAndSaid) {
   const std::vector<std::string> note{
-      "lines with \"raw\" are taken for the frames: it is no name of the hand's, but no other "
-      "lines "
-      "are frames"};
+      "lines with \"raw\" are taken for the frames: it is not one of the hand's names, but no "
+      "other lines are frames"};
   const FormReading alone = readForm("raw 0,1,2,3,4,5\nraw 10,11,12,13,14,15\n", onePad(2, 3));
   EXPECT_EQ(alone.frames, kTwoFrames);
   EXPECT_EQ(alone.labelNotes, note);
@@ -407,8 +406,8 @@ TEST(StreamLineForms, ALoneOtherNameIsReadAndSaid) {
   EXPECT_EQ(both.labelNotes, note);
   EXPECT_EQ(both.stats.refused, 2u);
   EXPECT_EQ(both.fault,
-            "line 4: \"filtered\" is no name of the hand's, and the first frames were lines with "
-            "\"raw\"");
+            "line 4: \"filtered\" is not one of the hand's names, and the first frames were lines "
+            "with \"raw\"");
   const FormReading last = readForm("raw 0,1,2,3,4,5\n", onePad(2, 3), {}, SIZE_MAX, true);
   EXPECT_EQ(last.frames, std::vector<Values>{kTwoFrames[0]});
   EXPECT_EQ(last.labelNotes, note);
@@ -544,7 +543,7 @@ TEST(StreamLineForms, ALineOfNamesSaysTheOrder) {
   EXPECT_EQ(reversed.stats.refused, 0u) << reversed.fault;
   EXPECT_EQ(reversed.labelNotes,
             (std::vector<std::string>{
-                "the values behind line 1 are in the order of its names (\"p5\" to \"p0\")"}));
+                "the values after line 1 are in the order of its names (\"p5\" to \"p0\")"}));
   const FormReading timed = read("ms,p1,p0,p2,p3,p4,p5\n7,1,0,2,3,4,5\n");
   EXPECT_EQ(timed.frames, std::vector<Values>{kTwoFrames[0]});
   EXPECT_EQ(timed.timesUs, (std::vector<std::optional<std::int64_t>>{7'000}));

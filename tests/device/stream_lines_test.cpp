@@ -165,7 +165,7 @@ TEST(StreamLines, NamesTheFaultAndItsPlace) {
 
 TEST(StreamLines, AnArrowAloneIsRefused) {
   for (const char* text : {">\n", "> \n", " >\t\r\n", "[>]\n", ">[]\n"})
-    EXPECT_EQ(faultOf(text), "line 1: nothing stands behind '>'") << text;
+    EXPECT_EQ(faultOf(text), "line 1: nothing follows '>'") << text;
   EXPECT_EQ(faultOf(">>\n"), "line 1: value 1 is \">\", not a number");
 }
 

@@ -375,7 +375,7 @@ TEST(ImportForms, TimesThatCanNotBeReadSayWhy) {
                                   refusal("elapsed", {"0:59.95", "1:00.00"}),
                                   refusal("TimeStamp", {"0.05s", "0.10s"}),
                                   refusal("when", {"10:00:00:050", "10:00:00:060"}, chosen)})
-    EXPECT_NE(what.find(", which is no time that is read: numbers, 2026-11-22T10:31:05.123Z"),
+    EXPECT_NE(what.find(", which is not a readable time: numbers, 2026-11-22T10:31:05.123Z"),
               std::string::npos)
         << what;
   const std::string large = refusal("time_s", {"1700000000000", "1700000000050"});
@@ -592,7 +592,7 @@ TEST(ImportForms, AFolderWithAFilePerMatrixIsReadByTheNamesOfTheFiles) {
   testing::writeFile(data / "palm.csv",
                      "time_ms,a,b,c,d\n0,21,22,23,24\n10,25,26,27,28\n20,29,30,31,32\n");
   fs::rename(data / "palm.csv", data / "hand.csv");
-  EXPECT_NE(testing::errorOf([&] { import(); }).find("no file is called as the matrix \"palm\""),
+  EXPECT_NE(testing::errorOf([&] { import(); }).find("no file has the name of the matrix \"palm\""),
             std::string::npos);
   ImportMapping chosen;
   chosen.matrices = {{0, "thumb_tip*", {}, false}, {1, "hand*", {}, false}};
@@ -741,7 +741,7 @@ TEST(ImportForms, FilesWhoseOrderCanNotBeToldAreRefused) {
   for (const std::vector<std::string>& names :
        {std::vector<std::string>{"a_1.csv", "a_2.csv", "b_1.csv", "b_2.csv"},
         {"0008.csv", "0009.csv", "000a.csv", "000b.csv"}})
-    EXPECT_NE(refusal(names).find("can't be told"), std::string::npos) << refusal(names);
+    EXPECT_NE(refusal(names).find("is unclear"), std::string::npos) << refusal(names);
   const ImportReport report =
       importFolder(folder,
                    {{"f1.csv", "1,2\n"}, {"f2.csv", "1,2\n"}, {"offset.csv", "9,9\n"}},
@@ -870,7 +870,7 @@ TEST(ImportForms, HolesInTheNumbersOfFilesAreSaid) {
   const std::vector<std::string> tens = {"0", "10", "20", "40", "50", "80"};
   EXPECT_EQ(report(tens, "").doubts,
             (Texts{"the numbers in the names ascend by 10, but 2 times by more, first by 20 before "
-                   "f_40.csv: files may be missing, and the times don't know it"}));
+                   "f_40.csv: files may be missing, and the times don't show it"}));
   EXPECT_EQ(report(tens, "file").doubts, Texts());  // the times have it
   EXPECT_EQ(report({"0", "33", "67", "100", "133"}, "").doubts, Texts());
   // Numbers that count the frames are counted already, unless they leap by more than any loss.
@@ -879,7 +879,7 @@ TEST(ImportForms, HolesInTheNumbersOfFilesAreSaid) {
   EXPECT_EQ(report({"1", "2", "3", "2000", "2001"}, "").doubts.size(), 1u);
   const auto several = report({"1-00", "1-30", "2-00"}, "");
   EXPECT_EQ(several.notes.front(),
-            "several numbers in the names differ: missing files can't be told from them");
+            "several numbers in the names differ: missing files can't be detected from them");
 }
 
 }  // namespace

@@ -115,9 +115,9 @@ TEST(ImportOrigin, RowsOfAnotherSensorAreLeftOutAndCounted) {
     const bool isId = std::string_view(text).find("device_id") != std::string_view::npos;
     EXPECT_EQ(found.report.lossText(),
               isId ? "2 rows from \"6\" left out: only \"4\" is imported; save each of them in a "
-                     "file of its own"
+                     "separate file"
                    : "2 rows from \"b\" left out: only \"a\" is imported; save each of them in a "
-                     "file of its own");
+                     "separate file");
     EXPECT_NE(
         errorOf([&] {
           importText(

@@ -505,7 +505,7 @@ TEST(ImportPlan, SaysWhatDoesNotFit) {
       {refused(header, matrix("a9"), pad(2, 2)), "there is no column \"a9\"; there are t, a0"},
       {refused(header, matrix("#9"), pad(2, 2)), "has 6 columns"},
       {refused(header, matrix("a3..a0"), pad(2, 2)), "end before they begin"},
-      {refused(header, matrix("a0..a2"), pad(2, 2)), "3 numbers per row, but expected is 2 x 2"},
+      {refused(header, matrix("a0..a2"), pad(2, 2)), "3 numbers per row; expected 2 x 2"},
       {refused(header, matrix("a0,,a1"), pad(2, 2)), "empty part"},
       {refused(header, matrix("a{z}"), pad(2, 2)), "something else than {m}"},
       {refused(header, matrix("a{i}"), pad(1, 3)), "taxel 3 of a matrix of 1 x 3"},

@@ -121,7 +121,7 @@ TEST(ImportSeries, TimesOfAnotherKindAreSaid) {
   EXPECT_EQ(samplesText(mixed.profile), "1700000000000000: 1; 1700000000010000: 2");
   EXPECT_TRUE(hasText(mixed.report.doubts, "its first row is taken to be at the first frame"));
   const Imported apart = importWith(folder, kPad, {{"force", "t_ms,fx\n5000,1\n5010,2\n"}});
-  EXPECT_TRUE(hasText(apart.report.doubts, "all of it lies 4.970 s after the last frame"));
+  EXPECT_TRUE(hasText(apart.report.doubts, "all of it is 4.970 s after the last frame"));
   // The date of the first row counts for both.
   ImportMapping mapping;
   mapping.time.startUs = 1'700'000'000'000'000;

@@ -225,7 +225,7 @@ write(folder + 'more.mat', pack('II', 15, len(data)) + data)
   EXPECT_EQ(refusal("packed.mat"), "");
   for (const char* name :
        {"short.mat", "packed_short.mat", "long.mat", "huge.mat", "packed_huge.mat", "text.mat"})
-    EXPECT_NE(refusal(name).find("\"pad\" declares another number of numbers than it holds"),
+    EXPECT_NE(refusal(name).find("\"pad\" declares a different number of numbers than it holds"),
               std::string::npos)
         << name << refusal(name);
   for (const auto& [name, words] :

@@ -606,7 +606,7 @@ with open(folder + 'twice.npy', 'wb') as f:
            {"unknown.npz", "taken in the order of the file: left = b, right = a"},
            {"groups.h5", ""},
            {"scaled.h5", "scale_factor"},
-           {"twice.npy", "bytes behind the array are not read"}}) {
+           {"twice.npy", "bytes after the array are not read"}}) {
     const ImportReport report = import(name, twins);
     const Profile profile = openRecording(folder / "o.palpate");
     ASSERT_EQ(profile.numFrames(), 8u) << name;
@@ -663,10 +663,10 @@ with h5py.File(folder + 'lzf.h5', 'w') as f:
   for (const auto& [name, words] : std::vector<std::pair<std::string, std::string>>{
            {"bool.npz", "no numbers: pad (bool)"},
            {"objects.npz", "no numbers: pad (Python objects)"},
-           {"record.npy", "no numbers: array (structure: save each field as an array of its own)"},
-           {"record.h5", "no numbers: pad (structure: save each field as an array of its own)"},
+           {"record.npy", "no numbers: array (structure: save each field as a separate array)"},
+           {"record.h5", "no numbers: pad (structure: save each field as a separate array)"},
            {"lists.h5", "no numbers: pad (lists of different lengths)"},
-           {"lzf.h5", "filter that is not there (32000"}}) {
+           {"lzf.h5", "filter that is not available (32000"}}) {
     const std::string refusal = testing::errorOf(
         [&] { importRecording(folder / name, pad(2, 2), {}, folder / "o.palpate"); });
     EXPECT_NE(refusal.find(words), std::string::npos) << name << ": " << refusal;

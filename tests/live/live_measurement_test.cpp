@@ -123,7 +123,7 @@ TEST(LiveMeasurement, OtherTaxelsEndIt) {
   masked.layout = std::make_shared<const SensorLayout>(matrices);
   measurement.add(frameAt(4 * kPeriodUs, 0.0F, masked));
   EXPECT_EQ(measurement.state(), State::kFailed);
-  EXPECT_EQ(measurement.failure(), "other taxels are scanned than at the start");
+  EXPECT_EQ(measurement.failure(), "the scanned taxels differ from those at the start");
   EXPECT_EQ(LiveMeasurement(masked).numScanned(), sdh2().layout->numTaxels() - 1);
 }
 

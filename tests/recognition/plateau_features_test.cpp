@@ -142,7 +142,7 @@ TEST(PlateauFeatures, WhatIsMissingIsSaid) {
   EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(steps(false)), 3, -1)),
             "values that are not numbers in frame 3");
   EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(steps(false)), -1, 3)),
-            "joint angles that are missing or no numbers in frame 3");
+            "joint angles that are missing or not numbers in frame 3");
   // At phi0 = 0 fingers 0 and 2 face in the same direction.
   ProfileBuilder builder(sdh2().layout);
   TactileFrame frame(sdh2().layout);

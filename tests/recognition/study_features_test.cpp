@@ -94,7 +94,7 @@ TEST(StudyFeatures, WhatIsMissingIsSaid) {
   EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(good), 12, -1)),
             "values that are not numbers in frame 12");
   EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(good), -1, 12)),
-            "joint angles that are missing or no numbers in frame 12");
+            "joint angles that are missing or not numbers in frame 12");
   EXPECT_THROW(problem(pinchProfile(good), 30), std::out_of_range);
 }
 

@@ -109,7 +109,7 @@ TEST(DsaWriter, refusesHandsOfOtherControllers) {
                 "' has no such controller: use .palpate, CSV or NPZ");
   HandDescription unnamed = describeHand(SensorLayout({MatrixLayout::full(2, 2, 3.4)}), 0, 0);
   unnamed.unit = "kPa";
-  EXPECT_NE(refusalOf(unnamed).find("another unit than counts"), std::string::npos);
+  EXPECT_NE(refusalOf(unnamed).find("a unit other than counts"), std::string::npos);
   unnamed.unit = "counts";
   unnamed.maximumCounts = 65'535.0F;
   EXPECT_NE(refusalOf(unnamed).find("more than 12 bits"), std::string::npos);

@@ -113,7 +113,7 @@ TEST_P(EventStore, whatSomebodyElseChangedIsNotOverwritten) {
   expectContains(fileErrorOf([&] {
                    saveEvents(path, asRead, std::vector{kGap, kSegment});
                  }),
-                 "changed by somebody else meanwhile; open it again");
+                 "changed by someone else; open it again");
   EXPECT_EQ(readEvents(path).events, (std::vector{kLabel, kGap, kNote}));
   // What is there already is no conflict: a failure that was reported may have been none.
   saveEvents(path, asRead, std::vector{kNote, kGap, kLabel});
@@ -125,7 +125,7 @@ TEST_P(EventStore, aRecordingThatIsGoneGetsNoNotes) {
   const EventsReport asRead = readEvents(path);
   fs::rename(path, folder / "elsewhere");
   expectContains(fileErrorOf([&] { saveEvents(path, asRead, std::vector{kGap}); }),
-                 "was deleted or moved meanwhile");
+                 "has since been deleted or moved");
   EXPECT_FALSE(fs::exists(path));
 }
 

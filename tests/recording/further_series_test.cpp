@@ -216,7 +216,7 @@ change('infinite.h5', lambda f: f['series/wrist/values'].__setitem__((7, 0), flo
   EXPECT_NE(errorOf("group.h5").find("series/imu"), std::string::npos) << errorOf("group.h5");
   EXPECT_NE(errorOf("names.h5").find("two series have the name wrist"), std::string::npos)
       << errorOf("names.h5");
-  EXPECT_NE(errorOf("width.h5").find("another number of columns"), std::string::npos)
+  EXPECT_NE(errorOf("width.h5").find("a different number of columns"), std::string::npos)
       << errorOf("width.h5");
   EXPECT_NE(errorOf("device.h5").find("device_time_us"), std::string::npos) << errorOf("device.h5");
   const Profile infinite = openRecording(folder / "infinite.h5");

@@ -180,7 +180,7 @@ with h5py.File(sys.argv[1] + '/table.h5', 'w') as f: f['x'] = [1, 2, 3]
   TableRow row;
   EXPECT_EQ(testing::errorOf([&] { table->next(row); }),
             (folder / "table.h5").string() +
-                ": \"x\" takes too long to read: its chunks don't fit to rows; write it anew with "
+                ": \"x\" takes too long to read: its chunks don't match rows; write it again with "
                 "larger chunks");
 }
 
@@ -328,9 +328,9 @@ with changed('virtual.h5') as f:
   expectRefused("external_group.h5", "\"joints\" is a link to another file (external link)");
   expectRefused("soft_link.h5", "\"tactile/time_us\" ");
   expectRefused("external_storage.h5",
-                "\"tactile/time_us\" lies in other files (external storage)");
+                "\"tactile/time_us\" is stored in other files (external storage)");
   expectRefused("virtual.h5",
-                "\"tactile/time_us\" is put together of other data sets (virtual layout)");
+                "\"tactile/time_us\" is assembled from other data sets (virtual layout)");
   EXPECT_EQ(opening(folder / "a.h5"), "opened");
 }
 
@@ -354,9 +354,9 @@ with h5py.File(folder + 'unwritten.h5', 'w') as f:
   f.create_dataset('pad', (1 << 28, 12), 'f8', chunks=(1024, 12))
   f['time'] = np.arange(50)
 )");
-  EXPECT_NE(openingTable(folder / "storage.h5").find("\"g/t\" lies in other files"),
+  EXPECT_NE(openingTable(folder / "storage.h5").find("\"g/t\" is stored in other files"),
             std::string::npos);
-  EXPECT_NE(openingTable(folder / "virtual.h5").find("\"g/t\" is put together of other data sets"),
+  EXPECT_NE(openingTable(folder / "virtual.h5").find("\"g/t\" is assembled from other data sets"),
             std::string::npos);
   // What a link leads to is no data set of this file.
   const auto table = openTable(folder / "link.h5");

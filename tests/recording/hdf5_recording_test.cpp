@@ -280,7 +280,7 @@ with changed('text.h5') as f:
   expectError("no_joints.h5", "the group 'joints' is missing");
   expectError("no_mask.h5", "\"tactile/m1_static_mask\" is missing");
   expectError("shorter.h5", "instead of 1500 x 1 x 2");
-  expectError("lzf.h5", "filter that is not there (32000");
+  expectError("lzf.h5", "filter that is not available (32000");
   expectError("stamps.h5", "does not ascend at sample 7");
   expectError("text.h5", "\"tactile/m0\" must be frames x rows x columns");
   const Profile profile = openRecording(folder / "value.h5");

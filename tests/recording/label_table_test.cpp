@@ -73,10 +73,10 @@ TEST(LabelTable, NamesBadRowsByTheirLine) {
   ASSERT_EQ(table.problems.size(), 8u);
   EXPECT_EQ(table.problems[0], "line 2: begin_s 'abc' is not a number");
   EXPECT_EQ(table.problems[1], "line 5: ends before it begins");
-  EXPECT_TRUE(table.problems[2].starts_with("line 6: end_s '99' lies outside of the recording"))
+  EXPECT_TRUE(table.problems[2].starts_with("line 6: end_s '99' is outside the recording"))
       << table.problems[2];
-  EXPECT_EQ(table.problems[3], "line 7: kind 'gap' is none of label, note, mark, segment");
-  EXPECT_EQ(table.problems[4], "line 8: matrix '6' is none of 0..5");
+  EXPECT_EQ(table.problems[3], "line 7: kind 'gap' is not label, note, mark or segment");
+  EXPECT_EQ(table.problems[4], "line 8: matrix '6' is not in 0..5");
   EXPECT_EQ(table.problems[5], "line 9: has no text");
   EXPECT_EQ(table.problems[6], "line 10: has 3 cells, the first line has 5");
   EXPECT_EQ(table.problems[7], "line 11: a quote is never closed");
@@ -96,8 +96,7 @@ TEST(LabelTable, TakesNamesAsAPersonWritesThemAndUtf8Only) {
   EXPECT_EQ(table.events[1].matrix, 2);
   ASSERT_EQ(table.problems.size(), 2u);
   EXPECT_EQ(table.problems[0], "line 3: its text is not UTF-8: save the table as UTF-8");
-  EXPECT_EQ(table.problems[1],
-            "line 5: matrix 'palm' is none of 0..5, and no matrix has this name");
+  EXPECT_EQ(table.problems[1], "line 5: matrix 'palm' is not in 0..5, and no matrix has this name");
   for (const std::string_view utf16 : {std::string_view("\xFF\xFE"
                                                         "b\0",
                                                         4),

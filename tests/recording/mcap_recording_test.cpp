@@ -520,7 +520,7 @@ with open(folder + 'hello.mcap', 'w') as f: f.write('hello')
   expectError(folder / "large.mcap", "257 x 1 pixels");
   expectError(folder / "colors.mcap", "encoding \"rgb8\"");
   expectError(folder / "ros1.mcap", "only cdr");
-  expectError(folder / "compression.mcap", "compression that is not known, \"snappy\"");
+  expectError(folder / "compression.mcap", "unknown compression, \"snappy\"");
   expectError(folder / "short.mcap", "damaged image");
   expectError(folder / "version.mcap", "MCAP file of version 0");
   expectError(folder / "hello.mcap", "MCAP file of version 0");

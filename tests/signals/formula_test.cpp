@@ -197,8 +197,8 @@ TEST(Formula, NamesAFunctionThatIsNone) {
     return std::string();
   };
   EXPECT_NE(refusal("notch(a, 2, 3)")
-                .find("there is no function notch; of signals there are der, "
-                      "smooth, median, lowpass, highpass, bandpass, bandstop"),
+                .find("there is no function notch; functions of signals are der, smooth, median, "
+                      "lowpass, highpass, bandpass, bandstop"),
             std::string::npos)
       << refusal("notch(a, 2, 3)");
   EXPECT_NE(refusal("1 + der(foo (a))").find("no function foo"), std::string::npos);

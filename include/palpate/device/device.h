@@ -164,7 +164,7 @@ struct DeviceInfo {
   std::string sensorSerial;  // such as "1D9B0057"
   // Revision of the tool that wrote the sensor's description ("generated_by" in a .dsa file).
   int sensorRevision = 0;
-  int sensorHardwareRevision = 0;  //
+  int sensorHardwareRevision = 0;
 };
 
 class Device {

@@ -56,7 +56,7 @@ struct FoxgloveServerOptions {
 struct FoxgloveServerStats {
   std::size_t clients = 0;       // connected now, after their handshake
   std::uint64_t accepted = 0;    // handshakes since the start
-  std::uint64_t refused = 0;     // connections that were no valid handshake, or too many
+  std::uint64_t refused = 0;     // rejected: invalid handshake or client limit
   std::uint64_t published = 0;   // messages of channels that a client had subscribed to
   std::uint64_t sent = 0;        // messages that were passed to the operating system
   std::uint64_t dropped = 0;     // messages dropped because a client was too slow

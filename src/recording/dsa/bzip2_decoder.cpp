@@ -75,7 +75,7 @@ std::size_t Bzip2Decoder::read(std::span<char> out) {
     } else if (result == BZ_MEM_ERROR) {
       throw std::bad_alloc();
     } else if (result == BZ_DATA_ERROR_MAGIC && numStreams_ > 0) {
-      throw Error("bytes that are no bzip2 data follow the recording, from byte " +
+      throw Error("bytes that are not bzip2 data follow the recording, from byte " +
                   std::to_string(streamBegin_) + " of the file");
     } else if (result != BZ_OK) {
       throw Error("its bzip2 data is damaged near" + place() + kDsaRecoverHint);

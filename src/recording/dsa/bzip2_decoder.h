@@ -13,7 +13,7 @@ namespace palpate {
 
 // What ends a message of damaged data when a part of it may be intact.
 constexpr const char* kDsaRecoverHint =
-    "; 'palpate recover' may save the frames of its whole blocks";
+    "; 'palpate recover' may save the frames of its intact blocks";
 
 // bzip2 data, one stream or several in a row, decoded piece by piece.
 class Bzip2Decoder {

@@ -267,7 +267,7 @@ void DsaDocument::endLeaf() {
       if (!timeMs_) throw Error(here() + "time_stamp isn't a whole number: " + inQuotes(text_));
       if (*timeMs_ < 0 || *timeMs_ >= kEndOfStampsMs)
         throw Error(here() + "time_stamp " + std::to_string(*timeMs_) +
-                    " lies outside the years 1970 to 2199");
+                    " is outside the years 1970 to 2199");
       break;
     case Leaf::kFrameData:
       try {
@@ -460,7 +460,7 @@ void DsaDocument::addCountedWarnings() {
     const std::string name = inQuotes(series->sample);
     warn(series->movedStamps,
          counted(series->movedStamps, "time stamp") + " of " + name +
-             " not later than the one before: moved 1 ms behind it");
+             " not later than the one before: moved 1 ms after it");
     warn(
         series->badIndices,
         name + ": " + counted(series->badIndices, "index attribute") + " out of sequence, ignored");

@@ -129,7 +129,7 @@ DsaVerifyReport verifyDsa(const std::filesystem::path& path,
     return report;
   } catch (const FormatError& error) {
     report.message = error.what();
-    // Whether it may is said below.
+    // The hint is added again below if recovery is possible.
     const std::size_t hint = report.message.find(kDsaRecoverHint);
     if (hint != std::string::npos)
       report.message.erase(hint, std::string_view(kDsaRecoverHint).size());

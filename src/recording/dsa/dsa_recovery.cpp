@@ -318,7 +318,7 @@ void findLosses(const Profile& profile,
     add(lossEvent(lastUs,
                   anglesEndUs,
                   std::nullopt,
-                  lostFrames(std::nullopt, "behind the last one that can be read") +
+                  lostFrames(std::nullopt, "after the last one that can be read") +
                       ": the joint angles end " + secondsText(anglesEndUs - lastUs) + " later"));
   for (const std::string& text : texts)
     result.lossText += (result.lossText.empty() ? "" : "; ") + text;

@@ -114,7 +114,7 @@ Salvage salvageDsa(const fs::path& path, const ReadOptions& options, const Progr
 }
 
 SaveReport saveDsa(const SaveJob& job) {
-  // Checked first: a .dsa must not come to notes that were made for another one.
+  // Checked first: a .dsa must not be paired with the notes of another recording.
   const EventSidecar notes(job.path, job.content.events, job.overwrite);
   const SaveReport report{
       writeDsa(job.content.profile, job.path, job.overwrite, job.progress).movedStamps};

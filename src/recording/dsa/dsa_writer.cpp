@@ -99,7 +99,7 @@ std::string dsaRefusal(const HandDescription& hand) {
   if (hand.file && hand.file->controller != defaultHand().file->controller)
     what = "has no such controller";
   else if (hand.unit != "counts")
-    what = "measures in another unit than counts";
+    what = "measures in a unit other than counts";
   else if (hand.maximumCounts > kDsaFullScaleCounts)
     what = "has more than 12 bits";
   if (!what) return {};

@@ -86,7 +86,7 @@ class LabelReader {
     Event event;
     event.kind = cell(columns_.kind).empty() ? "label" : cell(columns_.kind);
     if (!isLabelKind(event.kind))
-      throw Error("kind " + quotedCell(event.kind) + " is none of label, note, mark, segment");
+      throw Error("kind " + quotedCell(event.kind) + " is not label, note, mark or segment");
     event.tUs = timeOf("begin_s", cell(columns_.begin));
     event.t1Us = cell(columns_.end).empty() ? event.tUs : timeOf("end_s", cell(columns_.end));
     if (event.t1Us < event.tUs) throw Error("ends before it begins");
@@ -115,7 +115,7 @@ class LabelReader {
     // Half a microsecond: the last time is written with six decimals.
     constexpr double kRounding = 0.6e-6;
     if (*seconds < -kRounding || *seconds > lengthS + kRounding)
-      throw Error(name + " " + quotedCell(text) + " lies outside of the recording, which lasts " +
+      throw Error(name + " " + quotedCell(text) + " is outside the recording, which lasts " +
                   fixedText(lengthS, 3) + " s");
     return beginUs_ + std::llround(*seconds * kUsPerS);
   }
@@ -127,7 +127,7 @@ class LabelReader {
           smallName(text) == smallName(hand_.matrices[m].shortName))
         return static_cast<int>(m);
     if (!matrix || *matrix < 0 || static_cast<std::size_t>(*matrix) >= numMatrices_)
-      throw Error("matrix " + quotedCell(text) + " is none of 0.." +
+      throw Error("matrix " + quotedCell(text) + " is not in 0.." +
                   std::to_string(numMatrices_ - 1) +
                   (matrix ? "" : ", and no matrix has this name"));
     return static_cast<int>(*matrix);

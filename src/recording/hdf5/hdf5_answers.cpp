@@ -117,7 +117,7 @@ std::string filterFault(hid_t properties) {
                                                name,
                                                nullptr);
     if (filter < 0 || H5Zfilter_avail(filter) <= 0)
-      return "is compressed by a filter that is not there (" + std::to_string(filter) +
+      return "is compressed with a filter that is not available (" + std::to_string(filter) +
              (name[0] ? ", " + std::string(name) : "") + "); write it with gzip or without";
   }
   return {};
@@ -162,9 +162,9 @@ Hdf5Facts factsOf(hid_t id) {
   const Hdf5Id properties(H5Dget_create_plist(id), H5Pclose);
   // Before the library looks for the other files.
   if (H5Pget_layout(properties.get()) == H5D_VIRTUAL)
-    fault("is put together of other data sets (virtual layout), which is refused");
+    fault("is assembled from other data sets (virtual layout), which is refused");
   if (H5Pget_external_count(properties.get()) != 0)
-    fault("lies in other files (external storage), which is refused");
+    fault("is stored in other files (external storage), which is refused");
   const Hdf5Id type(H5Dget_type(id), H5Tclose);
   const Hdf5Id space(H5Dget_space(id), H5Sclose);
   Hdf5Facts facts;
@@ -480,7 +480,7 @@ std::string Hdf5Answers::numbers(const std::string& name, ByteReader& in) {
   const auto type = static_cast<Hdf5Number>(in.u8());
   const auto axis = static_cast<Hdf5Axis>(in.u8());
   if (!in.ok() || type > Hdf5Number::kF64 || axis > Hdf5Axis::kLast)
-    fault("was asked for in a wrong way");
+    fault("was requested incorrectly");
   const Array& from = arrayToRead(name);
   const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
   Hdf5Id memory;

@@ -1,6 +1,6 @@
 // A new HDF5 file that exists completely or not at all. The library writes through a driver of our
 // own into an OutputFile: a failed write (disk full) is remembered with its cause, and the library
-// doesn't notice it, because it can neither close a file that it can't write, nor tell the cause.
+// doesn't notice it, because it can neither close a file that it can't write, nor report why.
 // Private to this module.
 #pragma once
 

@@ -54,7 +54,7 @@ class ReadArray {
  public:
   ReadArray(Hdf5Process& file, std::string name) : file_(&file), name_(std::move(name)) {
     facts_ = file.facts(name_);
-    if (facts_.shape.size() > 4) fail("has another number of axes than in Palpate's layout");
+    if (facts_.shape.size() > 4) fail("has a different number of axes than in Palpate's layout");
     if (!facts_.fault.empty()) fail(facts_.fault);
   }
 
@@ -74,7 +74,7 @@ class ReadArray {
   }
   void requireKind(std::initializer_list<Hdf5Kind> kinds) const {
     if (std::find(kinds.begin(), kinds.end(), facts_.kind) == kinds.end())
-      fail("has another type than in Palpate's layout");
+      fail("has a different type than in Palpate's layout");
   }
 
   // Reads rows of the first axis, `count` of them, as numbers of a type.
@@ -214,7 +214,7 @@ class SampleSeries {
   // Throws FormatError where the samples don't have so many values.
   void requireWidth(std::size_t columns) const {
     if (timesUs_.size() > 0 && width_ != columns)
-      values_->fail("has another number of columns than \"column\"");
+      values_->fail("has a different number of columns than \"column\"");
   }
   std::size_t width() const { return timesUs_.size() == 0 ? 0 : width_; }
   const StampSeries& timesUs() const { return timesUs_; }
@@ -360,7 +360,8 @@ class Hdf5Storage final : public ProfileStorage {
       matrices_.push_back(
           ofFrames(hdf5_layout::matrixPath(m), shapeOf(m), {Hdf5Kind::kInteger, Hdf5Kind::kFloat}));
       const bool counts = matrices_.back().kind() == Hdf5Kind::kInteger;
-      if (m > 0 && counts != anyCounts) matrices_.back().fail("has another type than the first");
+      if (m > 0 && counts != anyCounts)
+        matrices_.back().fail("has a different type than the first");
       anyCounts = counts;
     }
     counts_ = anyCounts;
@@ -633,8 +634,8 @@ void requireUndamaged(const fs::path& path, int descriptor) {
     throw FormatError(path,
                       "is an HDF5 file of another program; import its tables ('palpate import')");
   if (!block.starts_with(kHdf5RecordingStart))
-    throw FormatError(path,
-                      "can't be opened as HDF5: its beginning is damaged, or of another file");
+    throw FormatError(
+        path, "can't be opened as HDF5: its header is damaged or belongs to another format");
   if (block !=
       hdf5_layout::userBlock(sha256OfDescriptor(descriptor, hdf5_layout::kUserBlockBytes, path)))
     throw FormatError(

@@ -153,11 +153,11 @@ std::string mcapDecompress(std::string_view packed,
                            std::string& raw) {
   if (compression.empty()) {
     raw = packed;
-    return raw.size() == size ? "" : "has another size than it says";
+    return raw.size() == size ? "" : "has a different size than it says";
   }
   if (compression == "lz4") return mcapFromLz4(packed, size, raw);
   if (compression == "zstd") return mcapFromZstd(packed, size, raw);
-  return "has a compression that is not known, " + inQuotes(compression) +
+  return "has an unknown compression, " + inQuotes(compression) +
          "; write it with zstd, lz4 or without";
 }
 

@@ -95,8 +95,8 @@ class ForeignChunks {
     kept_.clear();
     if (again > std::max(kForeignUnpackedAgain, 4 * all))
       throw FormatError(path(),
-                        "has its messages in too many chunks at a time to be read in order; write "
-                        "it anew with 'mcap sort'");
+                        "has its messages in too many chunks at a time to be read in order; "
+                        "rewrite it with 'mcap sort'");
   }
 
  private:
@@ -639,7 +639,7 @@ class ForeignReader {
 
   std::string otherPublisherText(std::size_t series) const {
     const ForeignSeries& left = series_[series];
-    return "it is of another publisher, channel " + std::to_string(left.channel) +
+    return "it is from another publisher, channel " + std::to_string(left.channel) +
            (left.frameId.empty() ? "" : ", frame_id " + inQuotes(left.frameId));
   }
 
@@ -664,7 +664,7 @@ class ForeignReader {
     for (ForeignSeries& series : series_) series.notLater = 0;
     usesLogTimes_ = true;
     note("the stamps of the topic " + names +
-         " are of another clock: all times are the file's log times instead");
+         " are from another clock: all times are the file's log times instead");
   }
 
   void addPlace(std::uint16_t index,
@@ -818,7 +818,7 @@ class ForeignReader {
     hand = withSeriesOf(std::move(hand), numAngles, 0);
     if (hand.file && sameNumber && !jointNames_.empty())
       note("the joints are taken for the axes of " + hand.name +
-           " in the order of the file, since their names are others");
+           " in the order of the file, since their names differ");
     if (!hand.file || !sameNumber)
       for (std::size_t i = 0; i < hand.axes.size() && i < jointNames_.size(); ++i)
         hand.axes[i].name = jointNames_[i];

@@ -126,7 +126,7 @@ class McapOwnFile {
   bool saysFloat() const { return saysFloat_; }
   std::optional<std::uint16_t> eventChannel() const { return eventChannel_; }
 
-  // Returns the records of the chunk so many behind; nothing where there is none.
+  // The records of chunk (current + ahead), or nullopt past the end.
   using Next = std::function<std::optional<std::string>(std::size_t ahead)>;
   // Throws FormatError, which begins with `place`. Of a salvage a frame that was cut is left out.
   McapBlock block(std::string records,
@@ -403,7 +403,7 @@ class McapOwnFile {
     const MatrixLayout& layout = layout_.matrix(role.matrix);
     if (image->rows != static_cast<std::uint32_t>(layout.rows) ||
         image->columns != static_cast<std::uint32_t>(layout.columns))
-      return "has another size than its matrix";
+      return "has a different size than its matrix";
     const bool isFloat = image->encoding == "32FC1";
     if (!isFloat && image->encoding != "mono16")
       return "has another encoding, " + inQuotes(image->encoding);
@@ -605,7 +605,7 @@ class McapStorage final : public ProfileStorage {
     };
     series.firsts.push_back(series.timesUs.size());
     if (width != 0 && series.width != 0 && width != series.width)
-      fail("have another number of values than before");
+      fail("have a different number of values than before");
     if (width != 0) series.width = width;
     for (const std::int64_t timeUs : times) {
       if (timeUs < -kMcapLatestUs || timeUs > kMcapLatestUs ||

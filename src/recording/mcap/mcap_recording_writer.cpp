@@ -274,7 +274,7 @@ void McapRecordingWriter::addSample(const Sample& sample) {
     throw std::invalid_argument("McapRecordingWriter: a sample of a series that was not begun");
   const SampleChannel& channel = known->second;
   if (sample.values.size() != channel.width)
-    throw std::invalid_argument("McapRecordingWriter: another number of values");
+    throw std::invalid_argument("McapRecordingWriter: a different number of values");
   std::string& out = file_.beginMessage(channel.id, mcap_format::timeNs(sample.hostUs));
   CdrWriter cdr(out);
   cdr.number(sample.hostUs);
@@ -287,7 +287,7 @@ void McapRecordingWriter::addSample(const Sample& sample) {
 void McapRecordingWriter::addAngles(const Sample& angles) {
   if (!angles_) beginAngles(angles.values.size());
   if (angles.values.size() != numAngles_)
-    throw std::invalid_argument("McapRecordingWriter: another number of angles");
+    throw std::invalid_argument("McapRecordingWriter: a different number of angles");
   addValues(*angles_, angles.hostUs, angles.values);
   std::string& out = file_.beginMessage(jointStates_, mcap_format::timeNs(angles.hostUs));
   CdrWriter cdr(out);
@@ -305,7 +305,7 @@ void McapRecordingWriter::addAngles(const Sample& angles) {
 void McapRecordingWriter::addTemperatures(const Sample& temperatures) {
   if (!temperatures_) beginTemperatures(temperatures.values.size());
   if (temperatures.values.size() != numTemperatures_)
-    throw std::invalid_argument("McapRecordingWriter: another number of temperatures");
+    throw std::invalid_argument("McapRecordingWriter: a different number of temperatures");
   addValues(*temperatures_, temperatures.hostUs, temperatures.values);
   file_.endGroup();
 }

@@ -194,7 +194,7 @@ void settleJournal(const fs::path& path) {
   fs::remove(journal, ignored);
 }
 
-// Without the name of the temporary file, which is nobody's business.
+// Without the name of the temporary file, which callers must not see.
 [[noreturn]] void rethrowAs(const fs::path& path, const FileError& error) {
   const std::string what = error.what();
   const std::string own = error.path().string() + ": ";
@@ -481,7 +481,7 @@ void PalpateWriter::addFrame(const TactileFrame& frame) {
     throw std::invalid_argument("frame: expected " + std::to_string(impl_->layout->numReadings()) +
                                 " values, got " + std::to_string(stored.size()));
   if (frame.allValues().size() != frame.values.size())
-    throw std::invalid_argument("frame: another number of filtered values than of values");
+    throw std::invalid_argument("frame: a different number of filtered values than of values");
   const std::vector<float>& all = hasReadings ? stored : frame.allValues();
   if (!std::all_of(all.begin(), all.end(), [](float v) { return std::isfinite(v); }))
     throw std::invalid_argument("frame: a value is not a number");

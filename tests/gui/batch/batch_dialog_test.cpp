@@ -173,7 +173,7 @@ TEST_F(BatchDialogTest, WhatCanNotBeDoneIsSaidAndStartIsOff) {
   choices.folder = text(folder_ / "in/a.dsa");
   expect(choices, "is not a folder");
   choices.folder = text(folder_ / "in/made");
-  expect(choices, "lies in the folder that is read");
+  expect(choices, "is in the folder being read");
   choices = both();
   for (const auto& [names, words] : {std::pair{"{hand}", "{hand} isn't known"},
                                      std::pair{"{name", "a brace without its partner"},

@@ -148,7 +148,7 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
       << "the whole hand";
   EXPECT_GT(cell("forceTable", 6, 4).toDouble(), 0.0);
   const QString notes = find<QLabel>("forceNotes")->text();
-  EXPECT_TRUE(notes.contains("35 deg C assumed")) << notes.toStdString();
+  EXPECT_TRUE(notes.contains("35 °C assumed")) << notes.toStdString();
   EXPECT_TRUE(notes.contains("settings of the calibration")) << notes.toStdString();
   EXPECT_TRUE(find<QLabel>("forceNotes")->isVisible());
   EXPECT_LT(find<QLabel>("forceNotes")->y(), find<QWidget>("forceTable")->y());
@@ -174,7 +174,7 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   const TextTable assumptions = tables[1].make();
   ASSERT_GE(assumptions.numRows, 1u);
   EXPECT_EQ(assumptions.row(0).front(),
-            "measured on matrix 3; that the others answer alike is assumed");
+            "measured on matrix 3; the others are assumed to answer alike");
   find<QPushButton>("forceDrop")->click();
   settle();
   EXPECT_TRUE(why().contains("No calibration"));

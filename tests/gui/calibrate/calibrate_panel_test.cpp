@@ -172,7 +172,7 @@ TEST_F(CalibratePanelTest, LinesOfATouchedHandAreNoNoiseAndNotApplied) {
   ASSERT_TRUE(panel_->noise().shown()) << why().toStdString();
   EXPECT_FALSE(find<QPushButton>("noiseApply")->isEnabled());
   EXPECT_TRUE(find<QPushButton>("noiseApply")->toolTip().contains("touched or moved in 40 %"));
-  EXPECT_TRUE(find<QLabel>("noiseNotes")->text().contains("These lines are no noise"));
+  EXPECT_TRUE(find<QLabel>("noiseNotes")->text().contains("These lines are not noise"));
   EXPECT_EQ(cell("noiseTable", 3, 7), "not at rest");
   EXPECT_NE(cell("noiseTable", 2, 7), "not at rest");
   panel_->noise().save(folder_ / "touched.json");

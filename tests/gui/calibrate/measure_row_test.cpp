@@ -195,7 +195,7 @@ TEST_F(MeasureRowTest, EscapeClosesAMessageBeforeItCancels) {
   begin();
   ASSERT_TRUE(tareRow().running());
   EXPECT_EQ(find<QPushButton>("tareMeasureCancel")->toolTip(),
-            "Cancels the measurement (Esc; a message that is shown is closed before)");
+            "Cancel the measurement (Esc; closes an open message first)");
   window().state().messages.fail("something else failed");
   press(Qt::Key_Escape);
   EXPECT_TRUE(tareRow().running());

@@ -179,7 +179,7 @@ TEST_F(ConnectDialogTest, ASceneWhoseScriptPullsSaysThatItPullsOnlyWhenTicked) {
   EXPECT_EQ(text("connectIsCalm"), "Connecting never moves the hand.");
   find<QCheckBox>("sceneScriptRuns")->click();
   EXPECT_FALSE(note->isVisible());
-  EXPECT_EQ(text("connectIsCalm"), "The scene acts by itself as soon as it is connected.");
+  EXPECT_EQ(text("connectIsCalm"), "The scene starts as soon as it is connected.");
   find<QCheckBox>("sceneScriptRuns")->click();
   EXPECT_TRUE(note->isVisible());
   EXPECT_EQ(text("connectIsCalm"), "Connecting never moves the hand.");
@@ -236,7 +236,7 @@ TEST_F(ConnectDialogTest, ARecordingThatIsMissingIsSaidAtOnce) {
   EXPECT_TRUE(text("recordingState").startsWith("there.palpate"));
   QTest::keyClicks(find<QComboBox>("recording")->lineEdit(), "x");
   EXPECT_FALSE(canConnect());
-  EXPECT_EQ(text("recordingState"), "There is no such file.");
+  EXPECT_EQ(text("recordingState"), "This file doesn't exist.");
   type("recording", QString::fromStdString(folder_.path().string()));
   EXPECT_TRUE(text("recordingState").contains("folder"));
   type("recording", file("empty.dsa", ""));

@@ -143,7 +143,7 @@ TEST_F(StreamPageTest, EverySourceIsWrittenAsItIsRead) {
 TEST_F(StreamPageTest, SaysFromWhichMachinesCanBeSent) {
   openStream({.source = "listen:9871", .hand = "sole"});
   EXPECT_EQ(text("streamPlaceText"),
-            "A sender is awaited at port 9871. Only programs of this machine can send.");
+            "Listening for a sender on port 9871. Only programs of this machine can send.");
   find<QLineEdit>("streamListenAddress")->setText("0.0.0.0");
   EXPECT_TRUE(text("streamPlaceText").contains("Any machine that reaches this address can send"));
   EXPECT_TRUE(canConnect());
@@ -155,7 +155,7 @@ TEST_F(StreamPageTest, SaysFromWhichMachinesCanBeSent) {
   EXPECT_TRUE(text("streamPlaceText").contains("Any machine"));
   choosePlace(kUdp);
   EXPECT_EQ(chosen().source, "udp:9871");
-  EXPECT_TRUE(text("streamPlaceText").startsWith("Datagrams are awaited at port 9871."));
+  EXPECT_TRUE(text("streamPlaceText").startsWith("Listening for datagrams on port 9871."));
 }
 
 TEST_F(StreamPageTest, RefusesWhatMakesNoSenseBeforeTrying) {

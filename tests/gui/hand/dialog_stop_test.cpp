@@ -46,11 +46,11 @@ TEST(DialogStop, EachModalDialogueStopsTheHandByAClick) {
 TEST(DialogStop, AQuestionIsReadWhole) {
   QAction stop("Stop");
   const DialogStop dialogs(stop, nullptr);
-  QMessageBox question(QMessageBox::Question,
-                       "Palpate",
-                       "A batch is running. What is finished stays; the rest is not made. End the "
-                       "batch?",
-                       QMessageBox::Yes | QMessageBox::Cancel);
+  QMessageBox question(
+      QMessageBox::Question,
+      "Palpate",
+      "A batch is running. Finished files stay; the rest are not made. End the batch?",
+      QMessageBox::Yes | QMessageBox::Cancel);
   question.open();
   QCoreApplication::processEvents();
   ASSERT_NE(stopOf(question), nullptr);
@@ -134,7 +134,7 @@ TEST(DialogStop, SaysWhetherAStopReachesTheHand) {
   EXPECT_EQ(shown(), "A hand is connected.");
   const QSize size = question.size();
   dialogs.setReached(false);
-  EXPECT_EQ(shown(), "No stop reaches the hand.");
+  EXPECT_EQ(shown(), "The hand can't be stopped from here.");
   QCoreApplication::processEvents();
   const auto* label = question.findChild<QLabel*>("dialogStopState");
   EXPECT_GE(label->width(), label->sizeHint().width()) << "it is read whole";
@@ -143,7 +143,8 @@ TEST(DialogStop, SaysWhetherAStopReachesTheHand) {
   QInputDialog name;
   name.open();
   QCoreApplication::processEvents();
-  EXPECT_EQ(name.findChild<QLabel*>("dialogStopState")->text(), "No stop reaches the hand.");
+  EXPECT_EQ(name.findChild<QLabel*>("dialogStopState")->text(),
+            "The hand can't be stopped from here.");
   dialogs.setReached(true);
   EXPECT_EQ(name.findChild<QLabel*>("dialogStopState")->text(), "A hand is connected.");
   name.close();

@@ -367,7 +367,7 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   click("saveSettings");
   click("removeSettings");
   EXPECT_EQ(ask_.choices.asked,
-            QStringList({"Replace the settings \"soft / things\" by the present ones?",
+            QStringList({"Replace the settings \"soft / things\" with the current ones?",
                          "Delete the settings \"soft / things\"?"}));
   EXPECT_EQ(names->count(), 2);
   ask_.choices = {"Delete"};
@@ -538,13 +538,13 @@ TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfI
   bench_->hand->unplug(false, true);
   ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
   ASSERT_TRUE(bench_->handMoves());
-  EXPECT_TRUE(state().startsWith("The hand still moves to its target")) << state().toStdString();
+  EXPECT_TRUE(state().startsWith("The hand is still moving to its target")) << state().toStdString();
   EXPECT_TRUE(state().contains("emergency stop")) << state().toStdString();
   EXPECT_FALSE(state().contains("can't move")) << state().toStdString();
   bench_->hand->replug();
   ASSERT_TRUE(await([&] { return isEnabled("relaxHand") && !bench_->handMoves(); }));
   dock_->refresh();
-  EXPECT_FALSE(state().contains("still moves")) << state().toStdString();
+  EXPECT_FALSE(state().contains("still moving")) << state().toStdString();
   EXPECT_TRUE(state().startsWith("Ready")) << state().toStdString();
 }
 
@@ -556,7 +556,7 @@ TEST_F(HandDockTest, AControllerThatDoesNotAnswerInAMotionIsStoppedAndItSaysSo) 
   click("graspHand");
   ASSERT_TRUE(bench_->awaitMotion());
   bench_->hand->mute(true);
-  ASSERT_TRUE(await([&] { return state().startsWith("Stops are sent to the hand"); }))
+  ASSERT_TRUE(await([&] { return state().startsWith("Stop commands are sent"); }))
       << state().toStdString();
   EXPECT_TRUE(state().contains("emergency stop")) << state().toStdString();
   EXPECT_TRUE(await([&] { return !bench_->handMoves(); }));
@@ -592,7 +592,7 @@ TEST_F(HandDockTest, WhatIsRefusedDuringAnUnplugHidesNotThatTheHandGoesOn) {
   ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
   EXPECT_THROW(bench_->control->grasp({}), DeviceError);
   dock_->refresh();
-  EXPECT_TRUE(state().contains("still moves to its target")) << state().toStdString();
+  EXPECT_TRUE(state().contains("still moving to its target")) << state().toStdString();
 }
 
 // L-M8
@@ -755,8 +755,8 @@ TEST_F(HandDockTest, AHandThatActsByItselfIsNotReady) {
   dock_->ownMotion = [&] { return own; };
   dock_->refresh();
   EXPECT_EQ(state(),
-            "The emulated hand acts by itself, as its scene says: closing. Stop (Esc) or a motion "
-            "of yours ends that.");
+            "The emulated hand follows the script of its scene: closing. Stop (Esc) or any command "
+            "you send ends it.");
   own.clear();
   dock_->refresh();
   EXPECT_EQ(state(), "Ready.");
@@ -771,7 +771,7 @@ TEST_F(HandDockTest, AHandThatActsByItselfIsNotReady) {
   click("stopHand");
   own.clear();
   dock_->refresh();
-  EXPECT_TRUE(state().startsWith("Stopped. The hand no longer acts by itself"))
+  EXPECT_TRUE(state().startsWith("Stopped. The hand no longer follows a script"))
       << qPrintable(state());
   ASSERT_FALSE(told.empty());
   EXPECT_EQ(told.back(), "stopped");
@@ -847,7 +847,7 @@ TEST_F(HandDockTest, AHandFoundMovingIsSaidUntilTheNextMotion) {
   bench_->connect();
   dock_->setHand(bench_->session.get(), bench_->control.get());
   const QString said =
-      "The hand was moving when it was connected, watched by nobody: it was stopped. Ready.";
+      "The hand was moving unattended when it was connected: it was stopped. Ready.";
   EXPECT_TRUE(await([&] { return state() == said; })) << state().toStdString();
   QSignalSpy shown(dock_.get(), &HandDock::stateShown);
   dock_->refresh();

@@ -86,7 +86,7 @@ const std::vector<Row> kRows{
        status.request->targetDeg = {10.0};
        status.request->title = "axis 1";
      },
-     "friction roughly 0.69\nfor 3 s · motion: axis 1, 10 deg/s"},
+     "friction about 0.69\nfor 3 s · motion: axis 1, 10 deg/s"},
     {"EndOfAMotion", [](auto&, auto& status) { status.phase = GraspPhase::kStopping; }, "stopping"},
     {"FramesCeaseWhileItHolds",
      [](auto&, auto& status) {
@@ -103,9 +103,8 @@ const std::vector<Row> kRows{
        status.cannotMove = "no answer";
        facts.refusal = "refused";
      },
-     "Stops are sent to the hand, and none is answered. Use the emergency stop, or switch the "
-     "power "
-     "of the hand off, if it moves. no answer",
+     "Stop commands are sent, but the hand does not answer. If the hand moves, use the emergency "
+     "stop or switch its power off. no answer",
      true},
     {"NoStopWasAnswered",
      [](auto&, auto& status) {
@@ -113,8 +112,8 @@ const std::vector<Row> kRows{
        status.last = reportOf(GraspOutcome::kFailed);
        status.last->stateUnknown = true;
      },
-     "No stop was answered: what the hand does is not known. Use the emergency stop, or switch the "
-     "power of the hand off, if it moves. no answer",
+     "No stop was answered: the state of the hand is unknown. If the hand moves, use the emergency "
+     "stop or switch its power off. no answer",
      true},
     {"CannotMove",
      [](auto& facts, auto& status) {
@@ -138,7 +137,7 @@ const std::vector<Row> kRows{
        status.portGone->remainingMotionS = 12.5;
        status.last = reportOf(GraspOutcome::kRefused);
      },
-     "The hand still moves to its target, for 3 s at most. The window can't stop it: use the "
+     "The hand is still moving to its target (up to 3 s). The window can't stop it: use the "
      "emergency stop, or switch its power off. The motion port is disconnected: plug it in again.",
      true},
     {"UnpluggedLongAgo",
@@ -156,7 +155,7 @@ const std::vector<Row> kRows{
        status.lastMotion = reportOf(GraspOutcome::kStreamLost);
        facts.refusal = "refused";
      },
-     "Not protected: the port is gone. Hand > Acknowledge: you have seen it.\nrefused",
+     "Not protected: the port is gone. Use Hand > Acknowledge when you have seen it.\nrefused",
      true,
      "the port is gone"},
     {"Refused",
@@ -172,13 +171,12 @@ const std::vector<Row> kRows{
        facts.ownMotion = "closing";
        status.motorsOff = true;
      },
-     "The emulated hand acts by itself, as its scene says: closing. Stop (Esc) or a motion of "
-     "yours "
-     "ends that."},
+     "The emulated hand follows the script of its scene: closing. Stop (Esc) or any command you "
+     "send ends it."},
     {"SceneStopped",
      [](auto& facts, auto&) { facts.sceneStopped = true; },
-     "Stopped. The hand no longer acts by itself, and holds what it held; what its scene does to "
-     "objects, such as a pull, goes on."},
+     "Stopped. The hand no longer follows a script, and holds what it held; what its scene does to "
+     "objects, such as a pull, continues."},
     {"MotorsOff",
      [](auto& facts, auto& status) {
        status.motorsOff = true;
@@ -192,7 +190,7 @@ const std::vector<Row> kRows{
        status.last = reportOf(GraspOutcome::kFinished);
        facts.foundMovingUs = kEndUs + 1;
      },
-     "The hand was moving when it was connected, watched by nobody: it was stopped. Ready.",
+     "The hand was moving unattended when it was connected: it was stopped. Ready.",
      true},
     {"FoundMovingBeforeTheLastMotion",
      [](auto& facts, auto& status) {
@@ -231,13 +229,13 @@ const std::vector<Row> kRows{
        status.last = reportOf(GraspOutcome::kStopped);
        status.last->friction = 0.4;
      },
-     "friction roughly 0.40\nthe reason"},
+     "friction about 0.40\nthe reason"},
     {"FrictionIsSaidOnce",
      [](auto&, auto& status) {
-       status.last = reportOf(GraspOutcome::kFinished, "friction roughly 0.40; it holds");
+       status.last = reportOf(GraspOutcome::kFinished, "friction about 0.40; it holds");
        status.last->friction = 0.4;
      },
-     "friction roughly 0.40; it holds"},
+     "friction about 0.40; it holds"},
     {"FrictionOfAnotherGrasp",
      [](auto&, auto& status) {
        status.phase = GraspPhase::kPreshaping;

@@ -175,7 +175,7 @@ TEST_F(JointPanelTest, AnOwnPoseIsLostOnlyAfterAQuestion) {
   }));
   ask_.choices = {QString(), "Replace", QString(), "Delete"};
   save("wide open");
-  EXPECT_EQ(ask_.choices.asked.back(), "Replace the pose \"wide open\" by the present angles?");
+  EXPECT_EQ(ask_.choices.asked.back(), "Replace the pose \"wide open\" with the current angles?");
   EXPECT_EQ(saved("wide open"), before);
   save("wide open");
   EXPECT_NEAR(saved("wide open").at(4), 10.0, 0.05);
@@ -198,7 +198,7 @@ TEST_F(JointPanelTest, NothingIsSavedWhileTheHandMoves) {
             "The hand moves: angles are saved when it stands still");
   click("stopHand");
   EXPECT_TRUE(await([&] { return isEnabled("savePose"); }));
-  EXPECT_EQ(find<QPushButton>("savePose")->toolTip(), "Saves the present angles under a name");
+  EXPECT_EQ(find<QPushButton>("savePose")->toolTip(), "Save the current angles under a name");
 }
 
 TEST_F(JointPanelTest, TheListDropsTheNameWhenTargetsAreChanged) {

@@ -266,7 +266,7 @@ TEST_F(PlanControllerTest, ATableDoesNotReplaceAPlanThatChangedOrIsBeingRecorded
   ASSERT_EQ(controller_.plan().rows().size(), 3u);
   EXPECT_EQ(controller_.plan().rows().back().object, "late");
   ASSERT_EQ(imported.size(), 1);
-  EXPECT_EQ(imported[0][0].toString(), "plan.csv: not imported: the plan has changed meanwhile");
+  EXPECT_EQ(imported[0][0].toString(), "plan.csv: not imported: the plan has since changed");
   {
     HeldReadings held;
     controller_.importCsv(folder_ / "plan.csv");

@@ -63,7 +63,7 @@ TEST_F(RecordedTakeTest, WhatIsNoNameChangesNothing) {
   ask_.texts = {" .. "};
   take_.rename();
   EXPECT_TRUE(there("run_001.palpate"));
-  EXPECT_EQ(failed_, QStringList("that is no name of a file"));
+  EXPECT_EQ(failed_, QStringList("that is not a valid file name"));
 }
 
 TEST_F(RecordedTakeTest, IsDiscardedIntoTheTrashAfterAQuestion) {

@@ -61,7 +61,8 @@ TEST_F(UnfinishedWindowTest, ClosedItIsNotOfferedAgain) {
   window().feature<RecordFeature>().offerUnfinished();
   ASSERT_TRUE(await([&] { return offered().contains("run.palpate"); }));
   QTest::mouseClick(find<QToolButton>("offerClose"), Qt::LeftButton);
-  EXPECT_EQ(window().state().messages.flashed(), "Not offered again; File > Recover… finishes it");
+  EXPECT_EQ(window().state().messages.flashed(),
+            "This will not be offered again; later, use File > Recover… to finish it");
   start();
   EXPECT_EQ(look(), 0);
   EXPECT_EQ(offered(), "");

@@ -504,7 +504,7 @@ inline void judgeSlow(const std::vector<Answered>& slow) {
     const char* name;
     std::int64_t cpuUs;
   };
-  constexpr std::array kKnown = {Known{"Dark or light", 1'500'000},
+  constexpr std::array kKnown = {Known{"Switch between dark and light theme", 1'500'000},
                                  Known{"entry dark", 1'500'000},
                                  Known{"entry light", 1'500'000},
                                  Known{"entry as the desktop", 1'500'000}};

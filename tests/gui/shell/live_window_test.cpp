@@ -408,7 +408,7 @@ TEST_F(LiveWindowTest, AMotionPortThatGoesAwayInAGraspIsSaidAndStoppedOnReturn) 
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   bench_->hand->unplug(false, true);
   ASSERT_TRUE(await(
-      [&] { return find<QLabel>("handState")->text().contains("still moves to its target"); }));
+      [&] { return find<QLabel>("handState")->text().contains("still moving to its target"); }));
   EXPECT_FALSE(find<QPushButton>("graspHand")->isEnabled());
   EXPECT_TRUE(find<QPushButton>("stopHand")->isEnabled()) << "Stop is always there";
   EXPECT_TRUE(view().notice().isEmpty()) << "the tactile stream goes on";
@@ -803,7 +803,7 @@ TEST_F(LiveWindowTest, ADialogueAndTheAnglesSayAtOnceThatTheMotionPortIsGone) {
   QCoreApplication::processEvents();
   const auto* state = question.findChild<QLabel*>("dialogStopState");
   ASSERT_NE(state, nullptr);
-  EXPECT_EQ(state->text(), "No stop reaches the hand.");
+  EXPECT_EQ(state->text(), "The hand can't be stopped from here.");
   bench_->hand->replug();
   EXPECT_TRUE(await([&] { return state->text() == "A hand is connected."; }));
   EXPECT_TRUE(await([&] { return !angles->isOld(); }));

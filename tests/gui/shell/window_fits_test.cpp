@@ -429,7 +429,7 @@ TEST_F(WindowFitsTest, KeysOfGreyedActionsSayWhy) {
     return window().state().messages.flashed();
   };
   EXPECT_TRUE(said("Ctrl+S").contains("No recording with an unsaved label"));
-  EXPECT_TRUE(said("Ctrl+2").startsWith("Grasp: the controls of the hand beside them: No hand"));
+  EXPECT_TRUE(said("Ctrl+2").startsWith("Grasp: with the controls of the hand: No hand"));
   EXPECT_TRUE(said("Ctrl+R").startsWith("Record: No hand is connected"));
 }
 

@@ -61,9 +61,9 @@ TEST_F(NumberFieldTest, WhatIsOutOfRangeIsRefusedAndTheValueStays) {
 }
 
 TEST_F(NumberFieldTest, SoIsWhatIsNoNumber) {
-  for (const auto& [typed, why] : {std::pair{"abc", "abc is no number"},
-                                   std::pair{"3 4", "3 4 is no number"},
-                                   std::pair{"5 deg/s", "5 deg/s is no number"},
+  for (const auto& [typed, why] : {std::pair{"abc", "abc is not a number"},
+                                   std::pair{"3 4", "3 4 is not a number"},
+                                   std::pair{"5 deg/s", "5 deg/s is not a number"},
                                    std::pair{"", "no number"}}) {
     type(seconds_, typed);
     EXPECT_EQ(seconds_.value(), 10.0) << typed;
@@ -75,8 +75,8 @@ TEST_F(NumberFieldTest, SoIsWhatIsNoNumber) {
 TEST_F(NumberFieldTest, AWholeNumberHasTheSameRule) {
   for (const auto& [typed, why] : {std::pair{"99", "99 is out of 0 .. 19"},
                                    std::pair{"-1", "-1 is out of 0 .. 19"},
-                                   std::pair{"7.5", "7.5 is no whole number"},
-                                   std::pair{"x", "x is no number"}}) {
+                                   std::pair{"7.5", "7.5 is not a whole number"},
+                                   std::pair{"x", "x is not a number"}}) {
     type(frame_, typed);
     EXPECT_EQ(frame_.value(), 7) << typed;
     EXPECT_TRUE(marked(frame_)) << typed;

@@ -147,7 +147,7 @@ QWidget* BatchDialog::makePlace() {
   form->setContentsMargins(0, 0, 0, 0);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   folder_ = named(new QLineEdit, "batchFolder");
-  folder_->setPlaceholderText("the folder of the results; it is made where it is missing");
+  folder_->setPlaceholderText("folder for the results (created if missing)");
   auto* browse = makeButton(this, "batchBrowse", "&Browse…");
   connect(browse, &QPushButton::clicked, this, [this] {
     const QString chosen = ask_.folder("Choose a folder", folder_->text());
@@ -164,11 +164,11 @@ QWidget* BatchDialog::makePlace() {
   preview_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   preview_->setFixedHeight(preview_->fontMetrics().lineSpacing() * (kFirstNames + 1));
   preview_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  resume_ = named(new QCheckBox("&Keep results that are whole"), "batchResume");
+  resume_ = named(new QCheckBox("&Keep complete results"), "batchResume");
   resume_->setToolTip(
-      "A result is not made again when it was made with the same choices of the same recording");
+      "Skip results that were already made from the same recording with the same choices");
   replace_ = named(new QCheckBox("Rep&lace other files"), "batchReplace");
-  replace_->setToolTip("Replace files that exist already, also those that no batch has made");
+  replace_->setToolTip("Overwrite existing files, including files not created by a batch");
   threads_ = named(new QSpinBox, "batchThreads", "Recordings at the same time");
   threads_->setRange(0, kMaxBatchThreads);
   threads_->setSpecialValueText("one per core");
@@ -198,7 +198,7 @@ QWidget* BatchDialog::makeFoot() {
   said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   said_->setMinimumHeight(2 * said_->fontMetrics().lineSpacing());
   cancel_ = makeButton(this, "batchCancel", "Cancel");
-  close_ = makeButton(this, "batchClose", "Close", "A running batch goes on");
+  close_ = makeButton(this, "batchClose", "Close", "A running batch continues");
   start_ = makeOk(this, "batchStart", "&Start");
   connect(cancel_, &QPushButton::clicked, &controller_, &BatchController::cancel);
   connect(close_, &QPushButton::clicked, this, &QDialog::close);

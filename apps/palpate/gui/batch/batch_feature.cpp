@@ -16,7 +16,7 @@ BatchFeature::BatchFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       batch_(windowState.actions.make("batch", "Analysis", "&Batch…")),
       strip_(new OpeningStrip(window, "Running a", "batch")) {
-  batch_->setToolTip("Make a file of each of many recordings: convert, signals, slip, features");
+  batch_->setToolTip("Make a file from each of many recordings: convert, signals, slip, features");
   on(batch_, [this] { showDialog(); });
   connect(&controller_, &BatchController::started, strip_, [this] {
     strip_->begin("batch");

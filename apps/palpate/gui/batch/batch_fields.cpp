@@ -92,7 +92,7 @@ BatchFields::BatchFields(QWidget* parent)
   ending_ = batchComboBox("batchForm", formItems());
   filtersRow_ = makeFilters();
   smooth_ = named(new QLineEdit, "batchSmooth", "Filters over time of the signals themselves");
-  smooth_->setPlaceholderText("none; as kalman:q=0.05");
+  smooth_->setPlaceholderText("none; e.g. kalman:q=0.05");
   matrix_ = named(new QSpinBox, "batchMatrix");
   matrix_->setRange(-1, kMaxBatchMatrix);
   matrix_->setSpecialValueText("all");
@@ -155,7 +155,7 @@ QWidget* BatchFields::makeFilters() {
   filters_ = named(new QLineEdit, "batchFilters");
   filters_->setPlaceholderText("none; as median:size=3 | kalman");
   auto* take = makeButton(
-      nullptr, "batchTakeFilters", "As sho&wn", "The filters that the window applies now");
+      nullptr, "batchTakeFilters", "As sho&wn", "The filters currently applied in the window");
   connect(take, &QPushButton::clicked, this, [this] { filters_->setText(windowFilters()); });
   auto* row = makeBox(inRow({{filters_, 1}, take}));
   row->setFocusProxy(filters_);

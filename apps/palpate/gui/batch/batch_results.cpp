@@ -124,7 +124,7 @@ BatchResults::BatchResults(Ask& ask, QWidget* parent)
   show_ = makeButton(nullptr,
                      "batchReveal",
                      "Sho&w recording",
-                     "Show the recording in the file manager; also by a double click");
+                     "Show the recording in the file manager (or double-click it)");
   setLayout(
       inColumn({summary_, {table_, 1}, inRow({all_, Stretch{}, show_, copy_, save_})}, kPageEdges));
   keepKeys(*table_, QKeySequence::Copy, [this] { copyRows(); });
@@ -168,7 +168,7 @@ void BatchResults::fill() {
   copy_->setEnabled(some && model_->rowCount() > 0);
   save_->setEnabled(some);
   if (running_)
-    return summary_->setText(some ? "A batch is running. The table shows the one before."
+    return summary_->setText(some ? "A batch is running. The table shows the previous one."
                                   : "A batch is running.");
   if (!some) return summary_->setText("No batch has run yet.");
   QString text =
@@ -177,7 +177,7 @@ void BatchResults::fill() {
   for (const BatchResult& result : outcome_->report.results) files += result.files.size();
   if (files > 0) text += "; " + QString::fromStdString(counted(files, "file"));
   text += ".";
-  if (outcome_->report.cancelled) text += " Start goes on with what is not done.";
+  if (outcome_->report.cancelled) text += " Start resumes with the unfinished files.";
   for (const std::string& problem : outcome_->plan.problems)
     text += "\n" + inWindowWords(QString::fromStdString(escapedLine(problem)));
   summary_->setText(text);

@@ -28,7 +28,7 @@ constexpr double kLeastSensitivity = 0.01;
 std::vector<FigureColumn> forcePageColumns() {
   return {{"matrix", {}, 16, true},
           {"taxels", "Active taxels", 6},
-          {"K", "Gain that was used: the filtered mean, creep corrected [counts]", 8},
+          {"K", "Gain used: the filtered mean, creep corrected [counts]", 8},
           {"kPa", "Pressure of the contact; below: 95 % interval", 8},
           {"N", "Force; below: 95 % interval", 8},
           {"", "Why the value may be wrong", 18, true}};

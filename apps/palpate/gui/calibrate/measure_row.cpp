@@ -70,7 +70,7 @@ MeasureRow::MeasureRow(QSettings& settings, Setup setup, QWidget* parent)
   policy.setRetainSizeWhenHidden(true);
   progress_->setSizePolicy(policy);
   cancel_ = makeButton(this, setup_.part + "MeasureCancel", "Cancel");
-  cancel_->setToolTip("Cancels the measurement (Esc; a message that is shown is closed before)");
+  cancel_->setToolTip("Cancel the measurement (Esc; closes an open message first)");
   text_ = makeLines(this, setup_.part + "MeasureText");
   setLayout(
       inColumn({inRow({measure_, seconds_, "s", {progress_, 1}, cancel_}), text_}, Space::kNarrow));

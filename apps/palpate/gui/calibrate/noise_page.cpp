@@ -60,12 +60,11 @@ std::vector<FigureCell> noisePageRowOf(const NoiseLine& line, const QString& nam
                                                 : QString(),
                  .warning = line.numOutliers > 0});
   const QString state = !line.valid ? "missing" : !line.atRest ? "not at rest" : "notes";
-  row.push_back(
-      {.text = state == "notes" && notes.isEmpty() ? QString() : state,
-       .tip = line.valid && !line.atRest
-                  ? "The matrix was not at rest (touched, or a noisy taxel): this is no noise"
-                  : notes,
-       .warning = !line.valid || !line.atRest});
+  row.push_back({.text = state == "notes" && notes.isEmpty() ? QString() : state,
+                 .tip = line.valid && !line.atRest ? "The matrix was not at rest (touched, or a "
+                                                     "noisy taxel): this does not look like noise"
+                                                   : notes,
+                 .warning = !line.valid || !line.atRest});
   return row;
 }
 
@@ -130,14 +129,14 @@ NoisePage::NoisePage(QSettings& settings, Ask& ask, QWidget* parent)
                 "Bins");
   bins_->setRange(2, kMostBins);
   bins_->setValue(static_cast<int>(NoiseFloorOptions{}.bins));
-  save_ = makeButton(this, "noiseSave", "Save…", "As JSON, or as XML that the prior program reads");
+  save_ = makeButton(this, "noiseSave", "Save…", "Save as JSON, or as XML for the prior program");
   save_->setEnabled(false);
   apply_ = makePrimary(this, "noiseApply", "Apply to this hand", kApplyTip);
   apply_->setEnabled(false);
   auto* openLines = makeButton(this,
                                "noiseOpen",
                                "Apply a file…",
-                               "Saved lines (JSON), or those of the prior program (XML)");
+                               "Apply saved lines (JSON), or those of the prior program (XML)");
   top().addLayout(inRow({"Bins", bins_, Stretch{}, openLines, save_, apply_}));
 
   auto* content = new QWidget(this);
@@ -159,7 +158,7 @@ NoisePage::NoisePage(QSettings& settings, Ask& ask, QWidget* parent)
         [this, path]() -> FileReading::Take {
           NoiseFloor floor = noiseFromFile(path);
           if (!floor.notAtRest.empty())
-            throw Error("These lines are no noise: the hand was " + floor.notAtRest + ".");
+            throw Error("These lines are not noise: the hand was " + floor.notAtRest + ".");
           return [this, floor = std::move(floor)] { emit applyRequested(floor); };
         },
         [this](const QString& why) { emit said(why); });
@@ -266,8 +265,8 @@ void NoisePage::showNotes(std::size_t matrix) {
   const QString touched = QString::fromStdString(found_->floor.notAtRest);
   if (!touched.isEmpty())
     lines.prepend("The hand was " + touched +
-                  ".\nThese lines are no noise and can't be applied: record the hand while nothing "
-                  "touches it." +
+                  ".\nThese lines are not noise and can't be applied: record the hand while "
+                  "nothing touches it." +
                   (lines.isEmpty() ? "" : "\n"));
   notes_->setProperty("role", touched.isEmpty() ? "muted" : "warning");
   notes_->style()->polish(notes_);

@@ -119,7 +119,7 @@ void PressurePage::makeTop() {
                             "calibration that was saved");
   name_ = makeLabel(this, "pressureName");
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  save_ = makeButton(this, "pressureSave", "Save…", "As JSON, with the data it was made from");
+  save_ = makeButton(this, "pressureSave", "Save…", "Save as JSON, with the data it was made from");
   apply_ = makePrimary(this,
                        "pressureApply",
                        "Apply to this hand",

@@ -132,7 +132,7 @@ void StepChart::nameAxes() {
   const QString unit = unitOf(signal_, "counts");
   yAxis->setLabel(fittingName(nameOf(signal_) + " in " + unit, unit, *this));
   residual_->setLabel(height() < 260 ? QString() : "residual");
-  time_->setLabel("time from the begin of the step in s");
+  time_->setLabel("time from the start of the step in s");
 }
 
 QString StepChart::readingAt(const QPointF& at) const {

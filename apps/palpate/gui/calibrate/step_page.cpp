@@ -63,7 +63,7 @@ QStringList flagsOf(const FittedStep& step) {
   if (!step.fit.converged && !step.fit.gainUndetermined) flags.append("no fit");
   if (step.fit.converged && !step.fit.steadyStateReached) flags.append("cut off");
   if (step.saturatedFrames > 0) flags.append("saturated");
-  if (!step.step.beginSeen) flags.append("begin not recorded");
+  if (!step.step.beginSeen) flags.append("start not recorded");
   if (step.fit.gainUndetermined) flags.append("K unknown");
   if (step.fit.identifiable && !step.fit.timesIdentifiable) flags.append("T2 unknown");
   if (step.step.flickerFrames > 0) flags.append("flickers");

@@ -143,12 +143,12 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
   top().addWidget(measure_);
   state_ = makeLines(this, "tareState");
   state_->hide();
-  remove_ = makeButton(
-      this, "tareRemove", "Remove", "Forces use the recorded values without a tare again");
+  remove_ =
+      makeButton(this, "tareRemove", "Remove", "Use the recorded values without a tare again");
   keep_ = makePrimary(this,
                       "tareKeep",
                       "Add to the recording",
-                      "As an event: forces use it, values never change (undo: Ctrl+Z)");
+                      "Add it as an event: forces use it, values never change (undo: Ctrl+Z)");
   top().addWidget(state_);
   top().addLayout(inRow({Stretch{}, remove_, keep_}));
   auto* content = new QWidget(this);

@@ -57,8 +57,8 @@ CompareHeader::CompareHeader(QAction* leave,
     : QWidget(parent) {
   setObjectName("ViewHeader");
   setAttribute(Qt::WA_StyledBackground);
-  a_ = recordingBox("compareA", "Recording A: it is played", swatchA_);
-  b_ = recordingBox("compareB", "Recording B: it is compared with A", swatchB_);
+  a_ = recordingBox("compareA", "Recording A: the one that plays", swatchA_);
+  b_ = recordingBox("compareB", "Recording B: compared with A", swatchB_);
   swap_ = makeToolButton(this, "compareSwap", "⇄", "Swap A and B");
   swap_->setAccessibleName("Swap A and B");
   alignment_ =
@@ -75,8 +75,8 @@ CompareHeader::CompareHeader(QAction* leave,
     });
     return box;
   };
-  graspA_ = graspBox("compareGraspA", "The grasp of A that begins where the one of B begins");
-  graspB_ = graspBox("compareGraspB", "The grasp of B that begins where the one of A begins");
+  graspA_ = graspBox("compareGraspA", "Grasp of A whose start is aligned with that of B");
+  graspB_ = graspBox("compareGraspB", "Grasp of B whose start is aligned with that of A");
   grasps_->setLayout(inRow({"of A", graspA_, "of B", graspB_}));
   grasps_->hide();
   offset_ = named(new QDoubleSpinBox(this), "compareOffset");

@@ -109,10 +109,10 @@ QWidget* ComparePanel::makeCurveHeader() {
   signal_ = box("compareSignal", "Plotted signal");
   offerSignals(*signal_, false);
   matrix_ = box("compareMatrix", "Plotted matrix");
-  overlayBox_ = box("compareOverlay", "Which curves the chart shows, all aligned with A");
+  overlayBox_ = box("compareOverlay", "Choose the curves of the chart, all aligned with A");
   for (const CompareOverlay overlay : kAllCompareOverlays)
     overlayBox_->addItem(gui::nameOf(overlay));
-  bandBox_ = box("compareBand", "The average over the curves of the chart, with a band");
+  bandBox_ = box("compareBand", "Average the curves of the chart, with a band");
   for (const CompareBand band : kAllCompareBands) bandBox_->addItem(gui::nameOf(band));
   figures_ = makeLines(header, "compareFigures");
   figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -656,7 +656,7 @@ QString ComparePanel::notice() const {
         others.append(QString::fromStdString(a_->profile.hand().matrixName(m)));
     const std::size_t inA = a_->numMatrices(), inB = b_->numMatrices();
     if (!others.isEmpty())
-      lines.append("Not compared, because they have other rows and columns in B: " +
+      lines.append("Not compared, because they have different rows and columns in B: " +
                    others.join(", "));
     if (inB > inA)
       lines.append("B has " + QString::number(inB - inA) +

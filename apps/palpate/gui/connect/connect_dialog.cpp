@@ -259,7 +259,7 @@ void ConnectDialog::refresh() {
   // The dialog is still being built.
   if (!connect_) return;
   calm_->setText(kind_ == Connection::Kind::kEmulated && scenes_->actsByItself()
-                     ? "The scene acts by itself as soon as it is connected."
+                     ? "The scene starts as soon as it is connected."
                      : "Connecting never moves the hand.");
   const QString missing = problem();
   problem_->setText(missing);

@@ -23,7 +23,7 @@ ConnectActions::ConnectActions(ActionRegistry& book) {
   connectHand = book.make("connectHand", "Hand", "&Connect…", {key("Ctrl+K")});
   tryEmulated = book.make("tryEmulated", "Hand", "Try the &emulated hand");
   addSensor = book.make("addSensor", "Hand", "Add a sensor…");
-  addSensor->setToolTip("Record the rows of another sensor beside the hand");
+  addSensor->setToolTip("Record the rows of another sensor along with the hand");
   disconnectHand = book.make("disconnectHand", "Hand", "&Disconnect");
   live = book.make("live", "Hand", "Show &live", {key("F6")}, true);
   live->setToolTip("Show the connected hand (F6)");
@@ -188,7 +188,7 @@ void ConnectFeature::disconnectHand() {
   state().messages.flash(!moving ? "Disconnected"
                          : moving->cannotMove.empty()
                              ? "Disconnected; the hand is sent a stop"
-                             : "Disconnected; no stop reaches the hand: use the "
+                             : "Disconnected; the hand can't be stopped from here: use the "
                                "emergency stop if it moves");
 }
 

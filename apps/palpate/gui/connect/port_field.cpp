@@ -31,7 +31,7 @@ PortField::PortField(const QString& title,
   box_->setMinimumContentsLength(30);
   box_->lineEdit()->setPlaceholderText("none");
   box_->setToolTip(
-      "A port of the list, another device such as /dev/pts/3, or a network name as "
+      "A port of the list, another device such as /dev/pts/3, or a network name such as "
       "tcp:192.168.1.42:13000");
   mark_ = new StateMark(this);
   answer_ = makeLines(this, name + "Answer", "muted");

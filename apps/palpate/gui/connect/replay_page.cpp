@@ -82,7 +82,7 @@ QString ReplayPage::problem() const {
   if (recording().isEmpty()) return {};
   const QFileInfo file(recording());
   if (file.isDir()) return "This is a folder: choose a recording in it.";
-  if (!file.exists()) return "There is no such file.";
+  if (!file.exists()) return "This file doesn't exist.";
   if (!file.isFile()) return "This isn't a file.";
   if (!file.isReadable()) return "You have no permission to read this file.";
   if (file.size() == 0) return "This file is empty.";

@@ -38,8 +38,8 @@ SensorDialog::SensorDialog(const Sensor& proposal,
   source_->addBaudTo(*form);
   columns_ = named(new QLineEdit(proposal.columns, this),
                    "sensorColumns",
-                   "What the numbers of a line are, where no header line says it; a column "
-                   "time_ms is the clock of the sensor");
+                   "Names of the numbers of a line, if no header line gives them; a column time_ms "
+                   "is the sensor's clock");
   columns_->setPlaceholderText("from the header line, or fx [N], fy [N]");
   form->addRow("&Columns", columns_);
   look_ = makeButton(this, "sensorLook", "Show &what arrives");

@@ -221,8 +221,8 @@ void SourceField::refresh() {
                              ? "a free port, which the dock Link then shows"
                              : "port " + QString::number(ports_[place()]->value());
     open = isOpenToOthers(source());
-    where = QString(place() == kUdp ? "Datagrams are" : "A sender is") + " awaited at " + port +
-            ". " +
+    where = QString("Listening for ") + (place() == kUdp ? "datagrams" : "a sender") + " on " +
+            port + ". " +
             (open ? "Any machine that reaches this address can send: there is neither a password "
                     "nor encryption."
                   : "Only programs of this machine can send.");
@@ -230,7 +230,7 @@ void SourceField::refresh() {
     where = "8 data bits, no parity, 1 stop bit. Nothing is sent to the device.";
   } else {
     where = host_->text().trimmed().isEmpty()
-                ? "The machine and the port at which the sender waits."
+                ? "The machine and the port on which the sender listens."
                 : "Palpate tries to connect until the sender answers.";
   }
   placeText_->setText(where);

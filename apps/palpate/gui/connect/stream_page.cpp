@@ -95,13 +95,13 @@ QWidget* StreamPage::makeHand(Ask& ask) {
 
 void StreamPage::makeForm() {
   format_ = named(new QComboBox(this), "streamFormat");
-  format_->addItem("found by itself", static_cast<int>(StreamFormat::kAuto));
+  format_->addItem("detected automatically", static_cast<int>(StreamFormat::kAuto));
   format_->addItem("lines of numbers", static_cast<int>(StreamFormat::kLines));
   format_->addItem("JSON", static_cast<int>(StreamFormat::kJson));
   format_->addItem("packets", static_cast<int>(StreamFormat::kBinary));
   time_ = named(new QComboBox(this), "streamTime");
-  time_->setToolTip("The unit of time in lines of numbers; JSON and packets contain theirs");
-  time_->addItem("found by itself", static_cast<int>(StreamTime::kAuto));
+  time_->setToolTip("The unit of time in lines of numbers; JSON and packets contain their own");
+  time_->addItem("detected automatically", static_cast<int>(StreamTime::kAuto));
   time_->addItem("no time", static_cast<int>(StreamTime::kNone));
   time_->addItem("seconds", static_cast<int>(StreamTime::kSeconds));
   time_->addItem("milliseconds", static_cast<int>(StreamTime::kMilliseconds));

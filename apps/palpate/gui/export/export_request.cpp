@@ -97,7 +97,7 @@ QString descriptionOf(ExportFormat form) {
     case ExportFormat::kPdf:
       return "A drawing with its fonts";
     case ExportFormat::kCsv:
-      return "The numbers that are shown";
+      return "The numbers shown";
     case ExportFormat::kMovie:
       return "A movie of the frames, at their recorded times";
     case ExportFormat::kPng:

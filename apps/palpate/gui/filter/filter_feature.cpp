@@ -20,11 +20,11 @@ QStringList matrixNamesOf(const HandDescription& hand) {
 
 FilterFeature::FilterFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
-      action_(windowState.actions.make("filtered", "View", "&Filtered, or as recorded", {}, true)),
+      action_(windowState.actions.make("filtered", "View", "Apply &filters", {}, true)),
       panel_(new FilterPanel(windowState.activeFilters.editor(), windowState.ask, window)) {
   dock_ = new Dock("Filter", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   ActiveFilters& activeFilters = windowState.activeFilters;
-  action_->setToolTip("After the filters, or before");
+  action_->setToolTip("Show data after or before filtering");
   panel_->setOn(activeFilters.on());
   action_->setChecked(activeFilters.on());
   on(action_, [&activeFilters](bool on) { activeFilters.setOn(on); });

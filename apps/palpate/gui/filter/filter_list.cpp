@@ -81,8 +81,8 @@ void FilterList::showRecipe(const Recipe& recipe, bool live) {
     item->setToolTip(kName,
                      !leftOut ? QString::fromStdString(step.kind().purpose)
                      : step.name == "baseline"
-                         ? QString("Takes its rest of a recording: left out while a hand is live; "
-                                   "Baseline (Ctrl+Alt+L) takes it of the last second")
+                         ? QString("Takes its baseline from a recording: left out while a hand is "
+                                   "live; Baseline (Ctrl+Alt+L) takes it from the last second")
                          : QString("Needs later frames: left out while a hand is live"));
     const bool faint = leftOut || !step.enabled;
     item->setData(kName,

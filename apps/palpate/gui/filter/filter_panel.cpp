@@ -74,7 +74,9 @@ FilterPanel::FilterPanel(RecipeEditor& editor, Ask& ask, QWidget* parent)
 
 QWidget* FilterPanel::makeTop() {
   auto* top = new QWidget(this);
-  onBox_ = named(new QCheckBox("Filter the shown frames", top), "filterOn", "After, or before: A");
+  onBox_ = named(new QCheckBox("Filter the shown frames", top),
+                 "filterOn",
+                 "Show data after or before filtering: A");
   connect(onBox_, &QCheckBox::toggled, this, &FilterPanel::setOn);
   const auto button = [&](const QString& text, const QString& tip) {
     auto* made = new QToolButton(top);

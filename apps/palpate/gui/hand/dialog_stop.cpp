@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kDialogStopName = "dialogStop";
 constexpr const char* kDialogStopStateName = "dialogStopState";
 constexpr const char* kDialogStopReached = "A hand is connected.";
-constexpr const char* kDialogStopNotReached = "No stop reaches the hand.";
+constexpr const char* kDialogStopNotReached = "The hand can't be stopped from here.";
 constexpr const char* kDialogStopNotReachedTip =
     "Its motion controller does not answer: use the emergency stop, or switch its power off";
 

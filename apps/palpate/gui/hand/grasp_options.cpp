@@ -91,7 +91,7 @@ void GraspOptions::makeLimits(QFormLayout& form) {
   form.addRow(whyCounts_);
   eachFinger_ = named(new QCheckBox("A limit for each finger: 0, 1, 2", body_), "eachFinger");
   eachFinger_->setToolTip(
-      "A limit of its own for each finger; in counts the largest taxel of the finger, in newtons "
+      "Set a separate limit for each finger; in counts the largest taxel of the finger, in newtons "
       "its whole force");
   eachFinger_->setChecked(settings_.value(kEachFinger, false).toBool());
   auto* fingers = new QHBoxLayout;
@@ -130,11 +130,11 @@ void GraspOptions::makeHolding(QFormLayout& form) {
   most_ = field("mostLimit", "Highest limit", kMinGraspLimitCounts, kMaxGraspLimitCounts, 0);
   most_->setToolTip("Slip-aware: slips raise the limit up to this");
   recall(settings_, kMost, *most_, usual.maxLimitCounts);
-  calm_ = field("calmTime", "Calm", 0.1, 86'400.0, 1);
+  calm_ = field("calmTime", "Ease after", 0.1, 86'400.0, 1);
   calm_->setToolTip("Slip-aware: after this time without slip the limit falls again");
   recall(settings_, kCalm, *calm_, usual.noSlipS);
   hold_ = field("holdTime", "Hold", 0.0, 86'400.0, 1);
-  hold_->setToolTip("Slip-aware: ends after this time; the hand goes on holding. 0: until stopped");
+  hold_->setToolTip("Slip-aware: ends after this time; the hand keeps holding. 0: until stopped");
   hold_->setSpecialValueText("until stopped");
   recall(settings_, kHold, *hold_, usual.holdS);
   loosen_ = named(new QCheckBox("Loosen", body_), "loosenHand");
@@ -146,11 +146,11 @@ void GraspOptions::makeHolding(QFormLayout& form) {
       "next session");
   mass_->setSpecialValueText("not known");
   newtonsPerCount_ = field("newtonsPerCount", "Newtons per count", 0.0, 1.0, 6);
-  newtonsPerCount_->setToolTip("Of a calibration, for the friction; needs the object mass");
+  newtonsPerCount_->setToolTip("From a calibration, for the friction; needs the object mass");
   newtonsPerCount_->setSpecialValueText("not known");
   form.addRow(makeLabel(body_, {}, "muted", "Slip-aware grasp"));
   form.addRow("Highest limit, counts", most_);
-  form.addRow("Calm, s", calm_);
+  form.addRow("Ease after, s", calm_);
   form.addRow("Hold, s", hold_);
   form.addRow(loosen_);
   form.addRow("Object, kg", mass_);
@@ -179,9 +179,8 @@ void GraspOptions::setCalibrated(Calibrated state) {
     showChoice();
   }
   unit_->setEnabled(calibrated);
-  const QString tip = calibrated
-                          ? "Of one taxel in counts, or of a whole finger in newtons, by the "
-                            "calibration that is applied to this hand"
+  const QString tip = calibrated  ? "In counts for one taxel, or in newtons for a whole finger, by "
+                                    "the calibration applied to this hand"
                       : beingRead ? kCalibrationBeingRead
                                   : kNoCalibrationTip;
   if (unit_->toolTip() != tip) unit_->setToolTip(tip);

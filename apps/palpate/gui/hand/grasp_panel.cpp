@@ -38,14 +38,14 @@ constexpr double kUsualForceLimitN = 2.0;
 constexpr double kSliderForceLimitN = 20.0;
 constexpr const char* kKeepLimit = "grasp/keep_limit";
 constexpr const char* kKeepTip =
-    "Touches slowly, where the object is expected, and then gives way until the reading is 0.8 .. "
-    "1.2 times the limit. Off: closes at the velocity, and stays where it stopped, above the limit";
+    "Touch slowly where the object is expected, then ease until the reading is 0.8 .. 1.2 times "
+    "the limit. Off: close at the set velocity, and stay where it stopped, above the limit";
 constexpr const char* kLimitTip =
     "A reactive grasp stops at the first taxel above it, a slip-aware one starts with it; an "
     "SDH-2 saturates at 3500";
 constexpr const char* kForceLimitTip =
-    "A grasp stops when a finger presses harder, by the calibration. A slip-aware grasp begins "
-    "with its limit in counts, and closes no further while a finger is above this one";
+    "The grasp stops when a finger exceeds this force (needs a calibration). A slip-aware grasp "
+    "begins with its limit in counts, and closes no further while a finger is above this one";
 constexpr const char* kNotInSightTip =
     "A recording is shown, not the hand. Live (F6) shows the hand; then it can be moved";
 constexpr int kForecastLines = 3;
@@ -75,8 +75,7 @@ GraspPanel::GraspPanel(QSettings& settings,
       settings.value(kPreshape, QString::fromStdString(usual.preshape)).toString());
   preshape_->setCurrentIndex(std::max(0, index));
   close_ = named(new ValueSlider("Close ratio", {0.0, 1.0, 1.0, 0.01, 2, " "}, this), "closeRatio");
-  close_->setToolTip(
-      "How far the hand closes: 0 open, 1 closed. A reactive grasp goes to 1 at most");
+  close_->setToolTip("How far the hand closes: 0 open, 1 closed. A reactive grasp goes up to 1");
   close_->showValue(storedNumber(settings, kClose, 0.0, 1.0).value_or(usual.closeRatio));
   velocity_ = new ValueSlider(
       "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 0.2, 1, "deg/s"}, this);
@@ -237,7 +236,7 @@ void GraspPanel::showLimit() {
   forceLimit_->setVisible(inNewtons);
   for (ValueSlider* each : {limit_, forceLimit_}) {
     each->setEnabled(!options_->eachFinger());
-    each->setToolTip(options_->eachFinger() ? "Each finger has its own limit, below: More"
+    each->setToolTip(options_->eachFinger() ? "Limits differ per finger; see More"
                      : inNewtons            ? kForceLimitTip
                                             : kLimitTip);
   }
@@ -307,7 +306,7 @@ void GraspPanel::setInSight(bool on) {
 void GraspPanel::offer(const Motion& motion, bool can, const QString& tip) {
   enableMotionButton(*motion.button, can);
   if (motion.button->toolTip() != tip) motion.button->setToolTip(tip);
-  // Nobody moves a hand by a key who looks at something else.
+  // Motion keys work only while this dock is in sight; Stop always works.
   motion.action->setEnabled(can && inSight_);
   motion.action->setToolTip(inSight_ ? tip : kNotInSightTip);
   setWhyGreyed(*motion.action, motion.action->isEnabled() ? QString() : motion.action->toolTip());
@@ -340,29 +339,28 @@ void GraspPanel::showStatus(const GraspStatus& status) {
   offer(open_,
         canMove && idle,
         !canMove ? why(status.cannotMove)
-        : idle   ? "Opens to this preshape"
+        : idle   ? "Open to this preshape"
                  : busy);
-  offer(
-      relax_,
-      canMove,
-      canMove
-          ? "Switches the motors off: the fingers can be moved by hand, and a held object may fall"
-          : why(status.cannotMove));
+  offer(relax_,
+        canMove,
+        canMove
+            ? "Switch the motors off: the fingers can be moved by hand, and a held object may fall"
+            : why(status.cannotMove));
   offer(grasp_,
         canMove && idle,
         !idle     ? busy
-        : canMove ? "Closes to the close ratio, without regard to contact"
+        : canMove ? "Close to the close ratio, regardless of contact"
                   : why(status.cannotMove));
   offer(reactive_,
         canReact && idle,
         !idle      ? busy
-        : canReact ? "Closes until the first taxel is over the limit"
+        : canReact ? "Close until the first taxel exceeds the limit"
                    : why(cannotReact));
   offer(slipAware_,
         canReact && idle,
         !idle      ? busy
-        : canReact ? "Closes to the limit and holds; when the object slips, closes to a higher "
-                     "limit. Stop ends it; the hand keeps holding"
+        : canReact ? "Close to the limit and hold; when the object slips, close to a higher limit. "
+                     "Stop ends it; the hand keeps holding"
                    : why(cannotReact));
 }
 

@@ -41,7 +41,7 @@ constexpr const char* kPageKey = "hand/page";
 constexpr int kStateLines = 4;   // lines reserved for the status text
 constexpr int kAnswerMs = 6000;  // for which the answer to a press stays
 constexpr const char* kStopTip =
-    "Stops the hand now; the motors stay on and hold (Esc works everywhere)";
+    "Stop the hand now; the motors stay on and hold (Esc works everywhere)";
 constexpr const char* kReadOnlyTip = "This hand is read, not moved";
 
 CaptureQueueOptions smallFeed() {
@@ -212,7 +212,7 @@ void HandDock::connectMotions() {
     connect(panel, &Panel::refused, this, [this](const QString& why) {
       said_ = why;
       emit explained(why);
-      // Not told again as the end of the last grasp.
+      // Do not report this end a second time.
       if (control_)
         if (const auto last = control_->status().last) explainedEndUs_ = last->endUs;
       // What the hand does hides said_.
@@ -412,7 +412,7 @@ void HandDock::showCondition(const GraspStatus& status, const std::vector<GraspC
   tell(now);
   HandTask task = otherTask();
   if (!own_.isEmpty())
-    task = {"by itself", "The emulated hand acts by itself, as its scene says: " + own_};
+    task = {"scripted", "The emulated hand follows the script of its scene: " + own_};
   if (sequence_->running()) task = {"sequence runs", "A sequence runs: " + sequence_->stateText()};
   emit conditionShown(now, task);
 }

@@ -32,7 +32,7 @@ HandActions::HandActions(ActionRegistry& book) {
   relaxHand->setProperty(kRefusalProperty, "Can't relax the hand");
   stopHand = book.make("stopHand", "Hand", "&Stop the hand (Esc)");
   acknowledgeHand = book.make("acknowledgeHand", "Hand", "Acknowledge");
-  acknowledgeHand->setToolTip("The hand is not protected, and you have seen it");
+  acknowledgeHand->setToolTip("Acknowledge that the hand is not protected");
   acknowledgeHand->setEnabled(false);
 }
 

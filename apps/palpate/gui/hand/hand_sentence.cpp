@@ -40,12 +40,11 @@ QString phaseText(const GraspStatus& status) {
 QString blockedText(const HandFacts& facts) {
   const GraspStatus& status = facts.status;
   const QString why = handText(status.cannotMove);
-  const QString powerOff =
-      "Use the emergency stop, or switch the power of the hand off, if it moves. ";
+  const QString powerOff = "If the hand moves, use the emergency stop or switch its power off. ";
   if (status.phase == GraspPhase::kStopping)
-    return "Stops are sent to the hand, and none is answered. " + powerOff + why;
+    return "Stop commands are sent, but the hand does not answer. " + powerOff + why;
   if (!status.portGone && status.last && status.last->stateUnknown)
-    return "No stop was answered: what the hand does is not known. " + powerOff + why;
+    return "No stop was answered: the state of the hand is unknown. " + powerOff + why;
   if (!status.portGone) return "The hand can't be moved: " + why;
   // What the hand does comes first. The status is in red, and the hand is looked for all the time.
   const QString gone = " The motion port is disconnected: plug it in again.";
@@ -54,10 +53,8 @@ QString blockedText(const HandFacts& facts) {
   const double leftS =
       remainingMotionS - static_cast<double>(facts.nowUs - status.portGone->endUs) / kUsPerS;
   if (leftS > 0.0)
-    return "The hand still moves to its target, for " + figure(std::ceil(leftS), 0) +
-           " s at most. The window can't stop it: use the emergency stop, or switch its power "
-           "off." +
-           gone;
+    return "The hand is still moving to its target (up to " + figure(std::ceil(leftS), 0) +
+           " s). The window can't stop it: use the emergency stop, or switch its power off." + gone;
   return "Its motion has ended, and the motors hold." + gone;
 }
 
@@ -95,7 +92,7 @@ HandSentence atRest(const HandFacts& facts) {
   const GraspStatus& status = facts.status;
   if (!status.unprotected.empty()) {
     const QString why = handText(status.unprotected);
-    return {"Not protected: " + why + ". Hand > Acknowledge: you have seen it." +
+    return {"Not protected: " + why + ". Use Hand > Acknowledge when you have seen it." +
                 (facts.refusal.isEmpty() ? "" : "\n" + facts.refusal),
             true,
             {},
@@ -104,15 +101,14 @@ HandSentence atRest(const HandFacts& facts) {
   }
   if (!facts.refusal.isEmpty()) return {facts.refusal, true};
   if (!facts.ownMotion.isEmpty())
-    return {"The emulated hand acts by itself, as its scene says: " + facts.ownMotion +
-            ". Stop (Esc) or a motion of yours ends that."};
+    return {"The emulated hand follows the script of its scene: " + facts.ownMotion +
+            ". Stop (Esc) or any command you send ends it."};
   if (status.motorsOff)
     return {
         "The motors are off: the fingers can be moved by hand, and an object may fall. The next "
         "motion switches them on."};
   if (facts.foundMovingUs > 0 && (!status.last || status.last->endUs < facts.foundMovingUs))
-    return {"The hand was moving when it was connected, watched by nobody: it was stopped. Ready.",
-            true};
+    return {"The hand was moving unattended when it was connected: it was stopped. Ready.", true};
   if (facts.sceneStopped) return {"Stopped. " + sceneStoppedText()};
   return status.last ? afterGrasp(*status.last, facts) : HandSentence{"Ready."};
 }
@@ -120,15 +116,15 @@ HandSentence atRest(const HandFacts& facts) {
 }  // namespace
 
 QString sceneStoppedText() {
-  return "The hand no longer acts by itself, and holds what it held; what its scene does to "
-         "objects, such as a pull, goes on.";
+  return "The hand no longer follows a script, and holds what it held; what its scene does to "
+         "objects, such as a pull, continues.";
 }
 
 QString withFriction(const QString& text, const GraspStatus& status) {
   std::optional<double> friction = status.friction;
   if (!status.request && status.last) friction = status.last->friction;
   if (!friction) return text;
-  const QString said = "friction roughly " + figure(*friction, 2);
+  const QString said = "friction about " + figure(*friction, 2);
   // The text of a grasp that ended after its time has it already.
   return text.contains(said) ? text : said + "\n" + text;
 }

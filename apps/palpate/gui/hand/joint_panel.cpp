@@ -31,7 +31,7 @@ namespace {
 
 constexpr const char* kJointContact = "joints/stop_at_contact";
 constexpr const char* kOwnPoses = "Own poses…";
-constexpr const char* kSaveTip = "Saves the present angles under a name";
+constexpr const char* kSaveTip = "Save the current angles under a name";
 constexpr const char* kPoseFilter = "Poses (*.json)";
 constexpr std::uint64_t kLargestPoseFile = 10'000'000;
 constexpr std::size_t kMaxImportedPoses = 1000;
@@ -57,18 +57,21 @@ JointPanel::JointPanel(QSettings& settings, Ask& ask, QWidget* parent)
                       this);
   velocity_->setObjectName("jointVelocity");
   velocity_->field()->setSingleStep(1.0);
-  velocity_->setToolTip("deg/s; joints that are slower go as fast as they can");
+  velocity_->setToolTip("deg/s; slower joints go as fast as they can");
   velocity_->showValue(GraspRequest{}.velocityDegPerS);
   settings.remove("joints/velocity_deg_per_s");
   const int last = static_cast<int>(rows_.size());
   grid->addWidget(new QLabel("Velocity, deg/s", this), last, 0, 1, 2);
   grid->addWidget(velocity_, last, 2);
   stopAtContact_ = named(new QCheckBox("Stop at a contact", this), "stopAtContact");
-  stopAtContact_->setToolTip("Moves under tactile control, with the limits of the page Grasp");
+  stopAtContact_->setToolTip("Move under tactile control, with the limits of the page Grasp");
   stopAtContact_->setChecked(settings.value(kJointContact, false).toBool());
   move_ = motionButton("Move", "moveJoints", {}, true, this);
-  reset_ = motionButton(
-      "Reset", "resetTargets", "Targets are the present angles again; nothing moves", false, this);
+  reset_ = motionButton("Reset",
+                        "resetTargets",
+                        "Reset the targets to the current angles; nothing moves",
+                        false,
+                        this);
   setLayout(
       inColumn({grid, inRow({stopAtContact_, Stretch{}, move_, reset_}), makePoses(), Stretch{}}));
   connect(stopAtContact_, &QCheckBox::toggled, this, [this](bool on) {
@@ -128,13 +131,13 @@ void JointPanel::makeRows(QGridLayout& grid) {
 
 QWidget* JointPanel::makePoses() {
   auto* part = new QWidget(this);
-  names_ = named(new QComboBox(part), "ownPoses", "Its angles become the targets; Move goes there");
+  names_ = named(new QComboBox(part), "ownPoses", "Load this pose as the targets; Move goes there");
   names_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   names_->setMinimumContentsLength(8);
   save_ = motionButton("Save…", "savePose", kSaveTip, false, part);
-  rename_ = motionButton("Rename…", "renamePose", "Renames the chosen pose", false, part);
-  remove_ = motionButton("Delete", "removePose", "Deletes the chosen pose", false, part);
-  file_ = motionButton("File", "poseFile", "Poses from a file, or into one", false, part);
+  rename_ = motionButton("Rename…", "renamePose", "Rename the chosen pose", false, part);
+  remove_ = motionButton("Delete", "removePose", "Delete the chosen pose", false, part);
+  file_ = motionButton("File", "poseFile", "Import poses from a file, or export them", false, part);
   auto* menu = new QMenu(file_);
   menu->addAction("Import…", this, &JointPanel::importPoses)->setObjectName("importPoses");
   menu->addAction("Export…", this, &JointPanel::exportPoses)->setObjectName("exportPoses");
@@ -208,7 +211,7 @@ void JointPanel::savePose() {
   if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
     return emit refused(QString::fromStdString(problem));
   if (saved().names().contains(name) &&
-      !ask_.confirmed("Replace the pose \"" + name + "\" by the present angles?", "Replace"))
+      !ask_.confirmed("Replace the pose \"" + name + "\" with the current angles?", "Replace"))
     return;
   saved().save(QString::fromStdString(pose.name), pose);
   // The name says what the targets are: those that were set before are other ones.
@@ -360,7 +363,7 @@ void JointPanel::showStatus(const GraspStatus& status, GraspPhase phase) {
   else if (!status.cannotMove.empty())
     why = QString::fromStdString(status.cannotMove);
   else if (!known)
-    why = "The present angles are not known yet";
+    why = "The current angles are not known yet";
   else if (!idle)
     why = busyText(status);
   std::size_t changed = 0;
@@ -379,14 +382,14 @@ void JointPanel::showStatus(const GraspStatus& status, GraspPhase phase) {
     showRow(row);
     const bool can = why.isEmpty() && row.changed;
     enableMotionButton(*row.move, can);
-    const QString tip = can             ? "Moves only this joint to its target"
+    const QString tip = can             ? "Move only this joint to its target"
                         : why.isEmpty() ? "Set a target first"
                                         : why;
     if (row.move->toolTip() != tip) row.move->setToolTip(tip);
   }
   const bool can = why.isEmpty() && changed > 0;
   enableMotionButton(*move_, can);
-  const QString tip = can             ? "Moves all joints whose target was set; the others stay"
+  const QString tip = can             ? "Move all joints whose targets were set; the others stay"
                       : why.isEmpty() ? "Set a target first, or choose a pose"
                                       : why;
   if (move_->toolTip() != tip) move_->setToolTip(tip);

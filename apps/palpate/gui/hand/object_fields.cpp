@@ -46,12 +46,12 @@ ObjectFields::ObjectFields(QWidget* parent) : QWidget(parent), hand_(movableHand
   name_->setMinimumContentsLength(8);
   name_->lineEdit()->setPlaceholderText("no name");
   name_->setToolTip(
-      "Under this name it is remembered where grasps with this preshape touched the object: later "
-      "ones are fast until shortly before. Not kept for the next session");
+      "Remember under this name where grasps with this preshape touched the object: later ones are "
+      "fast until shortly before. Not kept for the next session");
   size_ = named(new SecondsField(this), "objectSize", {}, "Size of the object");
   size_->setToolTip(
-      "Width between the fingers: until shortly before it a grasp that keeps its limit is fast. "
-      "Rather too large than too small. Not kept for the next session");
+      "Width between the fingers: a grasp that keeps its limit is fast until shortly before it. If "
+      "unsure, give a larger size. Not kept for the next session");
   size_->refused().setSaidUnit(" mm");
   size_->setDecimals(1);
   size_->setRange(0.0, kLargestObjectMm);
@@ -149,7 +149,7 @@ void ObjectFields::showRemembered() {
   remembered_->setToolTip(text.isEmpty() ? text : text + ". 0: open, 1: closed");
   forget_->setEnabled(touch && idle_);
   forget_->setToolTip(!touch  ? "Nothing is remembered under this name with this preshape"
-                      : idle_ ? "Forgets it: the next grasp of this name is slow again"
+                      : idle_ ? "Forget it: the next grasp of this name is slow again"
                               : "A motion runs");
 }
 

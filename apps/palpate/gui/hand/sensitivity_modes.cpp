@@ -29,10 +29,7 @@ SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
         buttons_->addButton(button, static_cast<int>(mode));
         row->addWidget(button);
       };
-  add(SensitivityMode::kManual,
-      "sensitivityManual",
-      "By hand",
-      "Uses the values that are set below");
+  add(SensitivityMode::kManual, "sensitivityManual", "By hand", "Use the values set below");
   add(SensitivityMode::kHigh,
       "sensitivityHigh",
       "High sensitivity",
@@ -41,7 +38,7 @@ SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
   add(SensitivityMode::kAdaptive,
       "sensitivityAdaptive",
       "Adaptive",
-      "Finds the highest sensitivity at which nothing saturates");
+      "Find the highest sensitivity at which nothing saturates");
   row->addStretch(1);
   text_ = makeLines(this, "sensitivityStatus", "muted");
   // Fixed height, so that the parts below don't move.

@@ -57,7 +57,7 @@ SequencePanel::SequencePanel(QSettings& settings, Ask& ask, QWidget* parent)
 
 void SequencePanel::makeButtons() {
   add_ = motionButton(
-      "Add", "addStep", "Adds a step with the values of the pages Grasp and Joints", false, this);
+      "Add", "addStep", "Add a step with the values of the pages Grasp and Joints", false, this);
   addMenu_ = new QMenu(add_);
   connect(addMenu_, &QMenu::aboutToShow, this, &SequencePanel::fillAddMenu);
   add_->setMenu(addMenu_);
@@ -69,15 +69,16 @@ void SequencePanel::makeButtons() {
   seconds_->setRange(0.0, 86'400.0);
   seconds_->setValue(2.0);
   seconds_->setFocusPolicy(Qt::StrongFocus);
-  remove_ = motionButton("Remove", "removeStep", "Removes the chosen step", false, this);
-  up_ = motionButton("Up", "stepUp", "The chosen step earlier", false, this);
-  down_ = motionButton("Down", "stepDown", "The chosen step later", false, this);
-  times_ = named(
-      new QSpinBox(this), "sequenceTimes", "How often the whole table is done", "Repetitions");
+  remove_ = motionButton("Remove", "removeStep", "Remove the chosen step", false, this);
+  up_ = motionButton("Up", "stepUp", "Move the chosen step earlier", false, this);
+  down_ = motionButton("Down", "stepDown", "Move the chosen step later", false, this);
+  times_ =
+      named(new QSpinBox(this), "sequenceTimes", "Number of times the table is run", "Repetitions");
   times_->setRange(1, MotionSequence::kMostRepetitions);
   times_->setFocusPolicy(Qt::StrongFocus);
   start_ = motionButton("Start", "startSequence", {}, true, this);
-  file_ = motionButton("File", "sequenceFile", "The table from a file, or into one", false, this);
+  file_ =
+      motionButton("File", "sequenceFile", "Open the table from a file, or save it", false, this);
   auto* menu = new QMenu(file_);
   menu->addAction("Open…", this, &SequencePanel::openFile)->setObjectName("openSequence");
   menu->addAction("Save…", this, &SequencePanel::saveFile)->setObjectName("saveSequence");
@@ -292,7 +293,7 @@ void SequencePanel::refresh(const GraspStatus& status) {
   else if (sequence_.steps.empty())
     why = "Add a step first";
   enableMotionButton(*start_, why.isEmpty());
-  const QString tip = why.isEmpty() ? "Does the steps in order; Stop or Esc ends all of it" : why;
+  const QString tip = why.isEmpty() ? "Run the steps in order; Stop or Esc ends the sequence" : why;
   if (start_->toolTip() != tip) start_->setToolTip(tip);
   const int row = steps_->currentRow();
   add_->setEnabled(edits);
@@ -306,8 +307,8 @@ void SequencePanel::refresh(const GraspStatus& status) {
   if (runs) said_.clear();
   const QString empty = sequence_.steps.empty() && !runs
                             ? QString(
-                                  "Add steps: each takes the values of the pages Grasp and "
-                                  "Joints. Start does all of them in order.")
+                                  "Add steps: each takes the values of the pages Grasp and Joints. "
+                                  "Start runs them in order.")
                             : QString();
   state_->setText(!said_.isEmpty() ? said_ : !empty.isEmpty() ? empty : stateText());
 }

@@ -142,13 +142,13 @@ void TactileSettingsPanel::makeButtons() {
       "Reset",
       "resetSettings",
       "Restore the factory settings: sensitivity 0.5, threshold 150 (proximal) and 300 (distal)");
-  undo_ = button("Undo", "undoSettings", "Back to the values from before the last change");
-  redo_ = button("Redo", "redoSettings", "Again to the values that were undone");
+  undo_ = button("Undo", "undoSettings", "Undo the last change");
+  redo_ = button("Redo", "redoSettings", "Redo the undone change");
   static_cast<QBoxLayout*>(layout())->addLayout(inRow({{scanned_, 1}, undo_, redo_}));
   connect(undo_, &QPushButton::clicked, this, [this] { restore(true); });
   connect(redo_, &QPushButton::clicked, this, [this] { restore(false); });
-  save_ = button("Save…", "saveSettings", "Saves these values under a name, for this hand");
-  remove_ = button("Delete", "removeSettings", "Deletes the saved settings chosen above");
+  save_ = button("Save…", "saveSettings", "Save these values under a name, for this hand");
+  remove_ = button("Delete", "removeSettings", "Delete the saved settings chosen above");
   names_ = named(new QComboBox(this), "savedSettings");
   static_cast<QBoxLayout*>(layout())->addLayout(inRow({reset_, {names_, 1}, save_, remove_}));
   connect(reset_, &QPushButton::clicked, this, [this] {
@@ -168,7 +168,7 @@ void TactileSettingsPanel::makeButtons() {
     const QString name = ask_.text("Save settings", "Name", before).value_or(QString());
     if (name.isEmpty()) return;
     if (names_->findText(name, Qt::MatchExactly | Qt::MatchCaseSensitive) > 0 &&
-        !ask_.confirmed("Replace the settings \"" + name + "\" by the present ones?", "Replace"))
+        !ask_.confirmed("Replace the settings \"" + name + "\" with the current ones?", "Replace"))
       return;
     saved().save(name, session_->device().info().matrices);
     listNames();

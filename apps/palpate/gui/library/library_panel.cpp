@@ -44,12 +44,12 @@ QString countText(int count, const QString& what) {
 QString unknownKeysText(const RecordingSearch& search) {
   QStringList unknown, known;
   for (const std::string& key : search.unknownKeys())
-    unknown.append(QString::fromStdString(key) + ":");
+    unknown.append("“" + QString::fromStdString(key) + ":”");
   if (unknown.isEmpty()) return {};
   for (const std::string_view key : kSearchKeys)
     known.append(QString::fromUtf8(key.data(), static_cast<qsizetype>(key.size())) + ":");
-  return unknown.join(" ") + (unknown.size() == 1 ? " is no key" : " are no keys") +
-         " of a search; there are " + known.join(" ");
+  return (unknown.size() == 1 ? "Unknown search keyword " : "Unknown search keywords ") +
+         unknown.join(" ") + "; there are " + known.join(" ");
 }
 
 }  // namespace
@@ -174,7 +174,7 @@ void LibraryPanel::buildBottom() {
   bar_->setRange(0, kLibraryPanelSteps);
   bar_->setTextVisible(false);
   bar_->setFixedSize(90, 8);
-  stop_ = makeToolButton(this, "libraryStop", "Stop reading", "Stops reading the folder");
+  stop_ = makeToolButton(this, "libraryStop", "Stop reading", "Stop reading the folder");
   stop_->setProperty("flat", true);
   auto* row = inRow({{summary_, 1}, bar_, stop_},
                     {.left = Space::kWide,

@@ -140,10 +140,8 @@ void LogPanel::buildTop() {
     row->addWidget(made);
     return made;
   };
-  QToolButton* copy =
-      button("Copy", "logCopy", "Copy the selected lines, or all lines that are shown");
-  QToolButton* save =
-      button("Save…", "logSave", "Save the selected lines, or all lines that are shown");
+  QToolButton* copy = button("Copy", "logCopy", "Copy the selected lines, or all lines shown");
+  QToolButton* save = button("Save…", "logSave", "Save the selected lines, or all lines shown");
   static_cast<QBoxLayout*>(layout())->addLayout(row);
   connect(severity_, &QComboBox::currentIndexChanged, this, [this](int index) {
     filter_->setLeast(static_cast<LogLine::Severity>(index));

@@ -25,10 +25,10 @@ MatricesActions::MatricesActions(ActionRegistry& book) {
   scanOnlyInTheirMatrices = book.make(
       "scanOnlyInTheirMatrices", "Hand", "Scan only the chosen taxels of these &matrices", {});
   scanOnlyInTheirMatrices->setToolTip("The other matrices stay as they are");
-  scanWithout = book.make("scanWithout", "Hand", "&Leave the chosen taxels out");
+  scanWithout = book.make("scanWithout", "Hand", "&Leave out the chosen taxels");
   scanAlso = book.make("scanAlso", "Hand", "Scan the chosen taxels, &too");
   scanAll = book.make("scanAll", "Hand", "Scan &all taxels");
-  chooseNone = book.make("chooseNone", "Hand", "Choose no ta&xel");
+  chooseNone = book.make("chooseNone", "Hand", "Deselect all ta&xels");
   QStringList names;
   for (const ColorMapName map : kAllColorMaps) names.append(nameOf(map));
   maps = book.choices("maps", names);

@@ -156,7 +156,7 @@ void MatricesPanel::setHand(const HandDescription& hand) {
   recording_.reset();
   frame_ = TactileFrame();
   // A live source has no whole recording yet.
-  range_->setItemText(0, "largest so far");
+  range_->setItemText(0, "maximum so far");
   hand_ = hand;
   largestLive_ = std::max(largestLive_, liveRangePart(hand, kLeastLivePart));
   showUnit();

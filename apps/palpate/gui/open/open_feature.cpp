@@ -104,8 +104,7 @@ void OpenFeature::connectOpener() {
     showLastConnection();
     const OpenedRecordingPtr recording = windowState.displayed.recorded();
     if (recording && recording->profile.numFrames() == 0)
-      windowState.messages.fail(fileNameOf(*recording) +
-                                ": has no frames: there is nothing to show");
+      windowState.messages.fail(fileNameOf(*recording) + ": contains no frames");
   });
   windowState.escapeHandler.add(EscapeHandler::Order::kOpening, [&opener] {
     if (!opener.busy()) return false;

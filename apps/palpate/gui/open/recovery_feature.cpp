@@ -35,7 +35,7 @@ RecoveryFeature::RecoveryFeature(WindowState& windowState, QWidget* window)
       offer_(new OfferStrip(window)),
       strip_(new OpeningStrip(window, "Recovering", "recovering")) {
   recover_->setToolTip(
-      "Saves what can be read of a damaged or unfinished recording as a new recording");
+      "Save what can be read of a damaged or unfinished recording as a new recording");
   offer_->findChild<QPushButton*>("offerAccept")->setObjectName("recoverAccept");
   offer_->findChild<QToolButton*>("offerClose")->setObjectName("recoverClose");
   on(recover_, [this] { recoverChosen(); });

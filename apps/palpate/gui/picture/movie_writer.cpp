@@ -89,7 +89,7 @@ void writeMovie(const fs::path& path,
     if (!keepGoing()) throw Cancelled();
     const std::size_t frame = movie.frames.first + shot.frame;
     const QImage image = pictureImage([&](QPainter& painter) { paint(painter, frame); }, even);
-    if (image.isNull()) throw FileError(path, "there is no memory for a picture of that size");
+    if (image.isNull()) throw FileError(path, "not enough memory for a picture of this size");
     for (std::size_t i = 0; i < shot.numPictures; ++i) {
       if (!program.write(bytesOf(image), keepGoing))
         throwFailed(path, program.finish(keepGoing), program.said());

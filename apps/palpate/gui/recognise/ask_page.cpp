@@ -49,7 +49,7 @@ AskPage::AskPage(RecognitionController& controller, Ask& ask, QWidget* parent)
     ask->setMinimumHeight(std::max(kLeastHeight, ask->sizeHint().height()));
   });
   byItself_ = named(
-      new QCheckBox("Automatic", this), "recogniseByItself", "Repeats while something is held");
+      new QCheckBox("Automatic", this), "recogniseByItself", "Repeat while something is held");
   auto* show = makeButton(this, "showMode", "Show", "Full screen, for an audience (Ctrl+5)");
   view_ = named(new AnswerView(controller.photos(), 1.0, this), "answerView");
   classes_ = named(new QComboBox(this), "tellClass", {}, "What it is");
@@ -120,8 +120,8 @@ void AskPage::showTelling() {
   classes_->setEnabled(can);
   tell_->setEnabled(can);
   const QString tip =
-      can ? "Labels the last grasp with this class, also when the answer was wrong: the model is "
-            "adapted\nto today with it (undo: page Today)"
+      can      ? "Label the last grasp with this class, even if the answer was wrong: the model is "
+                 "adapted\nto today with it (undo: page Today)"
       : !model ? "No grasp can be labelled without a model"
       : !model->adaptsToSession()
           ? "This model can't be adapted to today: only models of the classifier gauss can (page "

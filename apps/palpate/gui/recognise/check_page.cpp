@@ -178,8 +178,8 @@ void CheckPage::showCheck() {
                    QString::number(report.confusion.total()) + " answers wrong; with " +
                    QString::fromStdString(madeWithText(checked->table->set, checked->options)));
   result_->setToolTip(
-      "What Teach leaves open (components, C) is chosen on the same grasps, so that such a result "
-      "is a little too good");
+      "What Teach leaves open (components, C) is chosen on the same grasps, so the result is "
+      "slightly too good");
   result_->show();
   confusion_->setMatrix(report.confusion);
   listObjects();
@@ -224,7 +224,7 @@ void CheckPage::listCell(int truth, int called) {
   const QString was = name(check.samples.classes, truth);
   caption_->setText(listed_.empty()
                         ? "No " + was + " was called " + name(check.samples.classes, called) + "."
-                    : truth == called ? was + ", named rightly. A click on a grasp opens it."
+                    : truth == called ? was + ", named correctly. A click on a grasp opens it."
                                       : was + ", called " + name(check.samples.classes, called) +
                                             ". A click on a grasp opens it.");
   back_->show();

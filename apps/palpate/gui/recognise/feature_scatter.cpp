@@ -74,7 +74,7 @@ FeatureScatter::FeatureScatter(QWidget* parent)
   arrangeChart(*plot_);
   names_->setObjectName("scatterObjects");
   names_->setAccessibleName("Objects of the scatter plot");
-  names_->setToolTip("A click lets an object stand out; a second one shows all again");
+  names_->setToolTip("Click an object to highlight it; click again to show all");
   names_->setFrameShape(QFrame::NoFrame);
   // Longer names are shortened; their tool tips have them in full.
   names_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -21,7 +21,7 @@ constexpr GraspColumn kGraspColumns[] = {
     {"recording", "Name of the file"},
     {"grasp", "Number of the grasp in its recording"},
     {"time", "When the grasp began, local time"},
-    {"quality", "0..1: held steadily, whole, not saturated"}};
+    {"quality", "0..1: held steadily, complete, not saturated"}};
 
 constexpr int kFeatureDigits = 4;
 

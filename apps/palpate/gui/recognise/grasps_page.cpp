@@ -91,18 +91,17 @@ QWidget* GraspsPage::makeTable() {
   // Not those of the recording's events.
   keepKeys(*this, QKeySequence::Undo, [this] { controller_.undoLeavingOut(); });
   keepKeys(*this, QKeySequence::Redo, [this] { controller_.redoLeavingOut(); });
-  leave_ =
-      makeButton(part,
-                 "graspsLeaveOut",
-                 "Leave out",
-                 "The chosen grasps neither train nor test; their recordings stay as they are");
-  undo_ =
-      makeButton(part,
-                 "graspsUndo",
-                 "Undo",
-                 "Takes the last change of what is left out back (Ctrl+Z; again: Ctrl+Shift+Z)");
+  leave_ = makeButton(
+      part,
+      "graspsLeaveOut",
+      "Leave out",
+      "Leave the chosen grasps out of training and testing; their recordings stay as they are");
+  undo_ = makeButton(part,
+                     "graspsUndo",
+                     "Undo",
+                     "Undo the last change of what is left out (Ctrl+Z; redo: Ctrl+Shift+Z)");
   copy_ = makeButton(
-      part, "graspsCopy", "Copy", "The chosen rows, else all, for a spreadsheet (Ctrl+C)");
+      part, "graspsCopy", "Copy", "Copy the chosen rows, or all, for a spreadsheet (Ctrl+C)");
   state_ = makeLines(part, "graspsState", "muted");
   part->setLayout(inColumn({{view_, 1}, inRow({{state_, 1}, leave_, undo_, copy_})},
                            {.bottom = Space::kNarrow}));

@@ -20,9 +20,8 @@ namespace palpate::gui {
 
 RecogniseActions::RecogniseActions(ActionRegistry& book) {
   whatIsIt = book.make("whatIsIt", "Analysis", "&What is it?", {key("Q")});
-  whatIsIt->setToolTip("Recognises the selected grasp, or what is held (Q)");
-  presentationMode =
-      book.make("showMode", "View", "&Show: the answer on the whole screen", {key("Ctrl+5")});
+  whatIsIt->setToolTip("Recognise the selected grasp, or what is held (Q)");
+  presentationMode = book.make("showMode", "View", "&Show the answer full screen", {key("Ctrl+5")});
 }
 
 namespace {

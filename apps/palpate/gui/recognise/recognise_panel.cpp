@@ -30,8 +30,8 @@ RecognisePanel::RecognisePanel(QSettings& settings,
   addPage(ask_, "Ask", "What is in the hand");
   addPage(today_, "Today", "Adapts the model to the hand of today");
   addPage(teach_, "Teach", "Captures grasps of objects, and trains a model with them");
-  addPage(grasps_, "Grasps", "The grasps that teach, and their features");
-  addPage(check_, "Check", "How well they are distinguished");
+  addPage(grasps_, "Grasps", "The training grasps and their features");
+  addPage(check_, "Check", "How well the objects are distinguished");
   setLayout(inColumn({strip_, {&pages(), 1}}, Space::kNone));
   BackgroundJob& job = teaching_->job();
   connect(&job, &BackgroundJob::started, strip_, &OpeningStrip::begin);

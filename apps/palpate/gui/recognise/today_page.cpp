@@ -131,8 +131,8 @@ void TodayPage::showDay() {
     each->setEnabled(can);
   zero_->setEnabled(can && why_.isEmpty() && !closing_);
   zero_->setText(closing_ ? "Closing until the pads touch …" : "Zero: close the empty hand");
-  zero_->setToolTip(
-      why_.isEmpty() ? "Closes slowly until the pads touch, and opens again (Esc stops)" : why_);
+  zero_->setToolTip(why_.isEmpty() ? "Close slowly until the pads touch, and open again (Esc stops)"
+                                   : why_);
   if (!session) {
     offset_->setText("No model is chosen.");
     unsure_->clear();

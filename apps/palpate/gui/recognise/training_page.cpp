@@ -46,9 +46,9 @@ constexpr std::array kTaughtSets = {
         "Size and shape of the contact, force and compression on the load plateau: what holds "
         "in another session"},
     TaughtSet{FeatureSet::kStudy, "The 54 numbers of the study, to compare with it"},
-    TaughtSet{FeatureSet::kSession,
-              "best, with joint angles at rest: most accurate within one session, of no use in "
-              "another one"},
+    TaughtSet{
+        FeatureSet::kSession,
+        "best, with joint angles at rest: most accurate within one session, useless in another"},
     TaughtSet{FeatureSet::kStatistics,
               "Load, extent and position of the contact on every matrix, of any hand"}};
 
@@ -79,7 +79,7 @@ void setItemPossible(QComboBox& box, int index, const QString& tip, const QStrin
 QString stateText(const TrainingClip& clip) {
   switch (clip.state) {
     case TeachPageState::kWaiting:
-      return "waits: " + clip.problem;
+      return "waiting: " + clip.problem;
     case TeachPageState::kSaving:
       return "being written";
     case TeachPageState::kAccepted:
@@ -106,7 +106,8 @@ TrainingPage::TrainingPage(TrainingController& controller, Ask& ask, QWidget* pa
   const auto field = [this](const char* name, const char* accessible, const char* tip) {
     return named(new QComboBox(this), name, tip, accessible);
   };
-  set_ = field("teachSet", "Features", "What is measured of each grasp; Train and Check use it");
+  set_ =
+      field("teachSet", "Features", "Features measured for each grasp; Train and Check use them");
   set_->addItem("automatic");
   set_->setItemData(0, "best where two pads pinch, else statistics", Qt::ToolTipRole);
   for (const TaughtSet& each : kTaughtSets) {
@@ -114,7 +115,7 @@ TrainingPage::TrainingPage(TrainingController& controller, Ask& ask, QWidget* pa
     set_->setItemData(set_->count() - 1, each.tip, Qt::ToolTipRole);
   }
   classifier_ = field(
-      "teachClassifier", "Classifier", "What tells the objects apart; Train and Check use it");
+      "teachClassifier", "Classifier", "How the objects are distinguished; Train and Check use it");
   classifier_->addItem("automatic");
   classifier_->setItemData(
       0,
@@ -130,10 +131,8 @@ TrainingPage::TrainingPage(TrainingController& controller, Ask& ask, QWidget* pa
   object_ = named(new QLineEdit(this), "teachObject");
   object_->setPlaceholderText("name of the object");
   object_->setMaxLength(60);
-  capture_ = makeButton(this,
-                        "teachCapture",
-                        "Capture",
-                        "From now on each finished grasp is saved as an example of it");
+  capture_ = makeButton(
+      this, "teachCapture", "Capture", "Save each finished grasp from now on as an example of it");
   capture_->setCheckable(true);
   state_ = makeLines(this, "teachState", "muted");
   clips_ = named(new FiguresTable(clipColumns(), this), "teachClips");
@@ -141,8 +140,8 @@ TrainingPage::TrainingPage(TrainingController& controller, Ask& ask, QWidget* pa
   act_ = makeButton(this,
                     "teachAct",
                     "Undo",
-                    "Moves the chosen or newest grasp out of the folder; Put back restores it");
-  train_ = makePrimary(this, "teachTrain", "Train", "A model of what the folder holds");
+                    "Move the chosen or newest grasp out of the folder; Put back restores it");
+  train_ = makePrimary(this, "teachTrain", "Train", "Train a model with the grasps in the folder");
 
   setLayout(inColumn({inRow({choose, {folder_, 1}, train_}),
                       inRow({"Features", {set_, 1}, "Classifier", {classifier_, 1}}),
@@ -210,7 +209,7 @@ void TrainingPage::showChoice() {
   const bool isGauss = searchOptions(set, choice.classifier).classifier == ClassifierKind::kGauss;
   const std::string bound =
       whyBoundToSession(set, isGauss ? ClassifierKind::kGauss : ClassifierKind::kSvm);
-  bound_->setText(QString::fromStdString("For the session of the training only: " + bound + "."));
+  bound_->setText(QString::fromStdString("For this training session only: " + bound + "."));
   bound_->setVisible(!bound.empty());
 }
 

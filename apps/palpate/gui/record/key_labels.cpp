@@ -19,8 +19,10 @@ constexpr const char* kKeyLabelsStyle = R"(
 }  // namespace
 
 KeyLabels::KeyLabels(QWidget* parent)
-    : FoldingPart(
-          "marks", "&Marks by key", "What the digit keys add to a running recording", parent) {
+    : FoldingPart("marks",
+                  "&Marks by key",
+                  "Labels that the digit keys add to a running recording",
+                  parent) {
   body()->setStyleSheet(kKeyLabelsStyle);
   fillGrid();
   sumUp();

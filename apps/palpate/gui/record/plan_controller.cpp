@@ -164,7 +164,7 @@ void PlanController::importCsv(const fs::path& path) {
           const QString name =
               QString::fromStdString(path.filename().string()) + ": not imported: ";
           if (row_) return emit imported(name + "a take of the plan is being recorded");
-          if (plan_.json() != asked) return emit imported(name + "the plan has changed meanwhile");
+          if (plan_.json() != asked) return emit imported(name + "the plan has since changed");
           plan_ = plan;
           lastTake_.reset();
           save();

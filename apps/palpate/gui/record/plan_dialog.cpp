@@ -121,15 +121,14 @@ QWidget* PlanDialog::makeRows() {
   header->setHighlightSections(false);
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setStretchLastSection(true);
-  add_ = makeButton(this, "planAdd", "&Add row", "One more row below");
-  remove_ = makeButton(this, "planRemove", "Re&move row", "Removes the chosen row; its files stay");
+  add_ = makeButton(this, "planAdd", "&Add row", "Add a row below");
+  remove_ = makeButton(this, "planRemove", "Re&move row", "Remove the chosen row; its files stay");
   import_ = makeButton(this,
                        "planImport",
                        "&Import…",
-                       "A table (CSV) with the columns object, run, repetitions, notes");
-  export_ = makeButton(this, "planExport", "&Export…", "The plan as a table (CSV)");
-  anew_ =
-      makeButton(this, "planAnew", "&Start over…", "All takes are to be made again; files stay");
+                       "Import a table (CSV) with the columns object, run, repetitions, notes");
+  export_ = makeButton(this, "planExport", "&Export…", "Export the plan as a table (CSV)");
+  anew_ = makeButton(this, "planAnew", "&Start over…", "Make all takes again; files stay");
   connect(add_, &QPushButton::clicked, this, &PlanDialog::addRow);
   connect(remove_, &QPushButton::clicked, this, &PlanDialog::removeRow);
   connect(import_, &QPushButton::clicked, this, &PlanDialog::importTable);
@@ -153,7 +152,7 @@ QWidget* PlanDialog::makeFoot() {
   connect(repeat_, &QPushButton::clicked, this, &PlanDialog::repeatLast);
   auto* close = makeButton(this, "planClose", "&Close", "The plan is kept");
   connect(close, &QPushButton::clicked, this, &QDialog::reject);
-  recordNext_ = makePrimary(this, "planRecord", "&Record next", "Records what comes next");
+  recordNext_ = makePrimary(this, "planRecord", "&Record next", "Record what comes next");
   connect(recordNext_, &QPushButton::clicked, this, &PlanDialog::recordNext);
   return makeDialogFoot(
       inRow({follow_, Stretch{}, close, repeat_, recordNext_}, around(Space::kWide)));
@@ -252,11 +251,11 @@ void PlanDialog::showState() {
   const auto& last = controller_.lastTake();
   repeat_->setEnabled(last.has_value());
   repeat_->setToolTip((last ? pathText(last->filename()) : QString("The last take")) +
-                      " counts no longer, and comes next again");
+                      " no longer counts, and comes next again");
   const bool on = record_->property(kRecordingProperty).toBool();
   recordNext_->setText(on ? "Stop &recording" : "&Record next");
   recordNext_->setEnabled(record_->isEnabled() && (on || plan.next().has_value()));
-  recordNext_->setToolTip(record_->isEnabled() ? "Records what comes next"
+  recordNext_->setToolTip(record_->isEnabled() ? "Record what comes next"
                                                : "Connect a hand first (Ctrl+K)");
 }
 
@@ -309,9 +308,8 @@ void PlanDialog::exportTable() {
 }
 
 void PlanDialog::beginAnew() {
-  if (windowState_.ask.confirmed(
-          "All takes of the plan are to be made again; their files stay. Start over?",
-          "Start over"))
+  if (windowState_.ask.confirmed("Make all takes of the plan again? Their files stay.",
+                                 "Start over"))
     controller_.beginAnew();
 }
 

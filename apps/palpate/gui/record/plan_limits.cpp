@@ -29,17 +29,17 @@ Field* planField(const char* name, const QString& tip, QWidget* parent) {
 PlanLimits::PlanLimits(QWidget* parent)
     : FoldingPart("planLimits",
                   "&Limits",
-                  "What makes a take bad, so that it is to be repeated; kept with the plan",
+                  "What makes a take bad, so that it should be repeated; kept with the plan",
                   parent) {
   QWidget* made = body();
   least_ = planField<QDoubleSpinBox>(
       "planLeastS",
-      "Shortest take; one that stops by itself must be nearly as long as it was to be",
+      "Shortest take; one that stops automatically must be nearly as long as planned",
       made);
   least_->setRange(0.0, kMostPlanS);
   least_->setDecimals(1);
   least_->setSuffix(" s");
-  lost_ = planField<QSpinBox>("planMostLost", "So many frames may be lost", made);
+  lost_ = planField<QSpinBox>("planMostLost", "Number of frames that may be lost", made);
   lost_->setRange(0, kMostPlanLost);
   saturated_ = planField<QDoubleSpinBox>(
       "planMostSaturated", "Share of the frames that may have a saturated taxel", made);
@@ -47,11 +47,13 @@ PlanLimits::PlanLimits(QWidget* parent)
   saturated_->setDecimals(1);
   saturated_->setSuffix(" %");
   taxels_ = planField<QSpinBox>(
-      "planTaxels", "Something is touched when so many taxels are active in three frames", made);
+      "planTaxels",
+      "Number of taxels that must be active in three frames to count as a touch",
+      made);
   taxels_->setRange(1, kMostPlanTaxels);
   quality_ = planField<QDoubleSpinBox>(
       "planLeastQuality",
-      "Least quality of its best grasp, 0..1: held steadily, whole, not saturated",
+      "Minimum quality of its best grasp, 0..1: held steadily, complete, not saturated",
       made);
   quality_->setRange(0.0, 1.0);
   quality_->setDecimals(2);

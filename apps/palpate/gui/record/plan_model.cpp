@@ -22,7 +22,7 @@ QString stateOfRow(const PlanRow& row) {
     return (row.numDone() < row.repetitions ? "to be repeated" : "rejected") + of;
   if (!newest.problem.empty())
     return (newest.undecided() ? "to be decided: " : "") + planText(newest.problem) + of;
-  return row.numUndecided() > 0 ? "one before it is to be decided" + of : name;
+  return row.numUndecided() > 0 ? "decide on an earlier take first" + of : name;
 }
 
 }  // namespace

@@ -270,13 +270,12 @@ void RecordFeature::askAbout(const std::filesystem::path& file, OfferStrip& line
         state().messages.flash(plan_.nextText());
       });
   line.warn(true);
-  line.offerAlso("Keep", "It counts as it is", [this, file] { plan_.keep(file); });
-  line.offerAlso(
-      "Discard…", "Moves it to the trash, after a question, and repeats it", [this, file] {
-        // After a restart, or once another one was recorded: all its parts are found again.
-        if (take_.paths().empty() || take_.paths().front() != file) take_.set(partsFrom(file));
-        take_.discard();
-      });
+  line.offerAlso("Keep", "Keep it as it is", [this, file] { plan_.keep(file); });
+  line.offerAlso("Discard…", "Move it to the trash, after a question, and repeat it", [this, file] {
+    // After a restart, or once another one was recorded: all its parts are found again.
+    if (take_.paths().empty() || take_.paths().front() != file) take_.set(partsFrom(file));
+    take_.discard();
+  });
 }
 
 void RecordFeature::askInPlan() {
@@ -407,7 +406,7 @@ void RecordFeature::connectUnfinished() {
     offer_->offer(
         (paths.size() == 1 ? QString("A recording was never finished: ")
                            : QString::number(paths.size()) + " recordings were never finished: ") +
-            names.join(", ") + ". Recovering makes a new file beside it and changes nothing.",
+            names.join(", ") + ". Recovering writes a new file next to it and leaves it unchanged.",
         "Recover",
         [this, paths] {
           recovered_.clear();
@@ -416,8 +415,9 @@ void RecordFeature::connectUnfinished() {
         },
         [this, paths] {
           unfinished_.ignore(paths);
-          state().messages.flash(QString("Not offered again; File > Recover… finishes ") +
-                                 (paths.size() == 1 ? "it" : "them"));
+          state().messages.flash(
+              QString("This will not be offered again; later, use File > Recover… to finish ") +
+              (paths.size() == 1 ? "it" : "them"));
         });
   });
   connect(&unfinished_, &RecoveryFinder::progressed, this, [this](double fraction) {
@@ -684,9 +684,9 @@ void RecordFeature::offerTake(const QString& text) {
   doubted_.reset();
   takeText_ = text;
   offer_->offer(text, "Open", [this] { state().open(take_.paths()); });
-  offer_->offerAlso("Rename…", "Another name, with what belongs to it", [this] { take_.rename(); });
+  offer_->offerAlso("Rename…", "Rename it, with what belongs to it", [this] { take_.rename(); });
   offer_->offerAlso(
-      "Discard…", "Moves it to the trash, after a question", [this] { take_.discard(); });
+      "Discard…", "Move it to the trash, after a question", [this] { take_.discard(); });
 }
 
 std::vector<BannerSpec> RecordFeature::strips() {

@@ -71,7 +71,7 @@ void RecordedTake::rename() {
     if (!typed) return;
     try {
       const std::string stem = stemFromText(*typed);
-      if (stem.empty()) throw Error("that is no name of a file");
+      if (stem.empty()) throw Error("that is not a valid file name");
       const std::vector<fs::path> named = renameRecording(paths_, stem);
       close(open);
       const fs::path from = std::exchange(paths_, named).front();

@@ -186,7 +186,7 @@ QWidget* RecordingDialog::makeFields() {
   auto* placeholders = makeButton(fields,
                                   "recordingInsert",
                                   "&Insert",
-                                  "Adds a part to the name that changes with each recording");
+                                  "Add a part to the name that changes with each recording");
   placeholders_ = makePlaceholders();
   placeholders->setMenu(placeholders_);
   add("File &name", template_, placeholders);
@@ -196,7 +196,7 @@ QWidget* RecordingDialog::makeFields() {
   add("&Folder", folder_, browse);
   mcap_ = named(new QCheckBox("Also an M&CAP file, for Foxglove and ROS 2", fields),
                 "recordingMcap",
-                "Written beside the recording, under its name");
+                "Saved next to the recording, under the same name");
   grid->addWidget(mcap_, row, 1, 1, 2);
   return fields;
 }
@@ -242,7 +242,7 @@ QWidget* RecordingDialog::makePreview() {
 QWidget* RecordingDialog::makeFoot(const QString& okText) {
   askEachTime_ = named(new QCheckBox("&Ask before each recording", this),
                        "recordingAsk",
-                       "Off: Record starts at once, with what is written here");
+                       "If off, Record starts immediately with these settings");
   auto* cancel = makeCancel(this, "recordingCancel");
   ok_ = makeOk(this, "recordingOk", okText);
   connect(ok_, &QPushButton::clicked, this, &RecordingDialog::accept);

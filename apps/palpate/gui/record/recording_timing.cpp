@@ -77,8 +77,8 @@ QWidget* timingRow(std::initializer_list<QWidget*> fields, QWidget* parent) {
 
 RecordingTiming::RecordingTiming(QWidget* parent)
     : FoldingPart("timing",
-                  "B&egin and end",
-                  "When it begins and stops by itself, and when a new file begins",
+                  "Start and &end",
+                  "When recording starts and stops automatically, and when a new file is started",
                   parent) {
   using Limits = RecordingLimits;
   QWidget* made = body();
@@ -88,7 +88,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
   form->setVerticalSpacing(6);
   countdown_ = named(new QSpinBox(made),
                      "recordingCountdown",
-                     "Seconds that are counted down before it begins; Esc cancels");
+                     "Seconds counted down before recording starts; Esc cancels");
   countdown_->setRange(0, RecordingSettings::kMostCountdownS);
   countdown_->setSuffix(" s");
   countdown_->setSpecialValueText("none");
@@ -97,7 +97,8 @@ RecordingTiming::RecordingTiming(QWidget* parent)
   form->addRow("Count&down", countdown_);
   onContact_ = named(new QCheckBox("When touc&hed", made), "recordingOnContact");
   onContact_->setToolTip(
-      "It waits until 3 taxels are touched in 3 frames; the two seconds before are in it, too");
+      "Recording waits until 3 taxels are touched in 3 frames, and includes the two seconds "
+      "before");
   threshold_ = timingField("recordingContactThreshold",
                            0.0,
                            kMostContactThreshold,
@@ -112,18 +113,19 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                            Limits::kMostStopS,
                            2,
                            " s",
-                           "not by itself",
-                           "So long after the first frame the recording stops by itself",
+                           "not automatically",
+                           "Time after the first frame when the recording stops automatically",
                            made);
   form->addRow("&Stop after", stopAfter_);
-  released_ = timingField("recordingReleased",
-                          kLeastReleasedS,
-                          kMostReleasedS,
-                          2,
-                          " s",
-                          "not by release",
-                          "It stops when something was touched and then nothing for so long",
-                          made);
+  released_ =
+      timingField("recordingReleased",
+                  kLeastReleasedS,
+                  kMostReleasedS,
+                  2,
+                  " s",
+                  "not by release",
+                  "Recording stops when, after a touch, nothing has been touched for this long",
+                  made);
   form->addRow("Stop &untouched for", released_);
   splitMinutes_ = timingField("recordingSplitMinutes",
                               Limits::kLeastSplitMinutes,
@@ -131,7 +133,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                               2,
                               " min",
                               "never",
-                              "After so many minutes the recording goes on in a new file: "
+                              "After this many minutes the recording continues in a new file: "
                               "NAME_002.palpate, .. Nothing is lost in between",
                               made);
   splitMb_ = timingField("recordingSplitMb",
@@ -140,7 +142,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                          1,
                          " MB",
                          "never",
-                         "At about so many megabytes the recording goes on in a new file",
+                         "At about this many megabytes the recording continues in a new file",
                          made);
   form->addRow("Ne&w file every",
                timingRow({splitMinutes_, new QLabel("or", made), splitMb_}, made));

@@ -69,8 +69,7 @@ void HandChip::setCondition(const ExplainedCondition& condition, const HandTask&
 }
 
 void HandChip::explain() {
-  const QString tip =
-      acknowledge_.isEnabled() ? sentence_ + "\nA click acknowledges it." : sentence_;
+  const QString tip = acknowledge_.isEnabled() ? sentence_ + "\nClick to acknowledge." : sentence_;
   if (toolTip() != tip) setToolTip(tip);
 }
 

@@ -12,9 +12,9 @@ bool needsHand(Preset preset) { return preset == Preset::kGrasp || preset == Pre
 
 QString wordsOf(Preset preset) {
   constexpr std::array kBeside{"the data and their chart",
-                               "the controls of the hand beside them",
-                               "the state of the link beside them",
-                               "the figures beside them"};
+                               "with the controls of the hand",
+                               "with the state of the link",
+                               "with the figures"};
   return "&" + nameOf(preset) + ": " + kBeside[static_cast<std::size_t>(preset)];
 }
 

@@ -33,7 +33,8 @@ namespace palpate::gui {
 
 ShellActions::ShellActions(ActionRegistry& book) {
   quit = book.make("quit", "File", "&Quit", {key("Ctrl+Q")});
-  nextTheme = book.make("nextTheme", "View", "Dark or light", {key("Ctrl+T")});
+  nextTheme =
+      book.make("nextTheme", "View", "Switch between dark and light theme", {key("Ctrl+T")});
   hideInMenus(*nextTheme);  // Theme has both
   fullScreen = book.make("fullScreen", "View", "F&ull screen", {key("F11")}, true);
   dismiss = book.make(
@@ -272,8 +273,8 @@ void MainWindow::closeEvent(QCloseEvent* event) {
               ((live.recording() &&
                 !windowState_->prompts.endRecording(UserPrompts::Ending::kQuit)) ||
                (windowState_->batchRunning() &&
-                !windowState_->ask.confirmed("A batch is running. What is finished stays; the rest "
-                                             "is not made. End the batch?",
+                !windowState_->ask.confirmed("A batch is running. Finished files stay; the rest "
+                                             "are not made. End the batch?",
                                              "&Yes")))) ||
              !windowState_->events.settle(windowState_->recordings.all(), !unasked_)) {
     // All questions come before anything is discarded.

@@ -69,8 +69,8 @@ SlipControls::SlipControls(QSettings& settings, QWidget* parent)
   reference_->setToolTip("Where motion is measured from");
   reference_->setCurrentIndex(settings.value(kReference).toString() == "first" ? kFirstRow
                                                                                : kRestRow);
-  set_ = makeButton(
-      this, "slipSetReference", "Set reference", "Motion is measured from the frame that is shown");
+  set_ =
+      makeButton(this, "slipSetReference", "Set reference", "Measure motion from the frame shown");
   set_->setFocusPolicy(Qt::TabFocus);
   const SlipSeriesOptions usual;
   step_ = field("slipStep", "Step, in taxels per frame", kStep, 2.0, 0.01, 2, usual.stepTaxels);
@@ -163,9 +163,9 @@ void SlipControls::showLimits() {
   const bool contest = method == SlipMethod::kContest;
   for (QDoubleSpinBox* each : {step_, whole_, rotation_})
     each->setToolTip(each->accessibleName() +
-                     (contest ? "\nWith contest it only scales which motions of several frames are "
-                                "compared with a load shift;\nthe comparison decides, and a slip "
-                                "lasts until the contact is at rest"
+                     (contest ? "\nWith contest (load shift) it only scales which motions of "
+                                "several frames are compared with a load shift;\nthe comparison "
+                                "decides, and a slip lasts until the contact is at rest"
                               : ""));
 }
 

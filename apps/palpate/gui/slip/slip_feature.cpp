@@ -18,11 +18,10 @@ constexpr int kSlipUsualWidth = 620;  // [px] list and drawing fit side by side
 
 SlipFeature::SlipFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
-      reference_(
-          windowState.actions.make("slipReference", "Analysis", "S&lip is measured from here")),
+      reference_(windowState.actions.make("slipReference", "Analysis", "Measure s&lip from here")),
       panel_(new SlipPanel(windowState.settings, window)) {
   dock_ = new Dock("Slip", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
-  reference_->setToolTip("The frame that is shown becomes the reference of slip");
+  reference_->setToolTip("Use the frame shown as the slip reference");
   connectBench();
   // The next connection may have its history at the same address.
   connect(&windowState.live, &LiveController::ended, this, [this] { liveOf_ = nullptr; });

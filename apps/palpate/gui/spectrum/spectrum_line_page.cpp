@@ -75,8 +75,8 @@ SpectrumLinePage::SpectrumLinePage(QWidget* parent) : QWidget(parent) {
   otherLabel_ = new QLabel("With", this);
   other_ = named(new QComboBox(this), "coherenceWith", {}, "The other signal");
   other_->setToolTip(
-      "The other signal: the mean of a matrix, a curve by a formula, taxels,\nor a name or formula "
-      "that is typed: m1_max, m5_x2_y9, angle3, m1_sum-m3_sum");
+      "The other signal: the mean of a matrix, a curve by a formula, taxels,\nor a typed name or "
+      "formula: m1_max, m5_x2_y9, angle3, m1_sum-m3_sum");
   other_->setEditable(true);
   other_->setInsertPolicy(QComboBox::NoInsert);
   problem_ = makeLines(this, "coherenceProblem");

@@ -56,12 +56,12 @@ void AxisEditor::rebuild() {
     const QCPRange range = axes_->of(unit)->range();
     auto* automatic = named(new QCheckBox("automatic", rows_),
                             "automaticAxis",
-                            "The axis follows the values that are visible",
+                            "The axis follows the visible values",
                             name + ": automatic");
     automatic->setChecked(!byHand);
     constexpr int kUsualDecimals = 2;
     const int decimals = kUsualDecimals + axes_->conversionOf(unit).moreDecimals;
-    auto* from = endField(rows_, range.lower, decimals, name + ": begin of the axis");
+    auto* from = endField(rows_, range.lower, decimals, name + ": start of the axis");
     from->setObjectName("axisFrom");
     auto* to = endField(rows_, range.upper, decimals, name + ": end of the axis");
     to->setObjectName("axisTo");
@@ -86,8 +86,8 @@ void AxisEditor::rebuild() {
       from->refused().showMark(!good);
       to->refused().showMark(!good);
       say(good ? QString()
-               : name + ": the begin " + from->text() + " isn't below the end " + to->text() +
-                     ". The axis stays as it was: give a smaller begin or a larger end.");
+               : name + ": the start " + from->text() + " isn't below the end " + to->text() +
+                     ". The axis stays as it was: give a smaller start or a larger end.");
       if (!good) {
         const QSignalBlocker quiet(automatic);
         return automatic->setChecked(!axes_->byHand().contains(unit));

@@ -67,7 +67,7 @@ void BaselineControls::undo() {
     source->session->undoBaseline();
   else
     windowState_.activeFilters.editor().undo();
-  windowState_.messages.flash("the baseline before the last one is back");
+  windowState_.messages.flash("the previous baseline is back");
   windowState_.actionEnabler.refresh();
 }
 

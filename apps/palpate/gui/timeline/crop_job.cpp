@@ -77,8 +77,7 @@ void CropJob::cropSelection() {
     return windowState_.messages.flash(
         "nothing is selected: drag in the timeline, or press [ and ]");
   const auto frames = windowState_.selectedFrames();
-  if (!frames)
-    return windowState_.messages.fail("No frame lies in the selection: there is nothing to crop");
+  if (!frames) return windowState_.messages.fail("The selection contains no frames");
   const auto number = [](std::size_t frame) { return QString("%1").arg(frame, 6, 10, QChar('0')); };
   const QString here = QFileInfo(pathText(recording->path)).absolutePath();
   const QString folder = windowState_.settings.value(kCropFolder, here).toString();

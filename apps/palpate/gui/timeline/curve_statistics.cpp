@@ -182,7 +182,7 @@ StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   QPushButton* copy = buttons->addButton("C&opy", QDialogButtonBox::ActionRole);
   copy->setObjectName("copyStatistics");
-  copy->setToolTip("Copies the table of this page with all digits, for a spreadsheet");
+  copy->setToolTip("Copy the table of this page with all digits, for a spreadsheet");
   connect(copy, &QPushButton::clicked, this, [=] {
     const int page = tabs->currentIndex();
     const TextTable shown = page == 0   ? statistics

@@ -34,7 +34,7 @@ GraspExport::GraspExport(WindowState& windowState, QWidget* window, QObject* par
       windowState_(windowState),
       strip_(new OpeningStrip(window, "Exporting the grasps of", "exportingGrasps")) {
   QAction* action = windowState.actions.make("exportGrasps", "File", "Export each grasp…");
-  action->setToolTip("A recording of its own for each grasp, with its labels");
+  action->setToolTip("Save each grasp as a separate recording, with its labels");
   connect(action, &QAction::triggered, this, &GraspExport::exportEach);
   windowState.actionEnabler.add({action},
                                 [&windowState] { return windowState.displayed.hasFrames(); });

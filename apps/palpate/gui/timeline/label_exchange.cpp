@@ -51,9 +51,9 @@ LabelExchange::LabelExchange(WindowState& windowState, QObject* parent)
     : QObject(parent), windowState_(windowState) {
   ActionRegistry& book = windowState.actions;
   QAction* exported = book.make("exportLabels", "File", "Export labels…");
-  exported->setToolTip("Labels, notes and marked grasps as a table (CSV)");
+  exported->setToolTip("Export labels, notes and marked grasps as a table (CSV)");
   QAction* imported = book.make("importLabels", "File", "Import labels…");
-  imported->setToolTip("Adds the labels of a table (CSV): begin_s, end_s, kind, text, matrix");
+  imported->setToolTip("Add the labels of a table (CSV): begin_s, end_s, kind, text, matrix");
   connect(exported, &QAction::triggered, this, &LabelExchange::exportLabels);
   connect(imported, &QAction::triggered, this, &LabelExchange::importLabels);
   connect(&windowState.events, &EventController::changed, this, &LabelExchange::withdrawWhenUndone);

@@ -107,9 +107,9 @@ SignalTree::SignalTree(TaxelGroups& groups, FormulaCurves& formulas, QWidget* pa
   tree_->setFrameShape(QFrame::NoFrame);
   tree_->setEditTriggers(QAbstractItemView::EditKeyPressed);
   group_ = makeButton(this, "groupButton", "Name the chosen taxels…");
-  group_->setToolTip("Keeps them as a group, for other recordings too");
+  group_->setToolTip("Keep them as a group, for other recordings too");
   formula_ = makeButton(this, "formulaButton", "New formula or filter…");
-  formula_->setToolTip("A slope, a difference, a filtered curve, or any formula of signals");
+  formula_->setToolTip("Add a slope, a difference, a filtered curve, or any formula of signals");
   setLayout(inColumn({{tree_, 1}, group_, formula_}, around(Space::kUsual)));
   connect(formula_, &QPushButton::clicked, this, [this] {
     hide();

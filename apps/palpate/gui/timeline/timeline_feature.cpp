@@ -150,15 +150,15 @@ void TimelineFeature::connectSubject() {
     state().menus.edit->popup(at);
   });
   connect(&chart_->store(), &SeriesStore::changed, this, &TimelineFeature::showReading);
-  connect(chart_,
-          &TimelineChart::rangeDropped,
-          this,
-          [this](const QString& name, const AxisRange& range) {
-            state().messages.flash("the axis " + name + " is automatic again: no value of this " +
-                                   "recording lies in the range set by hand, " +
-                                   QString::number(range.from) + " to " +
-                                   QString::number(range.to));
-          });
+  connect(
+      chart_,
+      &TimelineChart::rangeDropped,
+      this,
+      [this](const QString& name, const AxisRange& range) {
+        state().messages.flash("the axis " + name + " was reset to automatic: no value of this " +
+                               "recording is in the range set by hand, " +
+                               QString::number(range.from) + " to " + QString::number(range.to));
+      });
   ViewAppearance& look = state().appearance;
   followUnits(signalTree_);
   connect(&look, &ViewAppearance::changed, this, [this, &look] { showCurves(); });
@@ -322,8 +322,8 @@ void TimelineFeature::connectLiveChart() {
     const bool frozen = !liveChart_->following();
     actions_.freeze->setChecked(frozen);
     actions_.freeze->setIconText(frozen ? "To the newest" : "Freeze");
-    actions_.freeze->setToolTip(frozen ? "The chart follows the newest frame again (End)"
-                                       : "The chart stays as it is, data go on arriving");
+    actions_.freeze->setToolTip(frozen ? "Follow the newest frame again (End)"
+                                       : "Freeze the chart; data keep arriving");
   };
   showFrozen();
   connect(liveChart_, &LiveChart::followingChanged, this, showFrozen);

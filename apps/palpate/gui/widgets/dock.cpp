@@ -20,7 +20,7 @@ Dock::Dock(const QString& name, QWidget* content, QWidget* header, QWidget* pare
   auto* row = new QWidget(this);
   row->setObjectName("DockTitle");
   row->setAttribute(Qt::WA_StyledBackground);
-  row->setToolTip("Drag to move this dock, double-click to make it a window of its own");
+  row->setToolTip("Drag to move this dock, double-click to make it a separate window");
   auto* close = new QToolButton(row);
   close->setProperty("flat", true);
   close->setIcon(makeIcon(IconShape::kClose));

@@ -75,9 +75,9 @@ void RefusedNumber::keep(const QString& typed, double least, double most) {
   if (text.isEmpty())
     why_ = "no number";
   else if (!number)
-    why_ = text + " is no number";
+    why_ = text + " is not a number";
   else if (*number >= least && *number <= most)
-    why_ = text + " is no whole number";
+    why_ = text + " is not a whole number";
   else
     why_ = text + " is out of " + QString::number(least, 'g', kDigits) + " .. " +
            QString::number(most, 'g', kDigits) + saidUnit_;

@@ -181,7 +181,8 @@ void ActiveFilters::apply() {
       for (const FilterStep& step : now.steps)
         if (step.enabled && step.rest && step.rest->rest.size() != numPlaces)
           emit failed(
-              "The baseline is of another hand and left out: Baseline (Ctrl+Alt+L) takes it anew");
+              "The baseline is from another hand and is ignored: Baseline (Ctrl+Alt+L) takes a new "
+              "one");
     } catch (const std::invalid_argument& error) {
       emit failed(error.what());
     }
