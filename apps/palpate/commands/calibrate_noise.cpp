@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "palpate/calibration/noise_floor.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/output_file.h"
 #include "palpate/recording/recording.h"
@@ -14,6 +15,7 @@
 namespace palpate::commands {
 
 int calibrateNoise(const Arguments& words) {
+  NoiseFloorOptions options;
   const CommandLine given(
       {.synopsis = "palpate calibrate noise FILE [-o N.xml|N.json]",
        .purpose = "Measures the noise floor of a hand that nothing touches, recorded at threshold "
@@ -21,7 +23,7 @@ int calibrateNoise(const Arguments& words) {
                   "temperature of the nearest motor. Prints JSON: slope [counts/deg C], intercept "
                   "[counts], rmse [counts] (as the study defines it) and rmse_true (of this line). "
                   "A threshold of intercept + slope T + 3 rmse hides the noise.",
-       .options = {{"bins", "N", "equal bins over the temperatures, default 20"},
+       .options = {bound("bins", "N", "equal bins over the temperatures", options.bins, options.kBins),
                    {"output,o",
                     "OUT",
                     "write the lines to this file: .xml for the prior program, else JSON"},
@@ -32,8 +34,6 @@ int calibrateNoise(const Arguments& words) {
       words);
   if (given.helpShown()) return kDone;
   const std::filesystem::path file = given.words().front();
-  NoiseFloorOptions options;
-  options.bins = static_cast<std::size_t>(given.integer("bins", 2, 1000).value_or(20));
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openReported(file, progress, given.quiet()).profile;
   const NoiseFloor floor = fitNoiseFloor(profile, options, progress.callback());

@@ -82,8 +82,8 @@ int deriveCommand(const Arguments& words) {
            "m1_slip_mm, and with --calibration hand_force_n, m1_force_n [N], m1_pressure_kpa, "
            "m1_pressure_max_kpa. A value that isn't known is an empty cell.",
        .options = withCalibration(withFilterOptions(
-           {{"from", "N", "first frame, default 0"},
-            {"to", "N", "last frame, inclusive"},
+           {rangedWhole("from", "N", "first frame", kFrameOption, "0"),
+            rangedWhole("to", "N", "last frame, inclusive", kFrameOption, "the last one"),
             timeOption()})),
        .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",
        .minArguments = 2},

@@ -59,16 +59,16 @@ std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options) {
 }
 
 OptionSpec timeOption() {
-  return {"time",
-          "WHICH",
-          "times of frames and series: arrival (default), or fitted: the sender's clock, fitted to "
-          "it (docs/spectra.md)"};
+  return worded("time",
+                "WHICH",
+                "times of frames and series; fitted: the sender's clock, fitted to arrival "
+                "(docs/spectra.md)",
+                kTimeChoiceWords,
+                "arrival");
 }
 
 TimeChoice timeChoiceOf(const CommandLine& given) {
-  return given.choice("time", {"arrival", "fitted"}).value_or("arrival") == "fitted"
-             ? TimeChoice::kFitted
-             : TimeChoice::kArrival;
+  return given.chosen("time", kTimeChoiceWords).value_or(TimeChoice::kArrival);
 }
 
 void takeTimes(const CommandLine& given,
@@ -94,11 +94,12 @@ Recipe recipeOf(const CommandLine& given) {
   return recipe;
 }
 
+std::vector<std::pair<std::string, SignalKind>> signalWords() {
+  return wordsOf(kAllSignalKinds, signalName);
+}
+
 std::optional<SignalKind> signalChosen(const CommandLine& given) {
-  Arguments known;
-  for (const SignalKind kind : kAllSignalKinds) known.emplace_back(signalName(kind));
-  const auto name = given.choice("signal", known);
-  return name ? signalKindNamed(*name) : std::nullopt;
+  return given.chosen("signal", signalWords());
 }
 
 std::string filterList() {

@@ -7,6 +7,7 @@
 namespace palpate::commands {
 
 int graspsCommand(const Arguments& words) {
+  GraspRowsOptions options;
   const CommandLine given(
       {.synopsis = "palpate grasps PATH... [--rule general|study] [-o TEMPLATE]",
        .purpose =
@@ -26,14 +27,13 @@ int graspsCommand(const Arguments& words) {
            "one or none of its ends are inside the recording (not at its first or last frame, nor "
            "beside a gap)",
        .options =
-           withTableOptions(withFilterOptions({{"rule", "RULE", "general (default) or study"}})),
+           withTableOptions(withFilterOptions(
+               {boundChoice("rule", "RULE", "", options.segments.rule, kGraspRuleWords)})),
        .example = "palpate grasps recordings --rule general > grasps.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  GraspRowsOptions options{.filters = recipeOf(given)};
-  if (given.choice("rule", {"general", "study"}) == "study")
-    options.segments.rule = GraspRule::kStudy;
+  options.filters = recipeOf(given);
   return runTableCommand(given, graspsOf(options));
 }
 

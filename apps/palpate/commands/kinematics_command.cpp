@@ -44,7 +44,7 @@ int kinematicsCommand(const Arguments& words) {
                   "taxel (0, 0); x and y are then fractions of taxels.",
        .options = {anglesOption(),
                    handOption(),
-                   {"matrix", "M", "this matrix only"},
+                   rangedWhole("matrix", "M", "this matrix only", kMatrixOption),
                    {"point", "M,X_MM,Y_MM", "one point"},
                    fingertipOption()},
        .example = "palpate kinematics --angles 60,-20,40,-20,40,-20,40 --matrix 1",

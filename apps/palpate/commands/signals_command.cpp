@@ -26,6 +26,7 @@ Recipe smoothOf(const CommandLine& given) {
 }  // namespace
 
 int signalsCommand(const Arguments& words) {
+  SignalRowsOptions options;
   const CommandLine given(
       {.synopsis =
            "palpate signals PATH... [--matrix M] [--filter SPEC..] [--smooth SPEC..] [-o TEMPLATE]",
@@ -39,18 +40,17 @@ int signalsCommand(const Arguments& words) {
                   "that can't be read is reported, and the rows of the others are printed: exit "
                   "code 3. With -o there is a table for each recording.",
        .options = withTableOptions(withFilterOptions(
-           {{"matrix", "M", "only this matrix (0, 1, ..)"},
+           {bound("matrix", "M", "only this matrix", options.matrix, kMatrixOption),
             timeOption(),
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}})),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  return runTableCommand(given,
-                         signalsOf({.matrix = given.integer("matrix", 0, INT64_MAX),
-                                    .filters = recipeOf(given),
-                                    .smooth = smoothOf(given),
-                                    .times = timeChoiceOf(given)}));
+  options.filters = recipeOf(given);
+  options.smooth = smoothOf(given);
+  options.times = timeChoiceOf(given);
+  return runTableCommand(given, signalsOf(options));
 }
 
 }  // namespace palpate::commands
