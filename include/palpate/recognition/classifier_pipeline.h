@@ -3,6 +3,7 @@
 // sample is used for fitting. A TrainedModel contains one.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
