@@ -87,9 +87,7 @@ T choice(const char* name, const std::string& word, std::span<const OptionWord<T
   throw std::invalid_argument(std::string(name) + " is '" + word + "'; it is one of " + list);
 }
 template <typename T>
-T choice(const char* name,
-         const std::string& word,
-         std::initializer_list<OptionWord<T>> known) {
+T choice(const char* name, const std::string& word, std::initializer_list<OptionWord<T>> known) {
   return choice<T>(name, word, std::span(known.begin(), known.size()));
 }
 

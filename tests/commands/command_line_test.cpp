@@ -77,7 +77,9 @@ struct Bound {
             bound("text", "TEXT", "a text", text)};
   }
   void take(const std::vector<std::string>& words) {
-    CommandLine({.synopsis = "palpate try", .options = options(), .example = "palpate try"}, words);
+    CommandLine(
+        {.synopsis = "palpate try", .purpose = "", .options = options(), .example = "palpate try"},
+        words);
   }
   std::string helpOf(std::size_t option) { return options()[option].help; }
 };
@@ -89,8 +91,16 @@ TEST(BoundOptions, SetTheirFields) {
   EXPECT_EQ(fields.count, std::nullopt);
   EXPECT_EQ(fields.form, Form::kFlat);
   EXPECT_FALSE(fields.dry);
-  fields.take(
-      {"-w", "0.5", "--count", "100", "--seed", "4294967295", "--form", "round", "--dry", "--text=x"});
+  fields.take({"-w",
+               "0.5",
+               "--count",
+               "100",
+               "--seed",
+               "4294967295",
+               "--form",
+               "round",
+               "--dry",
+               "--text=x"});
   EXPECT_EQ(fields.widthMm, 0.5);
   EXPECT_EQ(fields.count, 100u);
   EXPECT_EQ(fields.seed, 4294967295u);
@@ -101,16 +111,16 @@ TEST(BoundOptions, SetTheirFields) {
 
 TEST(BoundOptions, RefuseWhatIsOutsideAndLeaveTheField) {
   Bound fields;
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"--width", "0.49"},
-           {"--width", "10.1"},
-           {"--width", "nan"},
-           {"--count", "0"},
-           {"--count", "101"},
-           {"--count", "1.5"},
-           {"--seed", "-1"},
-           {"--seed", "4294967296"},
-           {"--form", "square"}})
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"--width", "0.49"},
+                                             {"--width", "10.1"},
+                                             {"--width", "nan"},
+                                             {"--count", "0"},
+                                             {"--count", "101"},
+                                             {"--count", "1.5"},
+                                             {"--seed", "-1"},
+                                             {"--seed", "4294967296"},
+                                             {"--form", "square"}})
     EXPECT_THROW(fields.take(words), UsageError) << words[0] << " " << words[1];
   EXPECT_EQ(fields.widthMm, 2.5);
   EXPECT_EQ(fields.count, std::nullopt);
@@ -132,6 +142,7 @@ TEST(BoundOptions, AreExplainedByTheirFields) {
 // Options that a command asks for later are checked with the same range and words.
 TEST(BoundOptions, OthersAreCheckedAndExplained) {
   const CommandSpec spec{.synopsis = "palpate try",
+                         .purpose = "A command for this test.",
                          .options = {ranged("length", "S", "length", {0.1, 60.0, "s"}, "1"),
                                      rangedWhole("frame", "N", "frame", kFrameOption),
                                      worded("form", "FORM", "", kFormWords, "flat")},

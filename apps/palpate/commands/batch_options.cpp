@@ -111,7 +111,8 @@ int runBatchCommand(const CommandLine& given,
                     const BatchTask& task,
                     const BatchCommand& command) {
   BatchOptions options;
-  options.threads = static_cast<std::size_t>(given.integer("threads", BatchOptions::kThreads).value_or(0));
+  options.threads =
+      static_cast<std::size_t>(given.integer("threads", BatchOptions::kThreads).value_or(0));
   options.overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   options.resume = given.has("resume");
   const std::optional<std::string> table = given.text("report");

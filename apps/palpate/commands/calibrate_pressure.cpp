@@ -1,7 +1,6 @@
 // The command `palpate calibrate pressure TABLE.csv -o P.json` fits the pressure as a function of
 // gain and temperature.
 #include <array>
-
 #include <cstdint>
 #include <cstdio>
 #include <optional>

@@ -53,7 +53,8 @@ int calibrateSensitivity(const Arguments& words) {
                          threshold,
                          SensorSettings::kThresholdCounts),
                    boundChoice("signal", "NAME", "", options.steps.signal, signalWords()),
-                   boundChoice("loss", "NAME", "of the step fits", options.fit.loss, kStepLossWords),
+                   boundChoice(
+                       "loss", "NAME", "of the step fits", options.fit.loss, kStepLossWords),
                    {"output,o", "OUT.json", "write the result to this file"},
                    {"force", "", "replace OUT.json"}},
        .example = "palpate calibrate sensitivity sensitivity_0.1-1.0.dsa --matrix 1",

@@ -128,10 +128,13 @@ std::string detail::rangeText(const OptionRange& range,
                               const std::optional<std::string>& usual,
                               bool isWhole) {
   std::string text = *range.unit ? std::string(" [") + range.unit + "]" : "";
-  const bool isOpen = isWhole ? range.maximum >= static_cast<double>(INT32_MAX)
-                              : !std::isfinite(range.maximum);
-  text += isOpen ? "; from " + numberText(range.minimum)
-                 : "; " + numberText(range.minimum) + ".." + numberText(range.maximum);
+  const bool isOpen =
+      isWhole ? range.maximum >= static_cast<double>(INT32_MAX) : !std::isfinite(range.maximum);
+  const auto textOf = [&](double value) {
+    return isWhole ? std::to_string(static_cast<std::int64_t>(value)) : numberText(value);
+  };
+  text += isOpen ? "; from " + textOf(range.minimum)
+                 : "; " + textOf(range.minimum) + ".." + textOf(range.maximum);
   return usual && !usual->empty() ? text + ", default " + *usual : text;
 }
 
@@ -169,12 +172,11 @@ OptionSpec ranged(const std::string& name,
                   std::string help,
                   OptionRange range,
                   const std::optional<std::string>& usual) {
-  return {name,
-          std::move(value),
-          std::move(help) + detail::rangeText(range, usual, false),
-          [option = longName(name), range](const CommandLine& given) {
-            given.number(option, range);
-          }};
+  return {
+      name,
+      std::move(value),
+      std::move(help) + detail::rangeText(range, usual, false),
+      [option = longName(name), range](const CommandLine& given) { given.number(option, range); }};
 }
 
 OptionSpec rangedWhole(const std::string& name,
@@ -182,12 +184,11 @@ OptionSpec rangedWhole(const std::string& name,
                        std::string help,
                        OptionRange range,
                        const std::optional<std::string>& usual) {
-  return {name,
-          std::move(value),
-          std::move(help) + detail::rangeText(range, usual, true),
-          [option = longName(name), range](const CommandLine& given) {
-            given.integer(option, range);
-          }};
+  return {
+      name,
+      std::move(value),
+      std::move(help) + detail::rangeText(range, usual, true),
+      [option = longName(name), range](const CommandLine& given) { given.integer(option, range); }};
 }
 
 OptionSpec topicOption() {

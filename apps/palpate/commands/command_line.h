@@ -190,7 +190,7 @@ OptionSpec bound(const std::string& name,
   }())::type;
   constexpr bool isWhole = std::is_integral_v<Number>;
   if constexpr (!isOptional)
-    if (!usual) usual = numberText(static_cast<double>(field));
+    if (!usual) usual = isWhole ? std::to_string(field) : numberText(static_cast<double>(field));
   const auto take = [option = detail::longName(name), &field, range](const CommandLine& given) {
     if constexpr (isWhole) {
       if (const auto whole = given.integer(option, range)) field = static_cast<Number>(*whole);

@@ -62,8 +62,7 @@ std::unique_ptr<ResultTable> contactOfRecording(const CommandLine& given,
                                                 const std::filesystem::path& file,
                                                 const Recording& recording,
                                                 const Progress& progress) {
-  const Profile profile =
-      filteredBy(request.filters, recording, file, partOf(progress, 0.0, 0.3));
+  const Profile profile = filteredBy(request.filters, recording, file, partOf(progress, 0.0, 0.3));
   requireWithinFullScale("threshold", request.rows.contact.threshold, profile.hand());
   ContactRowsOptions rows = request.rows;
   const bool isRigid = profile.hand().axes.empty();
@@ -80,8 +79,7 @@ std::unique_ptr<ResultTable> contactOfRecording(const CommandLine& given,
       return ForceReading{knownForceN(pressures), isOnlyTooLight(pressures)};
     };
   }
-  return contactTable(
-      profile, geometryOf(given, file, profile), rows, partOf(progress, 0.3, 1.0));
+  return contactTable(profile, geometryOf(given, file, profile), rows, partOf(progress, 0.3, 1.0));
 }
 
 }  // namespace
@@ -112,7 +110,8 @@ int contactCommand(const Arguments& words) {
                   ContactOptions::kThreshold),
             fingertipOption("study, of --size effective"),
             bound("from", "N", "first frame", request.from, kFrameOption, "0"),
-            bound("to", "M", "last frame (inclusive)", request.to, kFrameOption, "the last one")}))),
+            bound(
+                "to", "M", "last frame (inclusive)", request.to, kFrameOption, "the last one")}))),
        .example = "palpate contact foam_ball.dsa > contact.csv",
        .minArguments = 1},
       words);
@@ -127,14 +126,13 @@ int contactCommand(const Arguments& words) {
         "--calibration fills force_n of frames; forces of matrices: palpate calibrate apply");
   if (request.from && request.to && *request.from > *request.to)
     throw UsageError("--from is after --to");
-  return runTableCommand(
-      given,
-      {.options = "contact" + choicesText(given),
-       .of = [&](const std::filesystem::path& file,
-                 const Recording& recording,
-                 const Progress& progress) {
-         return contactOfRecording(given, request, file, recording, progress);
-       }});
+  return runTableCommand(given,
+                         {.options = "contact" + choicesText(given),
+                          .of = [&](const std::filesystem::path& file,
+                                    const Recording& recording,
+                                    const Progress& progress) {
+                            return contactOfRecording(given, request, file, recording, progress);
+                          }});
 }
 
 }  // namespace palpate::commands

@@ -134,8 +134,8 @@ int convertBatch(const CommandLine& given) {
   return runBatchCommand(given, names, convertTaskOf(given, names.ending()));
 }
 
-// FOLDER OUTFOLDER --to-form FORM (`ending`: ".FORM"): a batch that keeps the names; of two that would get the same
-// one, the second fails.
+// FOLDER OUTFOLDER --to-form FORM (`ending`: ".FORM"): a batch that keeps the names; of two that
+// would get the same one, the second fails.
 int convertFolder(const CommandLine& given, const std::string& ending) {
   const fs::path outFolder = given.words()[1];
   std::error_code ignored;

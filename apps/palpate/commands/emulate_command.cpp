@@ -63,9 +63,8 @@ EmulatedHandOptions emulateOptionsOf(const CommandLine& given) {
     throw UsageError("--dsa and --sdh need different names");
   if (const auto rate = given.text("rate")) setRate(*rate, options);
   options.seed = seedOf(given);
-  options.dsa.firmware =
-      static_cast<std::uint16_t>(
-          given.integer("dsa-firmware", DsaServerOptions::kFirmware).value_or(options.dsa.firmware));
+  options.dsa.firmware = static_cast<std::uint16_t>(
+      given.integer("dsa-firmware", DsaServerOptions::kFirmware).value_or(options.dsa.firmware));
   if (const auto firmware = given.text("sdh-firmware")) options.sdh.firmware = *firmware;
   options.faults = faultsOf(given);
   return options;
@@ -88,8 +87,9 @@ EmulatedStreamOptions streamedOptionsOf(const CommandLine& given) {
     if (*rate == "max")
       options.asFastAsRead = true;
     else if (!hz || !options.kRateHz.contains(*hz))
-      throw UsageError("--rate of a stream must be max or a number " + numberText(options.kRateHz.minimum) +
-                       ".." + numberText(options.kRateHz.maximum) + ", not '" + *rate + "'");
+      throw UsageError("--rate of a stream must be max or a number " +
+                       numberText(options.kRateHz.minimum) + ".." +
+                       numberText(options.kRateHz.maximum) + ", not '" + *rate + "'");
     else
       options.rateHz = *hz;
   }

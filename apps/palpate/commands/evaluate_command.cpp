@@ -1,8 +1,7 @@
 // The command `palpate evaluate PATH` measures how well grasps are recognised, by cross-validation
 // or with a model on other recordings.
-#include <array>
-
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -150,9 +149,8 @@ int crossValidation(const CommandLine& given, const CrossValidation& how) {
   options = pipelineGiven(given, table.set);
   sayNotes(given, table.set, samples);
   requireLearnable(samples);
-  const auto splits =
-      how.blocks ? blockSplits(samples.y, kBlocks)
-                 : stratifiedSplits(samples.y, how.numSplits, how.seed);
+  const auto splits = how.blocks ? blockSplits(samples.y, kBlocks)
+                                 : stratifiedSplits(samples.y, how.numSplits, how.seed);
   ValidationReport report(samples.classes);
   std::vector<LearningPoint> curve;
   std::vector<EliminationStep> steps;

@@ -11,8 +11,8 @@ std::vector<OptionSpec> withExportOptions(std::vector<OptionSpec> options) {
       {"no-signals", "", "of .h5, .mat and .mcap: without the characteristic signals"});
   options.push_back({"no-slip", "", "of .h5, .mat and .mcap: without the slip"});
   options.push_back(worded("compression", "KIND", "of .mcap", kMcapCompressionWords, "zstd"));
-  options.push_back(worded(
-      "images", "KIND", "of .mcap: sensor_msgs/Image or RawImage", kMcapImagesWords, "ros"));
+  options.push_back(
+      worded("images", "KIND", "of .mcap: sensor_msgs/Image or RawImage", kMcapImagesWords, "ros"));
   options.push_back({"units-row", "", "of .csv: a second row with the units"});
   return options;
 }

@@ -59,8 +59,9 @@ int featuresCommand(const Arguments& words) {
   if (given.helpShown()) return kDone;
   options.filters = recipeOf(given);
   if (given.has("output"))
-    return runBatchCommand(
-        given, batchTemplateOf(given, {".csv", ".json"}), featuresTask(options.set, options.filters));
+    return runBatchCommand(given,
+                           batchTemplateOf(given, {".csv", ".json"}),
+                           featuresTask(options.set, options.filters));
   refuseBatchOptions(given);
   FeatureTable table = gather(given, options);
 

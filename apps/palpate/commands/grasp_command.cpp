@@ -162,8 +162,8 @@ void holdingOf(const CommandLine& given, const GraspChoices& choices, GraspReque
   holding.maxLimitCounts =
       choices.mostLimitCounts.value_or(std::max(holding.maxLimitCounts, request.limitCounts));
   if (holding.maxLimitCounts < request.limitCounts)
-    throw UsageError("--most " + std::to_string(holding.maxLimitCounts) + " is below the limit of " +
-                     std::to_string(request.limitCounts) + " counts");
+    throw UsageError("--most " + std::to_string(holding.maxLimitCounts) +
+                     " is below the limit of " + std::to_string(request.limitCounts) + " counts");
   holding.weightN = kGravity * choices.massKg;
 }
 

@@ -26,9 +26,8 @@ int graspsCommand(const Arguments& words) {
            "taxels over the middle half of its frames (1: held steadily)\n  1, 1/2 or 1/4 if both, "
            "one or none of its ends are inside the recording (not at its first or last frame, nor "
            "beside a gap)",
-       .options =
-           withTableOptions(withFilterOptions(
-               {boundChoice("rule", "RULE", "", options.segments.rule, kGraspRuleWords)})),
+       .options = withTableOptions(withFilterOptions(
+           {boundChoice("rule", "RULE", "", options.segments.rule, kGraspRuleWords)})),
        .example = "palpate grasps recordings --rule general > grasps.csv",
        .minArguments = 1},
       words);

@@ -1,7 +1,6 @@
 // The command `palpate import DATA --hand HAND` imports a table of another program as a recording.
-#include <array>
-
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string_view>
 #include <utility>
@@ -21,10 +20,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<OptionWord<char>, 2> kDecimalWords{{{"point", '.'}, {"comma", ','}}};
-constexpr std::array<OptionWord<HeaderChoice>, 3> kHeaderWords{
-    {{"present", HeaderChoice::kPresent},
-     {"absent", HeaderChoice::kAbsent},
-     {"detect", HeaderChoice::kDetect}}};
+constexpr std::array<OptionWord<HeaderChoice>, 3> kHeaderWords{{{"present", HeaderChoice::kPresent},
+                                                                {"absent", HeaderChoice::kAbsent},
+                                                                {"detect", HeaderChoice::kDetect}}};
 constexpr std::array<OptionWord<ComponentOrder>, 2> kComponentWords{
     {{"interleaved", ComponentOrder::kInterleaved}, {"planar", ComponentOrder::kPlanar}}};
 constexpr OptionRange kRateHz{1e-6, 1e6, "Hz"};

@@ -350,7 +350,8 @@ int recordCommand(const Arguments& words) {
       std::fprintf(stderr, "%s\n", escapedLine(place).c_str());
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
   if (given.has("baseline"))
-    takeBaseline(session, interruption, captureOptions.baselineS, choices.firstFrameS, given.quiet());
+    takeBaseline(
+        session, interruption, captureOptions.baselineS, choices.firstFrameS, given.quiet());
   session.startRecording(std::move(options));
   StreamNotice notice(streamOf(session), given.quiet());
   recordUntilDone(session, interruption, choices.firstFrameS, given.quiet(), notice);

@@ -36,7 +36,8 @@ RemoteRecorderOptions remoteRecordingOptionsOf(const CommandLine& given, Recordi
     if (const std::string problem = problemOfRemoteName(options.nameTemplate); !problem.empty())
       throw UsageError("-o: " + problem);
   }
-  options.limits.firstFrameS = given.number("wait", StartLimits::kFirstFrameS).value_or(options.limits.firstFrameS);
+  options.limits.firstFrameS =
+      given.number("wait", StartLimits::kFirstFrameS).value_or(options.limits.firstFrameS);
   options.recording = std::move(each);
   return options;
 }

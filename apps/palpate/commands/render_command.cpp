@@ -88,8 +88,7 @@ Sheet chosenSheet(const CommandLine& given, gui::MatricesPictureOptions& options
                                    [&](const char* name) { return given.has(name); });
   if (onPaper) {
     const double widthMm = given.number("width-mm", kPaperMm).value_or(kUsualWidthMm);
-    const double heightMm =
-        given.number("height-mm", kPaperMm).value_or(widthMm * kUsualHeight);
+    const double heightMm = given.number("height-mm", kPaperMm).value_or(widthMm * kUsualHeight);
     const double textPt = given.number("text-pt", kTextPt).value_or(kUsualTextPt);
     options.size = QSizeF(widthMm, heightMm) / kMmPerInch * kUnitsPerInch;
     sheet.textUnits = static_cast<int>(std::lround(textPt * kUnitsPerPt));
@@ -398,69 +397,62 @@ int renderCommand(const Arguments& words) {
           ".mp4, it makes a movie of these frames at their recorded times; this needs the program "
           "ffmpeg ($PALPATE_FFMPEG, else in $PATH). With a template as OUT (out/{name}.png) it "
           "makes a picture or movie of each recording.",
-      .options = {rangedWhole("frame", "N", "which", kFrameOption, "the frame of largest sum"),
-                  rangedWhole("from", "N", "first frame of a series", kFrameOption, "0"),
-                  rangedWhole(
-                      "to", "M", "last frame, inclusive", kFrameOption, "the recording's last"),
-                  {"output,o", "OUT", "the picture or movie, or the folder of a series"},
-                  bound("speed",
-                        "X",
-                        "speed of a movie; 1: the recorded speed",
-                        movie.speed,
-                        MovieOptions::kSpeed),
-                  bound("fps",
-                        "N",
-                        "pictures per second of a movie",
-                        movie.picturesPerS,
-                        MovieOptions::kPicturesPerS),
-                  {"view",
-                   "matrices|hand|both",
-                   "what to draw; default matrices; both: side by side"},
-                  {"size", "WxH", "px (96 per inch), default 900x720; PNG has twice as many"},
-                  {"print", "", "for paper: white background, 174 mm wide, text of 8 pt, 300 dpi"},
-                  ranged("width-mm",
-                         "W",
-                         "width on paper; journals take 85, 114, 174",
-                         kPaperMm,
-                         numberText(kUsualWidthMm)),
-                  ranged("height-mm",
-                         "H",
-                         "height on paper",
-                         kPaperMm,
-                         numberText(kUsualHeight) + " of the width"),
-                  ranged("text-pt",
-                         "P",
-                         "size of text on paper",
-                         kTextPt,
-                         numberText(kUsualTextPt)),
-                  ranged("dpi",
-                         "D",
-                         "pixels of a PNG per inch",
-                         kDpi,
-                         numberText(gui::PicturePaper{}.dpi) + ", on paper " +
-                             numberText(kPaperDpi)),
-                  boundChoice("map", "NAME", "colours", options.map, colorMapWords()),
-                  {"range",
-                   "MIN,MAX",
-                   "counts of the lowest and the highest colour; default 0 to "
-                   "the maximum of the frame, or of all frames of a series"},
-                  bound("interpolated", "smooth between the taxels", options.interpolated),
-                  bound("values", "print the value of every active taxel", options.values),
-                  boundChoice("component",
-                              "NAME",
-                              "of readings with a sign or three components; normal: z, with its "
-                              "sign on a diverging map",
-                              options.taxels,
-                              wordsOf(gui::kAllTaxelViews,
-                                      [](gui::TaxelView view) { return gui::nameOf(view); })),
-                  bound("arrows",
-                        "F",
-                        "length of the arrows of shear; 1: a shear as large as the highest colour "
-                        "is one taxel long; 0: none",
-                        options.arrows,
-                        {0.0, gui::kLongestArrows}),
-                  boundChoice("theme", "NAME", "", options.theme, gui::kThemeWords),
-                  {"force", "", "replace OUT"}},
+      .options =
+          {rangedWhole("frame", "N", "which", kFrameOption, "the frame of largest sum"),
+           rangedWhole("from", "N", "first frame of a series", kFrameOption, "0"),
+           rangedWhole("to", "M", "last frame, inclusive", kFrameOption, "the recording's last"),
+           {"output,o", "OUT", "the picture or movie, or the folder of a series"},
+           bound("speed",
+                 "X",
+                 "speed of a movie; 1: the recorded speed",
+                 movie.speed,
+                 MovieOptions::kSpeed),
+           bound("fps",
+                 "N",
+                 "pictures per second of a movie",
+                 movie.picturesPerS,
+                 MovieOptions::kPicturesPerS),
+           {"view", "matrices|hand|both", "what to draw; default matrices; both: side by side"},
+           {"size", "WxH", "px (96 per inch), default 900x720; PNG has twice as many"},
+           {"print", "", "for paper: white background, 174 mm wide, text of 8 pt, 300 dpi"},
+           ranged("width-mm",
+                  "W",
+                  "width on paper; journals take 85, 114, 174",
+                  kPaperMm,
+                  numberText(kUsualWidthMm)),
+           ranged("height-mm",
+                  "H",
+                  "height on paper",
+                  kPaperMm,
+                  numberText(kUsualHeight) + " of the width"),
+           ranged("text-pt", "P", "size of text on paper", kTextPt, numberText(kUsualTextPt)),
+           ranged("dpi",
+                  "D",
+                  "pixels of a PNG per inch",
+                  kDpi,
+                  numberText(gui::PicturePaper{}.dpi) + ", on paper " + numberText(kPaperDpi)),
+           boundChoice("map", "NAME", "colours", options.map, colorMapWords()),
+           {"range",
+            "MIN,MAX",
+            "counts of the lowest and the highest colour; default 0 to "
+            "the maximum of the frame, or of all frames of a series"},
+           bound("interpolated", "smooth between the taxels", options.interpolated),
+           bound("values", "print the value of every active taxel", options.values),
+           boundChoice(
+               "component",
+               "NAME",
+               "of readings with a sign or three components; normal: z, with its "
+               "sign on a diverging map",
+               options.taxels,
+               wordsOf(gui::kAllTaxelViews, [](gui::TaxelView view) { return gui::nameOf(view); })),
+           bound("arrows",
+                 "F",
+                 "length of the arrows of shear; 1: a shear as large as the highest colour "
+                 "is one taxel long; 0: none",
+                 options.arrows,
+                 {0.0, gui::kLongestArrows}),
+           boundChoice("theme", "NAME", "", options.theme, gui::kThemeWords),
+           {"force", "", "replace OUT"}},
       .example = "palpate render foam_ball.dsa --frame 2411 -o frame.svg --values",
       .minArguments = 1};
   const auto ofHand = handViewOptions();
@@ -507,8 +499,13 @@ int renderCommand(const Arguments& words) {
     const gui::FrameSpan span = chosenSpan(given, file, profile);
     options.pixelRatio = sheet.paper.scale();
     useOneRange(profile, span, options);
-    return drawMovie(
-        given, movie, profile, span, painterOf(given, profile, span, options), sheet.paper, overwrite);
+    return drawMovie(given,
+                     movie,
+                     profile,
+                     span,
+                     painterOf(given, profile, span, options),
+                     sheet.paper,
+                     overwrite);
   }
   return isSeries ? drawSeries(given, profile, sheet.paper, options, overwrite)
                   : drawOne(given, profile, sheet.paper, options, overwrite);

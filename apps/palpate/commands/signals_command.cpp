@@ -36,7 +36,8 @@ int signalsCommand(const Arguments& words) {
                   "matrix without active taxels has zeros. A sensor that sends readings with a "
                   "sign or three components also has x, y, z, their sums over the baseline, and "
                   "norm, the length of the three; with --filter it doesn't. PATH is a recording, "
-                  "or a folder: every recording below it. With several recordings a last column names the file; one "
+                  "or a folder: every recording below it. With several recordings a last column "
+                  "names the file; one "
                   "that can't be read is reported, and the rows of the others are printed: exit "
                   "code 3. With -o there is a table for each recording.",
        .options = withTableOptions(withFilterOptions(

@@ -63,9 +63,8 @@ int slipCommand(const Arguments& words) {
                   "threshold of the rotation",
                   rule.rotationDeg,
                   rule.kRotationDeg),
-            bound("segments",
-                  "a row per slip: frames, matrix, length of the path",
-                  options.segments),
+            bound(
+                "segments", "a row per slip: frames, matrix, length of the path", options.segments),
             timeOption()})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},

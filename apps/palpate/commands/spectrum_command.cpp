@@ -98,7 +98,8 @@ Series seriesOf(const CommandLine& given,
 
 SpectrumOptions spectrumOptionsOf(const CommandLine& given, bool oneLine) {
   SpectrumOptions options = oneLine ? welchOptions() : SpectrumOptions{};
-  options.window = static_cast<int>(given.integer("window", options.kWindow).value_or(options.window));
+  options.window =
+      static_cast<int>(given.integer("window", options.kWindow).value_or(options.window));
   // Default: all but one sample, as in the study; half a window where segments are averaged.
   options.overlap =
       static_cast<int>(given.integer("overlap", 0, options.window - 1)

@@ -25,7 +25,8 @@ constexpr double kFramesPerGrasp = 12.0;  // at least; see SyntheticOptions::val
 Profile fromScene(const CommandLine& given, const std::string& name, const Progress& progress) {
   const Scene scene = loadScene(name, dataFolder() / "scenes");
   SimulatedRecordingOptions options;
-  options.durationS = given.number("duration", SyntheticOptions::kDurationS).value_or(options.durationS);
+  options.durationS =
+      given.number("duration", SyntheticOptions::kDurationS).value_or(options.durationS);
   options.frameIntervalS =
       1.0 / given.number("rate", SyntheticOptions::kRateHz).value_or(1.0 / options.frameIntervalS);
   options.hand.seed = static_cast<std::uint64_t>(given.integer("seed", kSeedOption).value_or(1));

@@ -58,12 +58,12 @@ Json reportOf(const TrainedModel& model,
 
 int trainCommand(const Arguments& words) {
   std::optional<FeatureSet> asked;
-  std::vector<OptionSpec> options = {{"output,o", "MODEL.json", "write the model there"},
-                                     boundChoice(
-                                         "set", "SET", "", asked, kFeatureSetWords, kDefaultFeatureSetText),
-                                     zeroOptionSpec(),
-                                     {"force", "", "replace MODEL.json"},
-                                     {"json", "", "no effect: it always prints JSON"}};
+  std::vector<OptionSpec> options = {
+      {"output,o", "MODEL.json", "write the model there"},
+      boundChoice("set", "SET", "", asked, kFeatureSetWords, kDefaultFeatureSetText),
+      zeroOptionSpec(),
+      {"force", "", "replace MODEL.json"},
+      {"json", "", "no effect: it always prints JSON"}};
   for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.end() - 3, std::move(one));
   const CommandLine given(
       {.synopsis =

@@ -98,11 +98,8 @@ int windowCommand(const Arguments& words) {
            {{"demo", "", "open on the emulated hand, which grasps a ball"},
             {"screenshot", "OUT.png", "save a picture of the window and exit"},
             {"size", "WxH", "with --screenshot: size in pixels, default 1600x1000"},
-            rangedWhole("frame",
-                        "N",
-                        "with --screenshot",
-                        kFrameOption,
-                        "the frame of largest sum"),
+            rangedWhole(
+                "frame", "N", "with --screenshot", kFrameOption, "the frame of largest sum"),
             ranged("after", "S", "with --screenshot: let the source play first", kAfterS, "0"),
             {"dock",
              "NAME",

@@ -24,7 +24,7 @@ struct SensorSettings {
   static constexpr OptionRange kThresholdCounts{0.0, 1e9, "counts"};
   double sensitivity = 1.0;
   double thresholdCounts = 100;
-  bool assumed = true;           // entered by a user, not read from the device or the recording
+  bool assumed = true;  // entered by a user, not read from the device or the recording
   bool operator==(const SensorSettings&) const = default;
 };
 

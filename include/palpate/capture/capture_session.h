@@ -28,8 +28,8 @@
 #include <palpate/core/time.h>
 #include <palpate/device/device.h>
 #include <palpate/device/series_source.h>
-#include <palpate/model/time_base.h>
 #include <palpate/model/rest_span.h>
+#include <palpate/model/time_base.h>
 
 namespace palpate {
 

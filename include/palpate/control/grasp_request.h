@@ -104,8 +104,7 @@ struct GraspRequest {
   double velocityDegPerS = 10.0;
   // Limit of a reactive grasp, which stops above it [counts]; first limit of a slip-aware
   // one.
-  static constexpr OptionRange kLimitCounts{
-      kMinGraspLimitCounts, kMaxGraspLimitCounts, "counts"};
+  static constexpr OptionRange kLimitCounts{kMinGraspLimitCounts, kMaxGraspLimitCounts, "counts"};
   int limitCounts = 200;
   // Lower limits of single fingers, one per finger, each 3..limitCounts [counts]; empty:
   // limitCounts holds for all. A slip-aware grasp raises them together with limitCounts.

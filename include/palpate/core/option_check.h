@@ -33,8 +33,8 @@ struct OptionCheck {
   }
   void operator()(const OptionRange& range, const char* field, double value) const {
     if (!range.contains(value))
-      throw std::invalid_argument(std::string(options) + ": " + field + " is " +
-                                  numberText(value) + ", not " + numberText(range.minimum) + ".." +
+      throw std::invalid_argument(std::string(options) + ": " + field + " is " + numberText(value) +
+                                  ", not " + numberText(range.minimum) + ".." +
                                   numberText(range.maximum));
   }
 };

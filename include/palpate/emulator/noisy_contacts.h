@@ -38,9 +38,9 @@ struct NoisyContactsOptions {
   static constexpr OptionRange kDegC{0.0, 80.0, "deg C"};
   static constexpr OptionRange kBelowCounts{-100.0, 100.0, "counts"};
   std::size_t frames = 3000;
-  double rateHz = 30.0;       // [Hz], 1..1000
-  double degC = 30.0;         // of all sensors [deg C]
-  double sensitivity = 1.0;   // 0..1
+  double rateHz = 30.0;      // [Hz], 1..1000
+  double degC = 30.0;        // of all sensors [deg C]
+  double sensitivity = 1.0;  // 0..1
   // Threshold as a multiple of the RMSE above the noise line (methods: 3), -20..20.
   double noiseMultiple = 3.0;
   // Amount subtracted from that threshold [counts].

@@ -43,8 +43,7 @@ std::string_view featureSetName(FeatureSet set) noexcept;
 std::optional<FeatureSet> featureSetNamed(std::string_view name) noexcept;
 // The set for a hand: `best` where two pads pinch, otherwise `statistics`.
 FeatureSet defaultFeatureSet(const HandDescription& hand);
-inline constexpr const char* kDefaultFeatureSetText =
-    "best where two pads pinch, else statistics";
+inline constexpr const char* kDefaultFeatureSetText = "best where two pads pinch, else statistics";
 // Throws Error when the hand has no pads that pinch and the set needs them.
 std::vector<std::string> featureNames(FeatureSet set, const HandDescription& hand);
 // Unit of a feature of a set: "mm", "deg", "taxels", "full scale"; empty for a number without unit,

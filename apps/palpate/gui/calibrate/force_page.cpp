@@ -135,7 +135,8 @@ void ForcePage::makeTop() {
     });
     return made;
   };
-  sensitivity_ = field("forceSensitivity", "Sensitivity", SensorSettings::kSensitivity.minimum, 1.0);
+  sensitivity_ =
+      field("forceSensitivity", "Sensitivity", SensorSettings::kSensitivity.minimum, 1.0);
   threshold_ = field("forceThreshold", "Threshold in counts", 0.0, 0.0);  // showCalibration()
   threshold_->setDecimals(0);
   keep_ =

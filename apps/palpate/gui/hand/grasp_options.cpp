@@ -133,8 +133,8 @@ void GraspOptions::makeHolding(QFormLayout& form) {
   calm_ = field("calmTime", "Calm", 0.1, 86'400.0, 1);
   calm_->setToolTip("Slip-aware: after this time without slip the limit falls again");
   recall(settings_, kCalm, *calm_, usual.noSlipS);
-  hold_ = field(
-      "holdTime", "Hold", HoldingOptions::kHoldS.minimum, HoldingOptions::kHoldS.maximum, 1);
+  hold_ =
+      field("holdTime", "Hold", HoldingOptions::kHoldS.minimum, HoldingOptions::kHoldS.maximum, 1);
   hold_->setToolTip("Slip-aware: ends after this time; the hand goes on holding. 0: until stopped");
   hold_->setSpecialValueText("until stopped");
   recall(settings_, kHold, *hold_, usual.holdS);
