@@ -16,6 +16,7 @@
 #include <pybind11/pybind11.h>
 
 #include "palpate/core/json.h"
+#include "palpate/core/option_check.h"
 #include "palpate/core/time.h"
 
 namespace palpate::python {
@@ -77,15 +78,17 @@ Json toJson(const pybind11::object& value);
 
 // The value that belongs to a word; raises ValueError that lists the known words.
 template <typename T>
-T choice(const char* name,
-         const std::string& word,
-         std::initializer_list<std::pair<const char*, T>> known) {
+T choice(const char* name, const std::string& word, std::span<const OptionWord<T>> known) {
   std::string list;
   for (const auto& [text, value] : known) {
     if (word == text) return value;
     list += (list.empty() ? "" : ", ") + std::string(text);
   }
   throw std::invalid_argument(std::string(name) + " is '" + word + "'; it is one of " + list);
+}
+template <typename T>
+T choice(const char* name, const std::string& word, std::initializer_list<OptionWord<T>> known) {
+  return choice<T>(name, word, std::span(known.begin(), known.size()));
 }
 
 }  // namespace palpate::python

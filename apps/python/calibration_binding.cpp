@@ -99,10 +99,9 @@ Calibration calibratePressure(const py::object& table,
   model.study = choice<bool>("choices", choices, {{"default", false}, {"study", true}});
   model.indenterAreaMm2 = area;
   model.validate();
-  if (!(sensitivity > 0.0 && sensitivity <= 1.0))
-    throw py::value_error("sensitivity is not above 0, at most 1");
-  if (!(threshold >= 0.0 && std::isfinite(threshold)))
-    throw py::value_error("threshold is not 0 or above");
+  constexpr OptionCheck check{"calibration"};
+  check(SensorSettings::kSensitivity, "sensitivity", sensitivity);
+  check(SensorSettings::kThresholdCounts, "threshold", threshold);
   CalibrationSampleOptions gather;
   gather.matrix = matrix;
   return unlocked([&](const Progress& progress) {
@@ -270,7 +269,7 @@ void bindCalibration(py::module_& module) {
              &calibrateNoise,
              py::arg("profile"),
              py::kw_only(),
-             py::arg("bins") = 20,
+             py::arg("bins") = NoiseFloorOptions{}.bins,
              "Noise floor of an unloaded hand at threshold 0 over its temperature (study, 3.4): "
              "dict matrices [{index, slope [counts/deg C], intercept, rmse, rmse_true [counts], "
              "bins, ..}], notes, as `palpate calibrate noise` prints it.");
@@ -287,7 +286,7 @@ void bindCalibration(py::module_& module) {
              py::arg("sensitivities"),
              py::arg("K"),
              py::kw_only(),
-             py::arg("threshold") = 100.0,
+             py::arg("threshold") = SensorSettings{}.thresholdCounts,
              "Gain K (n,) [counts] of one load against sensitivity (n,) [0..1]: dict points, "
              "slope, offset [counts], r2, .., as `palpate calibrate sensitivity` prints it. "
              "threshold: setting meanwhile [counts], for the explanation.");
@@ -302,9 +301,9 @@ void bindCalibration(py::module_& module) {
              py::kw_only(),
              py::arg("matrix") = py::none(),
              py::arg("choices") = "default",
-             py::arg("area") = 0.0,
-             py::arg("sensitivity") = 1.0,
-             py::arg("threshold") = 100.0,
+             py::arg("area") = PressureModelOptions{}.indenterAreaMm2,
+             py::arg("sensitivity") = SensorSettings{}.sensitivity,
+             py::arg("threshold") = SensorSettings{}.thresholdCounts,
              "Pressure from gain and temperature of loading steps: table is a CSV file "
              "(file,pressure_kpa[,temperature_c]) or a list of such tuples. matrix: the loaded one "
              "(None: the one with the largest readings); choices 'study': all terms and the "

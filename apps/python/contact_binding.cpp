@@ -143,7 +143,7 @@ void bindContact(py::module_& module) {
       py::arg("profile"),
       py::kw_only(),
       py::arg("angles_deg") = py::none(),
-      py::arg("threshold") = 0.0,
+      py::arg("threshold") = ContactOptions{}.threshold,
       py::arg("fingertip") = "study",
       py::arg("start") = 0,
       py::arg("stop") = py::none(),

@@ -20,12 +20,7 @@ namespace palpate::python {
 namespace py = pybind11;
 
 FeatureSet featureSetOf(const std::string& name) {
-  return choice<FeatureSet>("set",
-                            name,
-                            {{"study", FeatureSet::kStudy},
-                             {"best", FeatureSet::kBest},
-                             {"session", FeatureSet::kSession},
-                             {"statistics", FeatureSet::kStatistics}});
+  return choice<FeatureSet>("set", name, kFeatureSetWords);
 }
 
 namespace {
@@ -104,8 +99,7 @@ namespace {
 
 Table grasps(const Profile& profile, const std::string& rule) {
   GraspSegmentOptions options;
-  options.rule = choice<GraspRule>(
-      "rule", rule, {{"general", GraspRule::kGeneral}, {"study", GraspRule::kStudy}});
+  options.rule = choice<GraspRule>("rule", rule, kGraspRuleWords);
   if (options.rule == GraspRule::kStudy && !(profile.hand().file && profile.hand().file->pinch))
     throw py::value_error("rule 'study' needs a hand with two pads that pinch: use 'general'");
   Table table =

@@ -273,7 +273,7 @@ void bindFilters(py::module_& module) {
              &ghosts,
              py::arg("profile"),
              py::kw_only(),
-             py::arg("above") = 0.0,
+             py::arg("above") = GhostingOptions{}.activeAboveCounts,
              "ghosts(profile, *specs, above=0.0) -> dict\n\n"
              "Taxels that are active in a recording of a hand that nothing touches, as it came and "
              "through filters: dict frames, frames_with_false, false_taxels {before, after, "

@@ -18,11 +18,7 @@ namespace palpate::python {
 namespace py = pybind11;
 
 GeometryDescription geometryNamed(const HandDescription& hand, const std::string& fingertip) {
-  return describeGeometry(
-      hand,
-      choice<BendRadius>("fingertip",
-                         fingertip,
-                         {{"study", BendRadius::kNominal}, {"effective", BendRadius::kEffective}}));
+  return describeGeometry(hand, choice<BendRadius>("fingertip", fingertip, kBendRadiusWords));
 }
 
 namespace {

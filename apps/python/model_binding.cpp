@@ -158,7 +158,7 @@ void bindModel(py::module_& module) {
            &evaluateWith,
            py::arg("source"),
            py::kw_only(),
-           py::arg("adapt") = 0,
+           py::arg("adapt") = EvaluationOptions{}.adaptPerClass,
            py::arg("session_offset") = "model",
            "How well it does on recordings with known classes: dict accuracy, interval (Wilson, 95 "
            "%), grasps, right, top3, coverage, accuracy_when_sure, sessions, classes, confusion "

@@ -43,12 +43,8 @@ SpectrumOptions optionsOf(int window,
   SpectrumOptions options;
   options.window = window;
   options.overlap = overlap.value_or(window - 1);
-  options.detrend = choice<Detrend>(
-      "detrend",
-      detrend,
-      {{"mean", Detrend::kMean}, {"line", Detrend::kLine}, {"none", Detrend::kNone}});
-  options.gridRate =
-      choice<GridRate>("rate", rate, {{"mean", GridRate::kMean}, {"median", GridRate::kMedian}});
+  options.detrend = choice<Detrend>("detrend", detrend, kDetrendWords);
+  options.gridRate = choice<GridRate>("rate", rate, kGridRateWords);
   options.validate();
   return options;
 }
@@ -208,7 +204,7 @@ void bindSignals(py::module_& module) {
              py::arg("time_s"),
              py::arg("values"),
              py::kw_only(),
-             py::arg("window") = 32,
+             py::arg("window") = SpectrumOptions{}.window,
              py::arg("overlap") = py::none(),
              py::arg("detrend") = "mean",
              py::arg("rate") = "mean",
@@ -228,7 +224,7 @@ void bindSignals(py::module_& module) {
              py::arg("a"),
              py::arg("b"),
              py::kw_only(),
-             py::arg("window") = 256,
+             py::arg("window") = welchOptions().window,
              py::arg("overlap") = py::none(),
              py::arg("detrend") = "mean",
              py::arg("rate") = "mean",

@@ -212,7 +212,7 @@ void bindSlip(py::module_& module) {
       &slipRows<false>,
       py::arg("profile"),
       py::arg("matrix") = py::none(),
-      py::arg("method") = "contest",
+      py::arg("method") = nameOf(SlipDetectorOptions{}.method),
       py::kw_only(),
       py::arg("reference") = "first",
       py::arg("step") = rule.stepTaxels,
@@ -234,7 +234,7 @@ void bindSlip(py::module_& module) {
              &slipRows<true>,
              py::arg("profile"),
              py::arg("matrix") = py::none(),
-             py::arg("method") = "contest",
+             py::arg("method") = nameOf(SlipDetectorOptions{}.method),
              py::kw_only(),
              py::arg("reference") = "first",
              py::arg("step") = rule.stepTaxels,
@@ -255,10 +255,10 @@ void bindSlip(py::module_& module) {
   module.def("slip_benchmark",
              &slipBenchmark,
              py::kw_only(),
-             py::arg("noise") = 5.0,
+             py::arg("noise") = SlipAccuracyOptions{}.noiseSd,
              py::arg("shapes") = std::vector<std::string>{},
-             py::arg("seed") = 1,
-             py::arg("trials") = 8,
+             py::arg("seed") = SlipAccuracyOptions{}.seed,
+             py::arg("trials") = SlipAccuracyOptions{}.trials,
              "Accuracy of every method against synthetic truth, beside the Cramer-Rao bound: dict "
              "method -> dict rmse, bias, drift_100, crb, edge, tilt [taxels], gain_x, gain_y, "
              "rmse_deg, crb_deg [deg], invalid, steps, ns_per_step. noise: sd [counts]; shapes: "

@@ -17,13 +17,8 @@ namespace {
 
 StepFitOptions fitOptions(const std::string& loss, const std::string& damping) {
   StepFitOptions options;
-  options.loss = choice<StepLoss>("loss",
-                                  loss,
-                                  {{"squares", StepLoss::kSquares},
-                                   {"huber", StepLoss::kHuber},
-                                   {"cauchy", StepLoss::kCauchy}});
-  options.damping = choice<StepDamping>(
-      "damping", damping, {{"over", StepDamping::kOverdamped}, {"any", StepDamping::kAny}});
+  options.loss = choice<StepLoss>("loss", loss, kStepLossWords);
+  options.damping = choice<StepDamping>("damping", damping, kStepDampingWords);
   return options;
 }
 
@@ -186,7 +181,7 @@ void bindSteps(py::module_& module) {
              py::arg("signal") = "filtered_mean",
              py::arg("loss") = "squares",
              py::arg("damping") = "over",
-             py::arg("above") = 0.0,
+             py::arg("above") = LoadingStepOptions{}.aboveCounts,
              py::arg("least") = LoadingStepOptions{}.minDurationS,
              "Finds the loading steps of a matrix and fits each: dict matrix, signal, steps, "
              "notes, as `palpate calibrate step` prints it; of each step also t (n,) [s] and y "

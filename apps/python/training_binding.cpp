@@ -31,22 +31,19 @@ Wishes wishesOf(const std::optional<std::string>& classifier,
                 std::optional<double> cost,
                 const py::object& shrinkage) {
   Wishes wishes;
-  if (classifier) {
-    wishes.classifier = classifierNamed(*classifier);
-    if (!wishes.classifier)
-      throw py::value_error("classifier is '" + *classifier +
-                            "'; it is one of svm, qda, lda, gauss");
-  }
-  if (lda && *lda < 1) throw py::value_error("lda takes a number of components, at least 1");
+  constexpr OptionCheck check{"classifier"};
+  if (classifier)
+    wishes.classifier = choice<ClassifierKind>("classifier", *classifier, kClassifierWords);
+  if (lda) check(PipelineOptions::kComponents, "lda", *lda);
   if (lda) wishes.components = static_cast<std::size_t>(*lda);
-  if (cost && !(*cost >= 1e-6 && *cost <= 1e9)) throw py::value_error("c is not in 1e-6 .. 1e9");
+  if (cost) check(SvmOptions::kC, "c", *cost);
   wishes.cost = cost;
   if (py::isinstance<py::str>(shrinkage)) {
     choice<int>("shrinkage", shrinkage.cast<std::string>(), {{"auto", 0}});
     wishes.shrinkage.emplace(std::nullopt);
   } else if (!shrinkage.is_none()) {
     const auto share = shrinkage.cast<double>();
-    if (!(share >= 0.0 && share <= 1.0)) throw py::value_error("shrinkage is not in 0 .. 1");
+    check(DiscriminantOptions::kShrinkage, "shrinkage", share);
     wishes.shrinkage.emplace(share);
   }
   if (wishes.components && wishes.classifier == ClassifierKind::kGauss)

@@ -41,21 +41,11 @@ std::size_t beforeRelease(std::span<const double> values,
 }  // namespace
 
 void LoadingStepOptions::validate() const {
-  const auto require = [](bool good, const char* what, double is) {
-    if (!good)
-      throw std::invalid_argument(std::string("LoadingStepOptions: ") + what + ", is " +
-                                  numberText(is));
-  };
-  require(aboveCounts >= 0.0 && std::isfinite(aboveCounts),
-          "aboveCounts must be 0 or more",
-          aboveCounts);
-  require(minDurationS >= 0.0 && std::isfinite(minDurationS),
-          "minDurationS must be 0 or more",
-          minDurationS);
-  require(minFrames >= 6, "minFrames must be 6 or more", static_cast<double>(minFrames));
-  require(releaseFraction >= 0.0 && releaseFraction <= 1.0,
-          "releaseFraction must be 0..1",
-          releaseFraction);
+  constexpr OptionCheck check{"LoadingStepOptions"};
+  check(kAboveCounts, "aboveCounts", aboveCounts);
+  check(kMinDurationS, "minDurationS", minDurationS);
+  check(minFrames >= 6, "minFrames", static_cast<double>(minFrames));
+  check(OptionRange{0.0, 1.0}, "releaseFraction", releaseFraction);
 }
 
 StepSignal stepSignal(const Profile& profile,

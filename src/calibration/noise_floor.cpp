@@ -140,9 +140,8 @@ void judgeRest(const Profile& profile, const Progress& progress, NoiseFloor& flo
 }  // namespace
 
 void NoiseFloorOptions::validate() const {
-  if (bins < 2 || bins > 1000)
-    throw std::invalid_argument("NoiseFloorOptions: bins must be 2..1000, is " +
-                                std::to_string(bins));
+  constexpr OptionCheck check{"NoiseFloorOptions"};
+  check(kBins, "bins", static_cast<double>(bins));
 }
 
 double NoiseLine::predictionHalfWidth(double degC) const {

@@ -77,20 +77,10 @@ void addNotes(const std::vector<SurfacePoint>& points,
 }  // namespace
 
 void PressureModelOptions::validate() const {
-  const auto require = [](bool good, const char* what, double is) {
-    if (!good)
-      throw std::invalid_argument(std::string("PressureModelOptions: ") + what + ", is " +
-                                  numberText(is));
-  };
-  require(std::isfinite(assumedDegC) && std::abs(assumedDegC) <= 200.0,
-          "assumedDegC must be -200..200",
-          assumedDegC);
-  require(assumedSdDegC > 0.0 && std::isfinite(assumedSdDegC),
-          "assumedSdDegC must be above 0",
-          assumedSdDegC);
-  require(indenterAreaMm2 >= 0.0 && std::isfinite(indenterAreaMm2),
-          "indenterAreaMm2 must be 0 (not known) or above",
-          indenterAreaMm2);
+  constexpr OptionCheck check{"PressureModelOptions"};
+  check(OptionRange{-200.0, 200.0}, "assumedDegC", assumedDegC);
+  check(assumedSdDegC > 0.0 && std::isfinite(assumedSdDegC), "assumedSdDegC", assumedSdDegC);
+  check(kIndenterAreaMm2, "indenterAreaMm2", indenterAreaMm2);
 }
 
 PressureEstimate PressureModel::pressureAt(double staticResponseCounts,

@@ -152,14 +152,11 @@ double shareAtRest(const MatrixTare& matrix, std::size_t numFrames) {
 }  // namespace
 
 void TareOptions::validate() const {
-  const auto require = [](bool good, const char* what, double is) {
-    if (!good)
-      throw std::invalid_argument(std::string("TareOptions: ") + what + ", is " + numberText(is));
-  };
-  require(windowS > 0.0 && std::isfinite(windowS), "windowS must be above 0", windowS);
-  require(maxRestCounts >= 0.0, "maxRestCounts must be 0 or more", maxRestCounts);
-  require(sameRestCounts >= 0.0, "sameRestCounts must be 0 or more", sameRestCounts);
-  require(maxSdCounts >= 0.0, "maxSdCounts must be 0 or more", maxSdCounts);
+  constexpr OptionCheck check{"TareOptions"};
+  check(kWindowS, "windowS", windowS);
+  check(kMaxRestCounts, "maxRestCounts", maxRestCounts);
+  check(sameRestCounts >= 0.0, "sameRestCounts", sameRestCounts);
+  check(maxSdCounts >= 0.0, "maxSdCounts", maxSdCounts);
 }
 
 bool Tare::any() const {

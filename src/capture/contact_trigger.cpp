@@ -4,20 +4,12 @@
 #include <string>
 
 namespace palpate {
-namespace {
-
-constexpr int kMostContactCount = 1'000'000;
-
-void requireContactOption(bool right, const char* rule) {
-  if (!right) throw std::invalid_argument(std::string("ContactTriggerOptions: ") + rule);
-}
-
-}  // namespace
-
 void ContactTriggerOptions::validate() const {
-  requireContactOption(threshold >= 0.0 && threshold <= 1e9, "threshold must be 0..1e9");
-  requireContactOption(taxels >= 1 && taxels <= kMostContactCount, "taxels must be 1..1000000");
-  requireContactOption(frames >= 1 && frames <= kMostContactCount, "frames must be 1..1000000");
+  constexpr OptionCheck check{"ContactTriggerOptions"};
+  constexpr OptionRange kCount{1, 1e6};
+  check(kThreshold, "threshold", threshold);
+  check(kCount, "taxels", taxels);
+  check(kCount, "frames", frames);
 }
 
 ContactTrigger::ContactTrigger(const ContactTriggerOptions& options) : options_(options) {

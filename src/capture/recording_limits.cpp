@@ -7,20 +7,11 @@
 #include "palpate/core/number_text.h"
 
 namespace palpate {
-namespace {
-
-void requireLimit(const std::optional<double>& value, double least, double most, const char* rule) {
-  if (value && !(*value >= least && *value <= most))
-    throw std::invalid_argument(std::string("RecordingLimits: ") + rule);
-}
-
-}  // namespace
-
 void RecordingLimits::validate() const {
-  requireLimit(stopAfterS, kLeastStopS, kMostStopS, "stopAfterS must be 0.05..1e7 s");
-  requireLimit(
-      splitMinutes, kLeastSplitMinutes, kMostSplitMinutes, "splitMinutes must be 1/60..1e5 min");
-  requireLimit(splitMb, kLeastSplitMb, kMostSplitMb, "splitMb must be 0.1..1e6 MB");
+  constexpr OptionCheck check{"RecordingLimits"};
+  if (stopAfterS) check(kStopAfterS, "stopAfterS", *stopAfterS);
+  if (splitMinutes) check(kSplitMinutes, "splitMinutes", *splitMinutes);
+  if (splitMb) check(kSplitMb, "splitMb", *splitMb);
 }
 
 void RecordingLimits::applyTo(RecordingOptions& options) const {

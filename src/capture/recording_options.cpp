@@ -56,8 +56,9 @@ void RecordingOptions::validate() const {
   atLeast(stopAfterFrames, std::int64_t{1}, "stopAfterFrames");
   atLeast(stopAfterBytes, kLeastBytes, "stopAfterBytes");
   contact.validate();
-  finite(stopWithoutContactS, "stopWithoutContactS");
-  atLeast(stopWithoutContactS, 0.05, "stopWithoutContactS");
+  if (stopWithoutContactS)
+    OptionCheck{"RecordingOptions"}(
+        kStopWithoutContactS, "stopWithoutContactS", *stopWithoutContactS);
   if (mcap) mcap->validate();
   requireRecordingOptions(mcapQueueItems > 0, "mcapQueueItems must be at least 1");
   for (const auto& [key, value] : meta)

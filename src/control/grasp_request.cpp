@@ -19,6 +19,11 @@ void requireRange(const char* field, double value, double least, double most, co
                               " is not in " + numberText(least) + ".." + numberText(most) + unit);
 }
 
+void requireRange(const char* field, double value, const OptionRange& range) {
+  const std::string unit = *range.unit ? std::string(" ") + range.unit : "";
+  requireRange(field, value, range.minimum, range.maximum, unit.c_str());
+}
+
 // A joint a little beyond its range, as a real one can be, stays where it is within the range.
 constexpr double kBeyondRangeDeg = 1.0;
 // Under tactile control the hand may be pressing already: see MoveJoints::answerLimitS.
@@ -106,7 +111,7 @@ std::string_view nameOf(GraspOutcome outcome) {
 namespace {
 
 void validateLimits(const GraspRequest& request) {
-  requireRange("limit", request.limitCounts, kMinGraspLimitCounts, kMaxGraspLimitCounts, " counts");
+  requireRange("limit", request.limitCounts, GraspRequest::kLimitCounts);
   const std::size_t fingers = numMovableFingers();
   if (!request.fingerLimitCounts.empty() && request.fingerLimitCounts.size() != fingers)
     throw std::invalid_argument("grasp: " + std::to_string(request.fingerLimitCounts.size()) +
@@ -126,8 +131,8 @@ void validateLimits(const GraspRequest& request) {
 void GraspRequest::validate() const {
   sdh2Preshape(preshape);
   if (startRatio) requireRange("start ratio", *startRatio, 0.0, 1.0, "");
-  requireRange("close ratio", closeRatio, 0.0, 1.0, "");
-  requireRange("velocity", velocityDegPerS, kMinGraspDegPerS, kMaxGraspDegPerS, " deg/s");
+  requireRange("close ratio", closeRatio, kCloseRatio);
+  requireRange("velocity", velocityDegPerS, kVelocityDegPerS);
   if (mode != GraspMode::kPlain) validateLimits(*this);
   if (touchRatio) requireRange("touch ratio", *touchRatio, 0.0, 1.0, "");
   if (object.size() > kMostObjectBytes || object.find('\n') != std::string::npos)
@@ -143,14 +148,14 @@ void GraspRequest::validate() const {
 }
 
 void HoldingOptions::validate(int limitCounts) const {
-  requireRange("hold time", holdS, 0.0, 86'400.0, " s");
+  requireRange("hold time", holdS, kHoldS);
   requireRange("settle time", settleS, 0.0, 60.0, " s");
   requireRange("rest time", restS, 0.0, 60.0, " s");
   requireRange("rise of the limit", raiseCounts, 1, kMaxGraspLimitCounts, " counts");
   requireRange("highest limit", maxLimitCounts, limitCounts, kMaxGraspLimitCounts, " counts");
-  requireRange("calm time", noSlipS, 0.01, 86'400.0, " s");
-  requireRange("weight", weightN, 0.0, 1000.0, " N");
-  requireRange("force per count", newtonsPerCount, 0.0, 1.0, " N");
+  requireRange("calm time", noSlipS, kNoSlipS);
+  requireRange("weight", weightN, kWeightN);
+  requireRange("force per count", newtonsPerCount, kNewtonsPerCount);
 }
 
 namespace {

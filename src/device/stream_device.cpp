@@ -13,9 +13,7 @@ namespace palpate {
 
 void StreamDeviceOptions::validate() const {
   if (source.empty()) throw std::invalid_argument("StreamDeviceOptions: no source is named");
-  if (baud < 50 || baud > 10'000'000)
-    throw std::invalid_argument("StreamDeviceOptions: baud " + std::to_string(baud) +
-                                " is not in 50..10000000");
+  OptionCheck{"StreamDeviceOptions"}(kBaud, "baud", baud);
   StreamShape{hand};
   if (!open) StreamSource{source, baud};
 }

@@ -88,8 +88,7 @@ void EmulatedStreamOptions::validate() const {
     throw std::invalid_argument("'" + shortened(where) +
                                 "' is not [ADDRESS:]PORT, for example 9871 or 0.0.0.0:9871; "
                                 "ADDRESS is numeric, PORT 0..65535 (0: a free one)");
-  if (!(rateHz >= 0.1 && rateHz <= 5000.0))
-    throw std::invalid_argument("EmulatedStreamOptions: rateHz must be 0.1..5000");
+  OptionCheck{"EmulatedStreamOptions"}(kRateHz, "rateHz", rateHz);
 }
 
 class EmulatedStream::Loop {

@@ -21,13 +21,6 @@ constexpr double kNoisyContactsMaxCounts = 4095.0;
 constexpr double kComesS = 0.4, kHoldsS = 1.2, kGoesS = 0.3, kRestsS = 1.1;
 constexpr double kContactS = kComesS + kHoldsS + kGoesS + kRestsS;
 
-void noisyContactsCheckRange(const char* name, double value, double least, double most) {
-  if (!(value >= least && value <= most))
-    throw std::invalid_argument(std::string("noisy contacts: ") + name + " is " +
-                                std::to_string(value) + ", not " + std::to_string(least) + ".." +
-                                std::to_string(most));
-}
-
 // Fraction of the full load at a time since the contact began.
 double loadAt(double timeS) {
   if (timeS < kComesS) return timeS / kComesS;
@@ -249,14 +242,15 @@ std::string_view nameOf(ContactSize size) {
 }
 
 void NoisyContactsOptions::validate() const {
-  noisyContactsCheckRange("frames", static_cast<double>(frames), 1.0, 1e6);
-  noisyContactsCheckRange("rateHz", rateHz, 1.0, 1000.0);
-  noisyContactsCheckRange("degC", degC, 0.0, 80.0);
-  noisyContactsCheckRange("sensitivity", sensitivity, 0.0, 1.0);
-  noisyContactsCheckRange("noiseMultiple", noiseMultiple, -20.0, 20.0);
-  noisyContactsCheckRange("belowCounts", belowCounts, -100.0, 100.0);
-  noisyContactsCheckRange("minKpa", minKpa, 1e-3, 1e3);
-  noisyContactsCheckRange("maxKpa", maxKpa, minKpa, 1e3);
+  constexpr OptionCheck check{"NoisyContactsOptions"};
+  check(kFrames, "frames", static_cast<double>(frames));
+  check(OptionRange{1.0, 1000.0}, "rateHz", rateHz);
+  check(kDegC, "degC", degC);
+  check(OptionRange{0.0, 1.0}, "sensitivity", sensitivity);
+  check(OptionRange{-20.0, 20.0}, "noiseMultiple", noiseMultiple);
+  check(kBelowCounts, "belowCounts", belowCounts);
+  check(OptionRange{1e-3, 1e3}, "minKpa", minKpa);
+  check(OptionRange{minKpa, 1e3}, "maxKpa", maxKpa);
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
     if (!hasPlaceForContact(hand.layout->matrix(m)))
       throw std::invalid_argument("noisy contacts: " + hand.matrixName(m) +

@@ -132,25 +132,19 @@ void sampleStream(const SyntheticOptions& options, double rateHz, Add add) {
   }
 }
 
-void syntheticProfileCheckRange(const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high))
-    throw std::invalid_argument("synthetic recording: " + std::string(name) + " must be " +
-                                std::to_string(low) + ".." + std::to_string(high) + ", is " +
-                                std::to_string(value));
-}
-
 }  // namespace
 
 void SyntheticOptions::validate() const {
-  syntheticProfileCheckRange("durationS", durationS, 0.001, 86'400.0);
-  syntheticProfileCheckRange("rateHz", rateHz, 0.1, 1000.0);
-  syntheticProfileCheckRange("angleRateHz", angleRateHz, 0.0, 1000.0);
-  syntheticProfileCheckRange("temperatureRateHz", temperatureRateHz, 0.0, 100.0);
-  syntheticProfileCheckRange("grasps", grasps, 0, 10'000);
-  syntheticProfileCheckRange("peakCounts", peakCounts, 50.0, 3500.0);
-  syntheticProfileCheckRange("contactRadiusTaxels", contactRadiusTaxels, 0.5, 5.0);
-  syntheticProfileCheckRange("thresholdCounts", thresholdCounts, 0.0, 4095.0);
-  syntheticProfileCheckRange("noiseCounts", noiseCounts, 0.0, 1000.0);
+  constexpr OptionCheck check{"SyntheticOptions"};
+  check(kDurationS, "durationS", durationS);
+  check(kRateHz, "rateHz", rateHz);
+  check(OptionRange{0.0, 1000.0}, "angleRateHz", angleRateHz);
+  check(OptionRange{0.0, 100.0}, "temperatureRateHz", temperatureRateHz);
+  check(kGrasps, "grasps", grasps);
+  check(kPeakCounts, "peakCounts", peakCounts);
+  check(OptionRange{0.5, 5.0}, "contactRadiusTaxels", contactRadiusTaxels);
+  check(OptionRange{0.0, 4095.0}, "thresholdCounts", thresholdCounts);
+  check(kNoiseCounts, "noiseCounts", noiseCounts);
   // With fewer frames per grasp, grasps could be lost between frames.
   constexpr double kFewestFrames = 12.0;
   if (grasps * kFewestFrames > durationS * rateHz)

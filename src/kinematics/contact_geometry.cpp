@@ -103,8 +103,7 @@ MatrixContact contactFrom(const Moments& moments, const HandPose& pose, std::siz
 }  // namespace
 
 void ContactOptions::validate() const {
-  if (!(threshold >= 0.0 && std::isfinite(threshold)))
-    throw std::invalid_argument("ContactOptions: threshold must be >= 0");
+  OptionCheck{"ContactOptions"}(kThreshold, "threshold", threshold);
 }
 
 HandContact contactOf(const TactileFrame& frame,

@@ -295,9 +295,9 @@ void SlipAccuracyOptions::validate() const {
   SyntheticSensor noisy = sensor;
   noisy.noiseSd = noiseSd;
   noisy.validate();
-  if (trials < 1 || trials > 1000)
-    throw std::invalid_argument("SlipAccuracyOptions: trials is " + std::to_string(trials) +
-                                ", not 1..1000");
+  constexpr OptionCheck check{"SlipAccuracyOptions"};
+  check(kNoiseSd, "noiseSd", noiseSd);
+  check(kTrials, "trials", trials);
 }
 
 namespace {

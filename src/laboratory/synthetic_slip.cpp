@@ -118,7 +118,7 @@ void SyntheticSensor::validate() const {
   check(saturationCounts > thresholdCounts && saturationCounts <= 4095.0,
         "saturationCounts",
         saturationCounts);
-  check(coverTaxels > 0.0 && coverTaxels <= 10.0, "coverTaxels", coverTaxels);
+  check(kCoverTaxels, "coverTaxels", coverTaxels);
 }
 
 void idealCounts(const SyntheticContact& contact, const SyntheticSensor& sensor, MatrixMap counts) {

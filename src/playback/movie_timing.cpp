@@ -13,13 +13,9 @@ namespace palpate {
 namespace {
 
 void check(const MovieOptions& options) {
-  // Written in this form so that NaN fails, too.
-  if (!(options.picturesPerS >= MovieOptions::kMinPicturesPerS &&
-        options.picturesPerS <= MovieOptions::kMaxPicturesPerS))
-    throw std::invalid_argument("pictures per second must be 1..120, not " +
-                                std::to_string(options.picturesPerS));
-  if (!(options.speed >= Playback::kMinimumSpeed && options.speed <= Playback::kMaximumSpeed))
-    throw std::invalid_argument("speed must be 0.1..16, not " + std::to_string(options.speed));
+  constexpr OptionCheck checked{"MovieOptions"};
+  checked(MovieOptions::kPicturesPerS, "picturesPerS", options.picturesPerS);
+  checked(MovieOptions::kSpeed, "speed", options.speed);
 }
 
 }  // namespace

@@ -15,13 +15,6 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<std::pair<ClassifierKind, std::string_view>, 4> kNames{{
-    {ClassifierKind::kSvm, "svm"},
-    {ClassifierKind::kQda, "qda"},
-    {ClassifierKind::kLda, "lda"},
-    {ClassifierKind::kGauss, "gauss"},
-}};
-
 ClassGaussianOptions gaussianOf(const PipelineOptions& options) {
   ClassGaussianOptions gaussian = options.gaussian;
   if (options.classifier == ClassifierKind::kLda) gaussian.pooledFraction = 1.0;
@@ -203,20 +196,20 @@ Eigen::VectorXd separationWeights(const GaussianClassifier& gaussian) {
 }  // namespace
 
 std::string_view classifierName(ClassifierKind kind) noexcept {
-  for (const auto& [known, name] : kNames)
-    if (known == kind) return name;
+  for (const auto& [word, known] : kClassifierWords)
+    if (known == kind) return word;
   return {};
 }
 
 std::optional<ClassifierKind> classifierNamed(std::string_view name) noexcept {
-  for (const auto& [kind, known] : kNames)
-    if (known == name) return kind;
+  for (const auto& [word, kind] : kClassifierWords)
+    if (word == name) return kind;
   return std::nullopt;
 }
 
 void PipelineOptions::validate() const {
-  if (components && *components == 0)
-    throw std::invalid_argument("PipelineOptions: components must be 1 or more");
+  if (components)
+    OptionCheck{"PipelineOptions"}(kComponents, "components", static_cast<double>(*components));
   if (components && classifier == ClassifierKind::kGauss)
     throw std::invalid_argument("PipelineOptions: gauss takes no discriminant analysis");
   if (calibrationBlocks == 1)

@@ -38,10 +38,9 @@ void fixSign(Eigen::Ref<Eigen::VectorXd> direction) {
 }  // namespace
 
 void DiscriminantOptions::validate() const {
-  if (!(ridge >= 1e-6) || !(ridge <= 1.0))
-    throw std::invalid_argument("DiscriminantOptions: ridge must be 1e-6 .. 1");
-  if (shrinkage && (!(*shrinkage >= 0.0) || !(*shrinkage <= 1.0)))
-    throw std::invalid_argument("DiscriminantOptions: shrinkage must be 0 .. 1");
+  constexpr OptionCheck check{"DiscriminantOptions"};
+  check(kRidge, "ridge", ridge);
+  if (shrinkage) check(kShrinkage, "shrinkage", *shrinkage);
 }
 
 WithinScatter withinScatter(const Eigen::MatrixXd& x, const std::vector<int>& y) {

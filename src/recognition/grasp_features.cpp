@@ -30,22 +30,14 @@ void appendSession(const PlateauFeatures& plateau,
 }  // namespace
 
 std::string_view featureSetName(FeatureSet set) noexcept {
-  switch (set) {
-    case FeatureSet::kStudy:
-      return "study";
-    case FeatureSet::kBest:
-      return "best";
-    case FeatureSet::kSession:
-      return "session";
-    default:
-      return "statistics";
-  }
+  for (const auto& [word, known] : kFeatureSetWords)
+    if (known == set) return word;
+  return {};
 }
 
 std::optional<FeatureSet> featureSetNamed(std::string_view name) noexcept {
-  for (const FeatureSet set :
-       {FeatureSet::kStudy, FeatureSet::kBest, FeatureSet::kSession, FeatureSet::kStatistics})
-    if (featureSetName(set) == name) return set;
+  for (const auto& [word, set] : kFeatureSetWords)
+    if (word == name) return set;
   return std::nullopt;
 }
 

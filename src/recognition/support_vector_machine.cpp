@@ -53,9 +53,10 @@ void takePlanes(const cv::ml::SVM& svm, SupportVectorMachine& machine) {
 }  // namespace
 
 void SvmOptions::validate() const {
-  if (!(c > 0.0) || !std::isfinite(c)) throw std::invalid_argument("SvmOptions: c must be above 0");
-  if (!(tolerance > 0.0)) throw std::invalid_argument("SvmOptions: tolerance must be above 0");
-  if (maxIterations < 1) throw std::invalid_argument("SvmOptions: maxIterations must be 1 or more");
+  constexpr OptionCheck check{"SvmOptions"};
+  check(kC, "c", c);
+  check(tolerance > 0.0, "tolerance", tolerance);
+  check(maxIterations >= 1, "maxIterations", maxIterations);
 }
 
 SupportVectorMachine SupportVectorMachine::of(const Eigen::MatrixXd& x,

@@ -79,13 +79,11 @@ MiddleAndBand middleAndBand(std::vector<double>& values, const AverageOptions& o
 }  // namespace
 
 void AverageOptions::validate() const {
-  const auto refuse = [](const char* field, const std::string& why) {
-    throw std::invalid_argument(std::string("AverageOptions: ") + field + " " + why);
-  };
-  if (!(lowPercent >= 0.0 && lowPercent < highPercent && highPercent <= 100.0))
-    refuse("lowPercent and highPercent", "need 0 <= low < high <= 100");
-  if (!(stepS >= 0.0) || !std::isfinite(stepS)) refuse("stepS", "must be 0 or above");
-  if (least < 1) refuse("least", "must be 1 or above");
+  constexpr OptionCheck check{"AverageOptions"};
+  check(lowPercent >= 0.0, "lowPercent", lowPercent);
+  check(highPercent > lowPercent && highPercent <= 100.0, "highPercent", highPercent);
+  if (stepS != 0.0) check(kStepS, "stepS", stepS);
+  check(kLeast, "least", static_cast<double>(least));
 }
 
 std::vector<AlignedCurve> alignedStretches(std::shared_ptr<const Series> series,

@@ -13,14 +13,11 @@
 namespace palpate {
 namespace {
 
-constexpr int kLongestWindow = 65'536;
 constexpr std::size_t kSegmentsPerReport = 64;
 }  // namespace
 
 void SpectrumOptions::validate() const {
-  if (window < 2 || window > kLongestWindow)
-    throw std::invalid_argument("spectrum: window must be 2.." + std::to_string(kLongestWindow) +
-                                " samples, is " + std::to_string(window));
+  OptionCheck{"spectrum"}(kWindow, "window", window);
   if (overlap < 0 || overlap >= window)
     throw std::invalid_argument("spectrum: overlap must be 0.." + std::to_string(window - 1) +
                                 " (below the window), is " + std::to_string(overlap));

@@ -33,8 +33,11 @@ TEST(RecordingLimits, MinutesAndMegabytesBecomeSecondsAndBytes) {
 TEST(RecordingLimits, TheSmallestAndLargestAreAcceptedByTheRecorder) {
   using Limits = RecordingLimits;
   for (const Limits& limits :
-       {Limits{Limits::kLeastStopS, Limits::kLeastSplitMinutes, Limits::kLeastSplitMb},
-        Limits{Limits::kMostStopS, Limits::kMostSplitMinutes, Limits::kMostSplitMb}}) {
+       {Limits{
+            Limits::kStopAfterS.minimum, Limits::kSplitMinutes.minimum, Limits::kSplitMb.minimum},
+        Limits{Limits::kStopAfterS.maximum,
+               Limits::kSplitMinutes.maximum,
+               Limits::kSplitMb.maximum}}) {
     RecordingOptions options;
     options.path = "a.palpate";
     limits.applyTo(options);
@@ -52,11 +55,12 @@ TEST(RecordingLimits, OtherValuesAreRefusedByName) {
     }
     return "";
   };
-  EXPECT_EQ(refusal({.stopAfterS = 0.0}), "RecordingLimits: stopAfterS must be 0.05..1e7 s");
+  EXPECT_EQ(refusal({.stopAfterS = 0.0}), "RecordingLimits: stopAfterS is 0, not 0.05..1e+07");
   EXPECT_EQ(refusal({.stopAfterS = std::numeric_limits<double>::quiet_NaN()}),
-            "RecordingLimits: stopAfterS must be 0.05..1e7 s");
-  EXPECT_EQ(refusal({.splitMinutes = -1.0}), "RecordingLimits: splitMinutes must be 1/60..1e5 min");
-  EXPECT_EQ(refusal({.splitMb = 2e6}), "RecordingLimits: splitMb must be 0.1..1e6 MB");
+            "RecordingLimits: stopAfterS is nan, not 0.05..1e+07");
+  EXPECT_EQ(refusal({.splitMinutes = -1.0}),
+            "RecordingLimits: splitMinutes is -1, not 0.016666666666666666..1e+05");
+  EXPECT_EQ(refusal({.splitMb = 2e6}), "RecordingLimits: splitMb is 2e+06, not 0.1..1e+06");
 }
 
 TEST(RecordingLimits, AreSaidInWords) {

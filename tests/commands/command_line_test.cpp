@@ -1,5 +1,8 @@
 #include "commands/command_line.h"
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <sstream>
 
 #include "commands/commands.h"
@@ -50,6 +53,115 @@ TEST(CommandLine, ChecksRangesAndChoices) {
   EXPECT_EQ(given.number("frame", 0, 11.0), 11.0);
   EXPECT_EQ(given.choice("filter", {"a", "b"}), "b");
   EXPECT_EQ(given.integer("missing", 0, 1), std::nullopt);
+}
+
+enum class Form { kRound, kFlat };
+constexpr std::array<OptionWord<Form>, 2> kFormWords{
+    {{"round", Form::kRound}, {"flat", Form::kFlat}}};
+
+// The fields that options of a command are bound to, and the command line that sets them.
+struct Bound {
+  double widthMm = 2.5;
+  std::optional<std::size_t> count = {};
+  std::uint64_t seed = 7;
+  Form form = Form::kFlat;
+  bool dry = false;
+  std::optional<std::string> text = {};
+
+  std::vector<OptionSpec> options() {
+    return {bound("width,w", "MM", "width", widthMm, {0.5, 10.0, "mm"}),
+            bound("count", "N", "how many", count, {1, 100}),
+            bound("seed", "N", "seed", seed, kSeedOption, "as before"),
+            boundChoice("form", "FORM", "outline", form, kFormWords),
+            bound("dry", "no water", dry),
+            bound("text", "TEXT", "a text", text)};
+  }
+  void take(const std::vector<std::string>& words) {
+    CommandLine(
+        {.synopsis = "palpate try", .purpose = "", .options = options(), .example = "palpate try"},
+        words);
+  }
+  std::string helpOf(std::size_t option) { return options()[option].help; }
+};
+
+TEST(BoundOptions, SetTheirFields) {
+  Bound fields;
+  fields.take({});
+  EXPECT_EQ(fields.widthMm, 2.5);
+  EXPECT_EQ(fields.count, std::nullopt);
+  EXPECT_EQ(fields.form, Form::kFlat);
+  EXPECT_FALSE(fields.dry);
+  fields.take({"-w",
+               "0.5",
+               "--count",
+               "100",
+               "--seed",
+               "4294967295",
+               "--form",
+               "round",
+               "--dry",
+               "--text=x"});
+  EXPECT_EQ(fields.widthMm, 0.5);
+  EXPECT_EQ(fields.count, 100u);
+  EXPECT_EQ(fields.seed, 4294967295u);
+  EXPECT_EQ(fields.form, Form::kRound);
+  EXPECT_TRUE(fields.dry);
+  EXPECT_EQ(fields.text, "x");
+}
+
+TEST(BoundOptions, RefuseWhatIsOutsideAndLeaveTheField) {
+  Bound fields;
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"--width", "0.49"},
+                                             {"--width", "10.1"},
+                                             {"--width", "nan"},
+                                             {"--count", "0"},
+                                             {"--count", "101"},
+                                             {"--count", "1.5"},
+                                             {"--seed", "-1"},
+                                             {"--seed", "4294967296"},
+                                             {"--form", "square"}})
+    EXPECT_THROW(fields.take(words), UsageError) << words[0] << " " << words[1];
+  EXPECT_EQ(fields.widthMm, 2.5);
+  EXPECT_EQ(fields.count, std::nullopt);
+  EXPECT_EQ(fields.form, Form::kFlat);
+}
+
+TEST(BoundOptions, AreExplainedByTheirFields) {
+  Bound fields;
+  EXPECT_EQ(fields.helpOf(0), "width [mm]; 0.5..10, default 2.5");
+  EXPECT_EQ(fields.helpOf(1), "how many; 1..100");
+  EXPECT_EQ(fields.helpOf(2), "seed; from 0, default as before");
+  EXPECT_EQ(fields.helpOf(3), "round, flat (default); outline");
+  fields.form = Form::kRound;
+  EXPECT_EQ(fields.helpOf(3), "round (default), flat; outline");
+  EXPECT_EQ(boundChoice("form", "FORM", "", fields.form, kFormWords, "that of the hand").help,
+            "round, flat (default that of the hand)");
+}
+
+// Options that a command asks for later are checked with the same range and words.
+TEST(BoundOptions, OthersAreCheckedAndExplained) {
+  const CommandSpec spec{.synopsis = "palpate try",
+                         .purpose = "A command for this test.",
+                         .options = {ranged("length", "S", "length", {0.1, 60.0, "s"}, "1"),
+                                     rangedWhole("frame", "N", "frame", kFrameOption),
+                                     worded("form", "FORM", "", kFormWords, "flat")},
+                         .example = "palpate try"};
+  EXPECT_EQ(spec.options[0].help, "length [s]; 0.1..60, default 1");
+  EXPECT_EQ(spec.options[1].help, "frame; from 0");
+  EXPECT_EQ(spec.options[2].help, "round, flat (default)");
+  const CommandLine given(spec, {"--length=0.1", "--frame=9223372036854775807", "--form=round"});
+  EXPECT_EQ(given.number("length", {0.1, 60.0}), 0.1);
+  EXPECT_EQ(given.integer("frame", kFrameOption), INT64_MAX);
+  EXPECT_EQ(given.chosen("form", kFormWords), Form::kRound);
+  EXPECT_EQ(CommandLine(spec, {}).chosen("form", kFormWords), std::nullopt);
+  for (const char* word : {"--length=0", "--frame=-1", "--form=square"})
+    EXPECT_THROW(CommandLine(spec, {word}), UsageError) << word;
+}
+
+TEST(BoundOptions, WordsAreTheNamesOfAList) {
+  const auto words = wordsOf(std::array{1, 2}, [](int each) { return "n" + std::to_string(each); });
+  EXPECT_EQ(words, (std::vector<std::pair<std::string, int>>{{"n1", 1}, {"n2", 2}}));
 }
 
 TEST(Program, EveryCommandExplainsItselfWithAnExample) {
@@ -123,7 +235,12 @@ TEST(Program, ListsItsCommandsAndItsVersion) {
   const auto help = palpate({"--help"});
   EXPECT_EQ(help.exitCode, 0);
   for (const Command& command : allCommands())
-    EXPECT_NE(help.out.find(command.name), std::string::npos);
+    EXPECT_NE(help.out.find("\n  " + std::string(command.name) + " "), std::string::npos);
+  std::size_t at = 0;
+  for (const char* heading : {"Look", "Compute", "Export", "Recognise", "Hand", "Laboratory"}) {
+    at = help.out.find("\n\n" + std::string(heading) + ":\n  ", at);
+    EXPECT_NE(at, std::string::npos) << heading;
+  }
   EXPECT_EQ(palpate({"--version"}).out.rfind("palpate ", 0), 0u);
 }
 

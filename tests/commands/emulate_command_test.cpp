@@ -213,7 +213,7 @@ TEST(EmulateCommand, RefusesStreamsThatMakeNoSense) {
   };
   refused({"--stream", "x"}, 2, "'x' is not [ADDRESS:]PORT");
   refused({"--stream", "host:1"}, 2, "ADDRESS is numeric");
-  refused({"--format", "xml"}, 2, "binary, lines or json");
+  refused({"--format", "xml"}, 2, "binary, lines, json");
   refused({"--rate", "real"}, 2, "max or a number");
   refused({"--rate", "9999"}, 2, "0.1..5000");
   refused({"--dsa", "x"}, 2, "--stream and --dsa");

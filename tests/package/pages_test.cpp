@@ -48,6 +48,14 @@ std::vector<std::string> namesBelow(const std::string& help, const std::string& 
   return names;
 }
 
+// Of all groups below "Commands:".
+std::vector<std::string> commandsIn(const std::string& help) {
+  std::vector<std::string> names;
+  for (const std::string& line : linesOf(help.substr(help.find("\nCommands:\n"))))
+    if (line.starts_with("  ")) names.push_back(wordsOf(line).at(0));
+  return names;
+}
+
 Options optionsOf(const std::string& help) {
   const std::regex option("^  (-[a-z] \\[ )?(--[a-z][a-z0-9-]*)");
   Options options;
@@ -63,8 +71,7 @@ class Pages : public ::testing::Test {
     said_ = new std::map<std::string, Options>;
     (*said_)[""] = optionsOf(helpOf(""));
     (*said_)[""].insert("--version");
-    for (const std::string& command :
-         namesBelow(runProgram(PALPATE_PROGRAM, {"--help"}).out, "Commands:")) {
+    for (const std::string& command : commandsIn(runProgram(PALPATE_PROGRAM, {"--help"}).out)) {
       const std::string help = helpOf(command);
       const std::vector<std::string> kinds = namesBelow(help, "KIND:");
       for (const std::string& kind : kinds)

@@ -1,5 +1,6 @@
 // Rules of the project: sizes, names, headers, lists and pages agree with each other.
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -170,6 +171,20 @@ TEST(ProjectRules, ScriptsAreRunnableBash) {
     const bool runnable = (fs::status(path).permissions() & fs::perms::owner_exec) != fs::perms();
     EXPECT_EQ(runnable, !std::string(name).ends_with(".sh")) << name;
   }
+}
+
+// A command takes the range of a number from the option struct that the number is for, or names it
+// (OptionRange). Those with an end that depends on the recording are left; this list only shrinks.
+TEST(ProjectRules, CommandsParseNumbersWithNamedRanges) {
+  const std::map<std::string, int> allowed{{"apps/palpate/commands/spectrum_command.cpp", 1}};
+  const std::regex literal("given\\.(number|integer)\\(\\s*\"[a-z-]+\",\\s*[^,)]+,");
+  std::map<std::string, int> found;
+  for (const SourceFile& file : cppFiles({"apps/palpate/commands"})) {
+    const auto count = std::distance(
+        std::sregex_iterator(file.text.begin(), file.text.end(), literal), std::sregex_iterator());
+    if (count > 0) found[file.path] = static_cast<int>(count);
+  }
+  EXPECT_EQ(found, allowed);
 }
 
 TEST(ProjectRules, FilesAndCommandsThatPagesNameExist) {

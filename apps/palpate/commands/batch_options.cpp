@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostReasons = 10;
-constexpr std::int64_t kMostThreads = 256;
 
 void sayBatch(const std::string& message) {
   std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
@@ -72,7 +71,11 @@ std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options) {
 std::vector<OptionSpec> withResumeOptions(std::vector<OptionSpec> options) {
   const std::vector<OptionSpec> batch = {
       {"resume", "", "with -o: continue; files that are complete are kept"},
-      {"threads", "N", "with -o: recordings at the same time; default: one per core"},
+      rangedWhole("threads",
+                  "N",
+                  "with -o: recordings at the same time",
+                  BatchOptions::kThreads,
+                  "one per core"),
       {"report", "FILE.csv", "with -o: write a table with the result of each recording"}};
   options.insert(options.end(), batch.begin(), batch.end());
   return options;
@@ -108,7 +111,8 @@ int runBatchCommand(const CommandLine& given,
                     const BatchTask& task,
                     const BatchCommand& command) {
   BatchOptions options;
-  options.threads = static_cast<std::size_t>(given.integer("threads", 1, kMostThreads).value_or(0));
+  options.threads =
+      static_cast<std::size_t>(given.integer("threads", BatchOptions::kThreads).value_or(0));
   options.overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   options.resume = given.has("resume");
   const std::optional<std::string> table = given.text("report");

@@ -61,21 +61,14 @@ int calibrateCommand(const Arguments& words) {
                        : "calibrate has no KIND '" + words[0] + "'; give one of " + known);
 }
 
+OptionSpec matrixSpec() {
+  return rangedWhole("matrix", "M", "the matrix that was loaded", kMatrixOption);
+}
+
 std::size_t matrixGiven(const CommandLine& given) {
-  const auto matrix = given.integer("matrix", 0, INT32_MAX);
+  const auto matrix = given.integer("matrix", kMatrixOption);
   if (!matrix) throw UsageError("--matrix M is missing: give the matrix that was loaded");
   return static_cast<std::size_t>(*matrix);
-}
-
-SignalKind signalGiven(const CommandLine& given) {
-  return signalChosen(given).value_or(SignalKind::kFilteredMean);
-}
-
-StepLoss lossGiven(const CommandLine& given) {
-  const std::string loss = given.choice("loss", {"squares", "huber", "cauchy"}).value_or("squares");
-  return loss == "huber"    ? StepLoss::kHuber
-         : loss == "cauchy" ? StepLoss::kCauchy
-                            : StepLoss::kSquares;
 }
 
 Json provenance(const std::string& kind) {

@@ -24,11 +24,8 @@ int calibrateTare(const Arguments& words);
 
 // The matrix that --matrix names; throws UsageError when it is missing or negative.
 std::size_t matrixGiven(const CommandLine& given);
-// The signal that --signal names, as in `palpate signals`; the filtered mean when the option is
-// missing.
-SignalKind signalGiven(const CommandLine& given);
-// The loss function of --loss squares|huber|cauchy.
-StepLoss lossGiven(const CommandLine& given);
+// The option --matrix M of these commands.
+OptionSpec matrixSpec();
 // The common first members of the JSON of one kind: the kind, format version, program version, and
 // time of creation.
 Json provenance(const std::string& kind);

@@ -15,6 +15,7 @@
 namespace palpate::commands {
 
 int calibrateNoise(const Arguments& words) {
+  NoiseFloorOptions options;
   const CommandLine given(
       {.synopsis = "palpate calibrate noise FILE [-o N.xml|N.json]",
        .purpose = "Measures the noise floor of a hand that nothing touches, recorded at threshold "
@@ -22,19 +23,18 @@ int calibrateNoise(const Arguments& words) {
                   "temperature of the nearest motor. Prints JSON: slope [counts/deg C], intercept "
                   "[counts], rmse [counts] (as the study defines it) and rmse_true (of this line). "
                   "A threshold of intercept + slope T + 3 rmse hides the noise.",
-       .options = {{"bins", "N", "equal bins over the temperatures, default 20"},
-                   {"output,o",
-                    "OUT",
-                    "write the lines to this file: .xml for the prior program, else JSON"},
-                   {"force", "", "replace OUT"}},
+       .options =
+           {bound("bins", "N", "equal bins over the temperatures", options.bins, options.kBins),
+            {"output,o",
+             "OUT",
+             "write the lines to this file: .xml for the prior program, else JSON"},
+            {"force", "", "replace OUT"}},
        .example = "palpate calibrate noise temperature-noise.dsa -o noise.xml",
        .minArguments = 1,
        .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const std::filesystem::path file = given.words().front();
-  NoiseFloorOptions options;
-  options.bins = static_cast<std::size_t>(given.integer("bins", 2, 1000).value_or(20));
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openReported(file, progress, given.quiet()).profile;
   const NoiseFloor floor = fitNoiseFloor(profile, options, progress.callback());

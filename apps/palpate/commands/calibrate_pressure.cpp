@@ -1,5 +1,6 @@
 // The command `palpate calibrate pressure TABLE.csv -o P.json` fits the pressure as a function of
 // gain and temperature.
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -27,6 +28,11 @@ constexpr std::uint64_t kLargestNoiseFloor = 64u << 20;  // [bytes]
 }  // namespace
 
 int calibratePressure(const Arguments& words) {
+  CalibrationSampleOptions gather;
+  PressureModelOptions model;
+  SensorSettings settings;
+  std::optional<double> sensitivityOffset;
+  constexpr std::array<OptionWord<bool>, 2> kTerms{{{"default", false}, {"study", true}}};
   const CommandLine given(
       {.synopsis = "palpate calibrate pressure TABLE.csv [-o P.json]",
        .purpose =
@@ -37,18 +43,36 @@ int calibratePressure(const Arguments& words) {
            "keeps all terms and takes the study's T. Prints the calibration as JSON, or writes it "
            "to P.json for `calibrate apply` and `contact --calibration`.",
        .options =
-           {{"matrix",
-             "M",
-             "the matrix that was loaded; default the one with the largest readings"},
-            {"choices", "NAME", "default or study"},
-            {"area", "MM2", "area of the indenter [mm^2]: forces are then those on this area"},
-            {"sensitivity", "S", "sensitivity of the recordings, default 1"},
-            {"threshold", "N", "threshold of the recordings [counts], default 100"},
-            {"loss", "NAME", "loss of the step fits: squares (default), huber, cauchy"},
+           {bound("matrix",
+                  "M",
+                  "the matrix that was loaded",
+                  gather.matrix,
+                  kMatrixOption,
+                  "the one with the largest readings"),
+            boundChoice("choices", "NAME", "", model.study, kTerms),
+            bound("area",
+                  "MM2",
+                  "area of the indenter: forces are then those on this area",
+                  model.indenterAreaMm2,
+                  model.kIndenterAreaMm2,
+                  "not known"),
+            bound("sensitivity",
+                  "S",
+                  "sensitivity of the recordings",
+                  settings.sensitivity,
+                  settings.kSensitivity),
+            bound("threshold",
+                  "N",
+                  "threshold of the recordings",
+                  settings.thresholdCounts,
+                  settings.kThresholdCounts),
+            boundChoice("loss", "NAME", "of the step fits", gather.steps.fit.loss, kStepLossWords),
             {"noise", "N.json", "noise lines (`calibrate noise`) to store in the calibration"},
-            {"sensitivity-offset",
-             "COUNTS",
-             "offset of K over sensitivity (`calibrate sensitivity`)"},
+            bound("sensitivity-offset",
+                  "COUNTS",
+                  "offset of K over sensitivity (`calibrate sensitivity`)",
+                  sensitivityOffset,
+                  {-kLargestFullScale, kLargestFullScale}),
             {"output,o", "P.json", "write the result to this file"},
             {"force", "", "replace P.json"}},
        .example = "palpate calibrate pressure weights.csv --area 110.25 -o hand.json",
@@ -57,17 +81,9 @@ int calibratePressure(const Arguments& words) {
       words);
   if (given.helpShown()) return kDone;
   const fs::path table = given.words().front();
-  StepReportOptions options;
-  options.fit.loss = lossGiven(given);
-  PressureModelOptions model;
-  model.study = given.choice("choices", {"default", "study"}) == "study";
-  model.indenterAreaMm2 = given.number("area", 0.0, 1e6).value_or(0.0);
   std::optional<NoiseFloor> noise;
   if (const auto path = given.text("noise"))
     noise = noiseFloorFrom(Json::parse(readTextFile(*path, kLargestNoiseFloor)));
-  CalibrationSampleOptions gather;
-  gather.steps = options;
-  if (given.has("matrix")) gather.matrix = matrixGiven(given);
   const std::vector<PressureTableRow> rows = readPressureTable(table);
   CalibrationSteps all;
   {
@@ -79,11 +95,8 @@ int calibratePressure(const Arguments& words) {
     all = collectCalibrationSteps(rows, table.parent_path(), open, gather, line.callback());
   }
   Calibration calibration = calibrationOf(all, model);
-  calibration.settings = {given.number("sensitivity", 0.01, 1.0).value_or(1.0),
-                          given.number("threshold", 0.0, kLargestFullScale).value_or(100.0),
-                          true};
-  calibration.sensitivityOffset =
-      given.number("sensitivity-offset", -kLargestFullScale, kLargestFullScale);
+  calibration.settings = settings;
+  calibration.sensitivityOffset = sensitivityOffset;
   calibration.noise = noise;
   calibration.programVersion = PALPATE_VERSION;
   calibration.madeAt = utcStamp();

@@ -2,6 +2,7 @@
 // sensitivity.
 #include <algorithm>
 
+#include "palpate/calibration/calibration.h"
 #include "palpate/calibration/sensitivity_curve.h"
 #include "palpate/calibration/step_report.h"
 #include "palpate/core/error.h"
@@ -9,6 +10,7 @@
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
+#include "commands/filter_options.h"
 #include "commands/hand_options.h"
 #include "commands/recording_list.h"
 
@@ -34,6 +36,8 @@ std::vector<double> sensitivitiesGiven(const CommandLine& given, std::size_t ste
 }  // namespace
 
 int calibrateSensitivity(const Arguments& words) {
+  StepReportOptions options;
+  double threshold = SensorSettings{}.thresholdCounts;
   const CommandLine given(
       {.synopsis = "palpate calibrate sensitivity FILE --matrix M [--sensitivities S1,S2,..]",
        .purpose =
@@ -41,13 +45,16 @@ int calibrateSensitivity(const Arguments& words) {
            "sensitivities in one recording. Prints JSON: the points, slope, offset and r2 of K = "
            "slope s + offset, and how the threshold explains the offset. Without --sensitivities "
            "the N steps are taken as 1/N, 2/N, .., 1 (a .dsa stores no sensitivity).",
-       .options = {{"matrix", "M", "the matrix that was loaded"},
+       .options = {matrixSpec(),
                    {"sensitivities", "S1,S2,..", "sensitivities of the steps, in order"},
-                   {"threshold",
-                    "N",
-                    "threshold while it was recorded [counts], for the explanation; default 100"},
-                   {"signal", "NAME", "filtered_mean (default), mean, max, min, sum"},
-                   {"loss", "NAME", "loss of the step fits: squares (default), huber, cauchy"},
+                   bound("threshold",
+                         "N",
+                         "threshold while it was recorded, for the explanation",
+                         threshold,
+                         SensorSettings::kThresholdCounts),
+                   boundChoice("signal", "NAME", "", options.steps.signal, signalWords()),
+                   boundChoice(
+                       "loss", "NAME", "of the step fits", options.fit.loss, kStepLossWords),
                    {"output,o", "OUT.json", "write the result to this file"},
                    {"force", "", "replace OUT.json"}},
        .example = "palpate calibrate sensitivity sensitivity_0.1-1.0.dsa --matrix 1",
@@ -57,10 +64,6 @@ int calibrateSensitivity(const Arguments& words) {
   if (given.helpShown()) return kDone;
   const std::filesystem::path file = given.words().front();
   const std::size_t matrix = matrixGiven(given);
-  StepReportOptions options;
-  options.steps.signal = signalGiven(given);
-  options.fit.loss = lossGiven(given);
-  const double threshold = given.number("threshold", 0.0, kLargestFullScale).value_or(100.0);
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openReported(file, progress, given.quiet()).profile;
   requireMatrix(file, profile.layout(), matrix);

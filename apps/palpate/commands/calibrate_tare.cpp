@@ -39,6 +39,7 @@ Event eventOf(const Tare& tare, const Profile& profile) {
 }  // namespace
 
 int calibrateTare(const Arguments& words) {
+  TareOptions options;
   const CommandLine given(
       {.synopsis = "palpate calibrate tare FILE [--apply | --remove]",
        .purpose = "Finds the windows in which nothing touches a matrix, and what its taxels read "
@@ -46,10 +47,12 @@ int calibrateTare(const Arguments& words) {
                   "as an event (kind tare; of a .dsa in its sidecar), and `calibrate apply` and "
                   "`contact --calibration` subtract it. The recorded values never change; --remove "
                   "deletes the event.",
-       .options = {{"window", "S", "length of a window [s], default 1"},
-                   {"most",
-                    "N",
-                    "a matrix that never reads less counts as always loaded [counts], default 150"},
+       .options = {bound("window", "S", "length of a window", options.windowS, options.kWindowS),
+                   bound("most",
+                         "N",
+                         "a matrix that never reads less counts as always loaded",
+                         options.maxRestCounts,
+                         options.kMaxRestCounts),
                    {"apply", "", "note it in the recording"},
                    {"remove", "", "remove it from the recording"},
                    {"output,o", "OUT.json", "write the JSON to this file"},
@@ -70,10 +73,6 @@ int calibrateTare(const Arguments& words) {
     if (!given.quiet()) std::printf("%s: tare removed\n", escapedLine(file.string()).c_str());
     return kDone;
   }
-  TareOptions options;
-  options.windowS = given.number("window", 0.05, 3600.0).value_or(options.windowS);
-  options.maxRestCounts =
-      given.number("most", 0.0, kLargestFullScale).value_or(options.maxRestCounts);
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Recording recording = openReported(file, progress, given.quiet());
   const Profile& profile = recording.profile;

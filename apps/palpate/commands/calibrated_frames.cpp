@@ -70,12 +70,16 @@ PressureMapOptions withNoted(PressureMapOptions options,
 
 std::vector<OptionSpec> calibrationOptions() {
   return {{"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
-          {"sensor-sensitivity",
-           "S",
-           "sensitivity of the recording; default: as stored in it, else that of the calibration"},
-          {"sensor-threshold",
-           "N",
-           "threshold of the recording [counts], default that of the calibration"},
+          ranged("sensor-sensitivity",
+                 "S",
+                 "sensitivity of the recording",
+                 SensorSettings::kSensitivity,
+                 "as stored in it, else that of the calibration"),
+          ranged("sensor-threshold",
+                 "N",
+                 "threshold of the recording",
+                 SensorSettings::kThresholdCounts,
+                 "that of the calibration"),
           {"no-tare", "", "don't subtract the zeros that `calibrate tare --apply` noted"},
           {"no-drift", "", "don't correct the creep of long contacts"}};
 }
@@ -97,8 +101,8 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
   if (!choice.calibration.pressure.valid())
     throw FileError(*path, "has no P(K, T), so it can't give forces; its notes say why");
   choice.options.compensateDrift = !given.has("no-drift");
-  const auto sensitivity = given.number("sensor-sensitivity", 0.01, 1.0),
-             threshold = given.number("sensor-threshold", 0.0, kLargestFullScale);
+  const auto sensitivity = given.number("sensor-sensitivity", SensorSettings::kSensitivity),
+             threshold = given.number("sensor-threshold", SensorSettings::kThresholdCounts);
   if (sensitivity || threshold) {
     SensorSettings settings = choice.calibration.settings;
     settings.assumed = true;

@@ -19,9 +19,12 @@
 
 namespace palpate::commands {
 namespace po = boost::program_options;
+
+std::string detail::longName(const std::string& name) { return name.substr(0, name.find(',')); }
+
 namespace {
 
-std::string longName(const std::string& name) { return name.substr(0, name.find(',')); }
+using detail::longName;
 
 // A synopsis of several lines as one line.
 std::string inOneLine(const std::string& synopsis) {
@@ -121,22 +124,71 @@ constexpr std::int64_t kShowProgressAfterUs = 1'000'000;
 
 }  // namespace
 
-std::string detail::rangeText(const OptionRange& range, std::optional<double> usual, bool isWhole) {
+std::string detail::rangeText(const OptionRange& range,
+                              const std::optional<std::string>& usual,
+                              bool isWhole) {
   std::string text = *range.unit ? std::string(" [") + range.unit + "]" : "";
   const bool isOpen =
       isWhole ? range.maximum >= static_cast<double>(INT32_MAX) : !std::isfinite(range.maximum);
-  text += isOpen ? "; from " + numberText(range.minimum)
-                 : "; " + numberText(range.minimum) + ".." + numberText(range.maximum);
-  return usual ? text + ", default " + numberText(*usual) : text;
+  const auto textOf = [&](double value) {
+    return isWhole ? std::to_string(static_cast<std::int64_t>(value)) : numberText(value);
+  };
+  text += isOpen ? "; from " + textOf(range.minimum)
+                 : "; " + textOf(range.minimum) + ".." + textOf(range.maximum);
+  return usual && !usual->empty() ? text + ", default " + *usual : text;
+}
+
+std::string detail::choiceText(const std::vector<std::string>& words,
+                               const std::string& usual,
+                               const std::string& help) {
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : ", ") + word + (word == usual ? " (default)" : "");
+  const bool isWord = std::find(words.begin(), words.end(), usual) != words.end();
+  if (!usual.empty() && !isWord) text += " (default " + usual + ")";
+  return help.empty() ? text : text + "; " + help;
 }
 
 OptionSpec bound(const std::string& name, std::string help, bool& field) {
-  return {name,
-          "",
-          std::move(help),
-          [option = name.substr(0, name.find(',')), &field](const CommandLine& given) {
+  return {name, "", std::move(help), [option = longName(name), &field](const CommandLine& given) {
             if (given.has(option)) field = true;
           }};
+}
+
+OptionSpec bound(const std::string& name,
+                 std::string value,
+                 std::string help,
+                 std::optional<std::string>& field) {
+  return {name,
+          std::move(value),
+          std::move(help),
+          [option = longName(name), &field](const CommandLine& given) {
+            if (given.has(option)) field = given.text(option);
+          }};
+}
+
+OptionSpec ranged(const std::string& name,
+                  std::string value,
+                  std::string help,
+                  OptionRange range,
+                  const std::optional<std::string>& usual) {
+  return {
+      name,
+      std::move(value),
+      std::move(help) + detail::rangeText(range, usual, false),
+      [option = longName(name), range](const CommandLine& given) { given.number(option, range); }};
+}
+
+OptionSpec rangedWhole(const std::string& name,
+                       std::string value,
+                       std::string help,
+                       OptionRange range,
+                       const std::optional<std::string>& usual) {
+  return {
+      name,
+      std::move(value),
+      std::move(help) + detail::rangeText(range, usual, true),
+      [option = longName(name), range](const CommandLine& given) { given.integer(option, range); }};
 }
 
 OptionSpec topicOption() {
@@ -218,6 +270,19 @@ std::optional<double> CommandLine::number(const std::string& option,
     throw UsageError("--" + option + " must be a number " + numberText(least) + ".." +
                      numberText(most) + ", not '" + *given + "'");
   return value;
+}
+
+std::optional<std::int64_t> CommandLine::integer(const std::string& option,
+                                                 OptionRange range) const {
+  // 2^63 as a double is above the largest whole number.
+  const auto whole = [](double value) {
+    return value >= 0x1p63 ? INT64_MAX : static_cast<std::int64_t>(value);
+  };
+  return integer(option, whole(range.minimum), whole(range.maximum));
+}
+
+std::optional<double> CommandLine::number(const std::string& option, OptionRange range) const {
+  return number(option, range.minimum, range.maximum);
 }
 
 std::optional<std::string> CommandLine::choice(const std::string& option,

@@ -2,9 +2,11 @@
 // progress on stderr and buffered standard output for all commands.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
 #include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 
@@ -39,13 +42,61 @@ struct OptionSpec {
 };
 
 // Options that are bound to a field: where the option is given, CommandLine checks it and sets the
-// field, which must outlive it. The help names unit, range and default, which is the field's value
-// as it is now (none of a std::optional).
+// field, which must outlive it. The help names unit, range and default: `usual`, or by default the
+// field's value as it is now (none of a std::optional); an empty `usual` names none.
 template <typename T>
-OptionSpec bound(
-    const std::string& name, std::string value, std::string help, T& field, OptionRange range);
+OptionSpec bound(const std::string& name,
+                 std::string value,
+                 std::string help,
+                 T& field,
+                 OptionRange range,
+                 std::optional<std::string> usual = {});
 // A flag.
 OptionSpec bound(const std::string& name, std::string help, bool& field);
+// A text.
+OptionSpec bound(const std::string& name,
+                 std::string value,
+                 std::string help,
+                 std::optional<std::string>& field);
+// One of the words of a list of OptionWord (or of wordsOf()). The help begins with the words.
+template <typename T, typename Words>
+OptionSpec boundChoice(const std::string& name,
+                       std::string value,
+                       const std::string& help,
+                       T& field,
+                       const Words& words,
+                       const std::optional<std::string>& usual = {});
+// Options whose value the command asks for by CommandLine::number() or integer() with the same
+// range, or by chosen() with the same words; CommandLine checks them, too.
+OptionSpec ranged(const std::string& name,
+                  std::string value,
+                  std::string help,
+                  OptionRange range,
+                  const std::optional<std::string>& usual = {});
+OptionSpec rangedWhole(const std::string& name,
+                       std::string value,
+                       std::string help,
+                       OptionRange range,
+                       const std::optional<std::string>& usual = {});
+template <typename Words>
+OptionSpec worded(const std::string& name,
+                  std::string value,
+                  const std::string& help,
+                  const Words& words,
+                  const std::string& usual = {});
+
+// The values of a list with their names, as OptionWords.
+template <typename All, typename NameOf>
+auto wordsOf(const All& all, NameOf nameOf) {
+  std::vector<std::pair<std::string, std::remove_cvref_t<decltype(*std::begin(all))>>> words;
+  for (const auto& each : all) words.emplace_back(nameOf(each), each);
+  return words;
+}
+
+// What a number can be before the recording is known: of a matrix, of a frame; and a seed.
+inline constexpr OptionRange kMatrixOption{0, INT32_MAX};
+inline constexpr OptionRange kFrameOption{0, 0x1p63};
+inline constexpr OptionRange kSeedOption{0, UINT32_MAX};
 
 // --topic TOPIC, which may be repeated (CommandLine::texts).
 OptionSpec topicOption();
@@ -88,6 +139,19 @@ class CommandLine {
                                       std::int64_t least,
                                       std::int64_t most) const;
   std::optional<double> number(const std::string& option, double least, double most) const;
+  std::optional<std::int64_t> integer(const std::string& option, OptionRange range) const;
+  std::optional<double> number(const std::string& option, OptionRange range) const;
+  // What the word stands for in a list of OptionWord; throws UsageError that lists the words.
+  template <typename Words>
+  auto chosen(const std::string& option, const Words& words) const
+      -> std::optional<std::remove_cvref_t<decltype(std::begin(words)->second)>> {
+    std::vector<std::string> known;
+    for (const auto& each : words) known.emplace_back(each.first);
+    const auto word = choice(option, known);
+    if (!word) return std::nullopt;
+    return (std::begin(words) + (std::find(known.begin(), known.end(), *word) - known.begin()))
+        ->second;
+  }
   // The value as one of the known words; throws UsageError that lists them.
   std::optional<std::string> choice(const std::string& option,
                                     const std::vector<std::string>& known) const;
@@ -99,12 +163,24 @@ class CommandLine {
 };
 
 namespace detail {
-std::string rangeText(const OptionRange& range, std::optional<double> usual, bool isWhole);
+std::string longName(const std::string& name);
+// "; 0.001..100, default 0.2", with the unit in front.
+std::string rangeText(const OptionRange& range,
+                      const std::optional<std::string>& usual,
+                      bool isWhole);
+// "squares (default), huber, cauchy; HELP"
+std::string choiceText(const std::vector<std::string>& words,
+                       const std::string& usual,
+                       const std::string& help);
 }  // namespace detail
 
 template <typename T>
-OptionSpec bound(
-    const std::string& name, std::string value, std::string help, T& field, OptionRange range) {
+OptionSpec bound(const std::string& name,
+                 std::string value,
+                 std::string help,
+                 T& field,
+                 OptionRange range,
+                 std::optional<std::string> usual) {
   constexpr bool isOptional = requires { field.has_value(); };
   using Number = typename decltype([] {
     if constexpr (isOptional)
@@ -112,22 +188,51 @@ OptionSpec bound(
     else
       return std::type_identity<T>();
   }())::type;
-  std::optional<double> usual;
-  if constexpr (!isOptional) usual = static_cast<double>(field);
-  const auto take = [option = name.substr(0, name.find(',')), &field, range](const auto& given) {
-    if constexpr (std::is_integral_v<Number>) {
-      if (const auto whole = given.integer(option,
-                                           static_cast<std::int64_t>(range.minimum),
-                                           static_cast<std::int64_t>(range.maximum)))
-        field = static_cast<Number>(*whole);
-    } else if (const auto number = given.number(option, range.minimum, range.maximum)) {
-      field = *number;
+  constexpr bool isWhole = std::is_integral_v<Number>;
+  if constexpr (!isOptional)
+    if (!usual) usual = isWhole ? std::to_string(field) : numberText(static_cast<double>(field));
+  const auto take = [option = detail::longName(name), &field, range](const CommandLine& given) {
+    if constexpr (isWhole) {
+      if (const auto whole = given.integer(option, range)) field = static_cast<Number>(*whole);
+    } else if (const auto number = given.number(option, range)) {
+      field = static_cast<Number>(*number);
     }
   };
+  return {name, std::move(value), std::move(help) + detail::rangeText(range, usual, isWhole), take};
+}
+
+template <typename Words>
+OptionSpec worded(const std::string& name,
+                  std::string value,
+                  const std::string& help,
+                  const Words& words,
+                  const std::string& usual) {
+  std::vector<std::string> known;
+  for (const auto& each : words) known.emplace_back(each.first);
   return {name,
           std::move(value),
-          std::move(help) + detail::rangeText(range, usual, std::is_integral_v<Number>),
-          take};
+          detail::choiceText(known, usual, help),
+          [option = detail::longName(name), known](const CommandLine& given) {
+            given.choice(option, known);
+          }};
+}
+
+template <typename T, typename Words>
+OptionSpec boundChoice(const std::string& name,
+                       std::string value,
+                       const std::string& help,
+                       T& field,
+                       const Words& words,
+                       const std::optional<std::string>& usual) {
+  std::string word = usual.value_or("");
+  if constexpr (!requires { field.has_value(); })
+    for (const auto& each : words)
+      if (!usual && each.second == field) word = each.first;
+  OptionSpec spec = worded(name, std::move(value), help, words, word);
+  spec.take = [option = detail::longName(name), &field, words](const CommandLine& given) {
+    if (const auto chosen = given.chosen(option, words)) field = *chosen;
+  };
+  return spec;
 }
 
 // Shows a percentage on stderr when the work takes longer than a second; shows nothing when quiet

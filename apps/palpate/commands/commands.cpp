@@ -1,13 +1,16 @@
 #include "commands/commands.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iomanip>
 #include <iostream>
 #include <iterator>
 #include <new>
 #include <string_view>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -22,6 +25,13 @@ namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::array kGroups{std::pair{"Look", CommandGroup::kLook},
+                             std::pair{"Compute", CommandGroup::kCompute},
+                             std::pair{"Export", CommandGroup::kExport},
+                             std::pair{"Recognise", CommandGroup::kRecognise},
+                             std::pair{"Hand", CommandGroup::kHand},
+                             std::pair{"Laboratory", CommandGroup::kLaboratory}};
+
 void commandsShowHelp() {
   std::cout
       << "Palpate " PALPATE_VERSION
@@ -34,12 +44,18 @@ void commandsShowHelp() {
          "  palpate COMMAND ...     work without a window\n"
          "  palpate help COMMAND    explain a command, as 'palpate COMMAND --help'\n"
          "  palpate help columns    explain every column of every table\n\n"
-         "Commands:\n";
-  for (const Command& command : allCommands())
-    std::printf("  %-14s %s\n", command.name, command.summary);
+         "Commands:\n\n";
+  for (const auto& [heading, group] : kGroups) {
+    std::cout << heading << ":\n";
+    for (const Command& command : allCommands())
+      if (command.group == group)
+        std::cout << "  " << std::left << std::setw(14) << command.name << " " << command.summary
+                  << "\n";
+    std::cout << "\n";
+  }
   std::cout << std::flush;
   std::puts(
-      "\nExit codes: 0 done, 1 failed, 2 wrong usage, 3 done in part (damaged input, or some of\n"
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done in part (damaged input, or some of\n"
       "several files failed).");
 }
 
@@ -148,50 +164,127 @@ int runCaught(const Arguments& words, OtherCommands others, NeedsOthers needsOth
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
-      {"adapt", "adapts a recognition model to the session of today", nullptr},
+      {"adapt",
+       CommandGroup::kRecognise,
+       "adapts a recognition model to the session of today",
+       nullptr},
       {"calibrate",
+       CommandGroup::kCompute,
        "calibrates counts to kPa and N: noise, steps, pressure, sensitivity, tare",
        nullptr},
-      {"classify", "names the grasped objects with a trained model", nullptr},
-      {"compare", "compares two recordings frame by frame, as CSV", &compareCommand},
-      {"contact", "measures where the hand touches and how large the object is, as CSV", nullptr},
+      {"classify",
+       CommandGroup::kRecognise,
+       "names the grasped objects with a trained model",
+       nullptr},
+      {"compare",
+       CommandGroup::kCompute,
+       "compares two recordings frame by frame, as CSV",
+       &compareCommand},
+      {"contact",
+       CommandGroup::kCompute,
+       "measures where the hand touches and how large the object is, as CSV",
+       nullptr},
       {"convert",
+       CommandGroup::kExport,
        "converts recordings: .dsa, .palpate, .csv, .npz, .h5, .mat, .mcap, .jsonl",
        &convertCommand},
-      {"demo", "runs a tour without a window: emulated hands grasp and recognise objects", nullptr},
-      {"derive", "computes curves from signals by formulas, as CSV", nullptr},
-      {"emulate", "runs an emulated hand on two ports until it is interrupted", nullptr},
-      {"evaluate", "measures how well grasps are recognised, as JSON", nullptr},
-      {"features", "computes the features of each grasp for recognition, as CSV", &featuresCommand},
-      {"filter", "filters a recording with one or several filters", &filterCommand},
-      {"ghosts", "counts falsely active taxels with and without filters, as CSV", &ghostsCommand},
-      {"grasp", "moves a connected hand: plain, reactive and slip-aware grasps", nullptr},
-      {"grasps", "finds the grasps in recordings, as CSV", &graspsCommand},
-      {"hands", "lists the known hands, and checks the folder of a hand", &handsCommand},
-      {"import", "imports tables of other programs: CSV, NumPy, HDF5, MAT", nullptr},
-      {"info", "shows what recordings contain", &infoCommand},
+      {"demo",
+       CommandGroup::kLook,
+       "runs a tour without a window: emulated hands grasp and recognise objects",
+       nullptr},
+      {"derive",
+       CommandGroup::kCompute,
+       "computes curves from signals by formulas, as CSV",
+       nullptr},
+      {"emulate",
+       CommandGroup::kHand,
+       "runs an emulated hand on two ports until it is interrupted",
+       nullptr},
+      {"evaluate",
+       CommandGroup::kRecognise,
+       "measures how well grasps are recognised, as JSON",
+       nullptr},
+      {"features",
+       CommandGroup::kRecognise,
+       "computes the features of each grasp for recognition, as CSV",
+       &featuresCommand},
+      {"filter",
+       CommandGroup::kCompute,
+       "filters a recording with one or several filters",
+       &filterCommand},
+      {"ghosts",
+       CommandGroup::kCompute,
+       "counts falsely active taxels with and without filters, as CSV",
+       &ghostsCommand},
+      {"grasp",
+       CommandGroup::kHand,
+       "moves a connected hand: plain, reactive and slip-aware grasps",
+       nullptr},
+      {"grasps", CommandGroup::kCompute, "finds the grasps in recordings, as CSV", &graspsCommand},
+      {"hands",
+       CommandGroup::kLook,
+       "lists the known hands, and checks the folder of a hand",
+       &handsCommand},
+      {"import",
+       CommandGroup::kExport,
+       "imports tables of other programs: CSV, NumPy, HDF5, MAT",
+       nullptr},
+      {"info", CommandGroup::kLook, "shows what recordings contain", &infoCommand},
       {"kinematics",
+       CommandGroup::kCompute,
        "computes where the taxels are at given joint angles, as CSV",
        &kinematicsCommand},
-      {"labels", "prints or imports labels, notes and marked grasps, as CSV", &labelsCommand},
-      {"ports", "lists the ports and the device at each", &portsCommand},
-      {"record", "records a connected hand", nullptr},
-      {"recover", "saves what is readable in a damaged or unfinished recording", &recoverCommand},
-      {"remote", "controls a running palpate: status, start, stop, label, ..", &remoteCommand},
-      {"render", "draws frames as pictures (PNG, SVG, PDF) or as a movie (MP4)", nullptr},
-      {"signals", "computes the characteristic signals of each matrix, as CSV", &signalsCommand},
-      {"slip", "measures how contacts move on each matrix and detects slip, as CSV", &slipCommand},
+      {"labels",
+       CommandGroup::kLook,
+       "prints or imports labels, notes and marked grasps, as CSV",
+       &labelsCommand},
+      {"ports", CommandGroup::kHand, "lists the ports and the device at each", &portsCommand},
+      {"record", CommandGroup::kHand, "records a connected hand", nullptr},
+      {"recover",
+       CommandGroup::kExport,
+       "saves what is readable in a damaged or unfinished recording",
+       &recoverCommand},
+      {"remote",
+       CommandGroup::kHand,
+       "controls a running palpate: status, start, stop, label, ..",
+       &remoteCommand},
+      {"render",
+       CommandGroup::kLook,
+       "draws frames as pictures (PNG, SVG, PDF) or as a movie (MP4)",
+       nullptr},
+      {"signals",
+       CommandGroup::kCompute,
+       "computes the characteristic signals of each matrix, as CSV",
+       &signalsCommand},
+      {"slip",
+       CommandGroup::kCompute,
+       "measures how contacts move on each matrix and detects slip, as CSV",
+       &slipCommand},
       {"slip-benchmark",
+       CommandGroup::kLaboratory,
        "measures the accuracy of every slip method on synthetic data, as JSON",
        &slipBenchmarkCommand},
-      {"spectrum", "computes spectra of a taxel or a signal, as CSV", &spectrumCommand},
+      {"spectrum",
+       CommandGroup::kCompute,
+       "computes spectra of a taxel or a signal, as CSV",
+       &spectrumCommand},
       {"step-benchmark",
+       CommandGroup::kLaboratory,
        "measures the reliability of the intervals of step fits, as JSON",
        nullptr},
-      {"stream", "sends live signals or taxels to other programs (PlotJuggler, Foxglove)", nullptr},
-      {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},
-      {"train", "trains a model that recognises grasped objects", nullptr},
-      {"verify", "checks every byte of recordings", &verifyCommand},
+      {"stream",
+       CommandGroup::kExport,
+       "sends live signals or taxels to other programs (PlotJuggler, Foxglove)",
+       nullptr},
+      {"synthesize",
+       CommandGroup::kLaboratory,
+       "makes a synthetic recording with known content",
+       &synthesizeCommand},
+      {"train",
+       CommandGroup::kRecognise,
+       "trains a model that recognises grasped objects",
+       nullptr},
+      {"verify", CommandGroup::kLook, "checks every byte of recordings", &verifyCommand},
   };
   return commands;
 }

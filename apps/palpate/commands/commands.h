@@ -19,9 +19,13 @@ constexpr int kPartlyDone = 3;
 
 using Arguments = std::vector<std::string>;
 
+// Where `palpate --help` lists a command, in this order.
+enum class CommandGroup { kLook, kCompute, kExport, kRecognise, kHand, kLaboratory };
+
 // An entry of the list of commands.
 struct Command {
   const char* name;
+  CommandGroup group;
   // One line of `palpate --help`.
   const char* summary;
   // The function of the command; it gets the words after the command's name. Null: the command
@@ -73,7 +77,7 @@ int verifyCommand(const Arguments& words);
 // Starts the window, with files to open, --demo or --screenshot.
 int windowCommand(const Arguments& words);
 
-// All commands, in the order of `palpate --help`.
+// All commands, by name.
 const std::vector<Command>& allCommands();
 // Whether words of a command line need formats that the program does without.
 using NeedsOthers = bool (*)(const Arguments& words);

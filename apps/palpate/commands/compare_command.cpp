@@ -1,5 +1,6 @@
 // The command `palpate compare A B [--align HOW]` prints two recordings side by side, frame by
 // frame, as CSV; with --average the average of a signal over grasps or recordings.
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -28,6 +29,7 @@ namespace palpate::commands {
 namespace {
 
 constexpr double kFurthestS = 1e9;
+constexpr OptionRange kOffsetS{-kFurthestS, kFurthestS, "s"};
 constexpr int kMicroseconds = 6;  // decimals: the resolution of time stamps
 
 struct TimedRecording {
@@ -88,6 +90,11 @@ double offsetOfGrasps(const CommandLine& given, const TimedRecording& a, const T
   return offsetS;
 }
 
+auto alignmentWords() {
+  return wordsOf(std::array{Alignment::kContact, Alignment::kStart, Alignment::kClock},
+                 [](Alignment each) { return nameOf(each); });
+}
+
 double offsetFor(const CommandLine& given, const TimedRecording& a, const TimedRecording& b) {
   if (given.has("grasp")) {
     for (const char* other : {"align", "offset"})
@@ -95,12 +102,12 @@ double offsetFor(const CommandLine& given, const TimedRecording& a, const TimedR
         throw UsageError(std::string("give --grasp or --") + other + ", not both");
     return offsetOfGrasps(given, a, b);
   }
-  if (const auto offsetS = given.number("offset", -kFurthestS, kFurthestS)) {
+  if (const auto offsetS = given.number("offset", kOffsetS)) {
     if (given.has("align")) throw UsageError("give --align or --offset, not both");
     return *offsetS;
   }
-  const std::string word = given.choice("align", {"contact", "start", "clock"}).value_or("contact");
-  if (const auto offsetS = offsetBetween(a.timed, b.timed, *alignmentFrom(word))) return *offsetS;
+  const Alignment how = given.chosen("align", alignmentWords()).value_or(Alignment::kContact);
+  if (const auto offsetS = offsetBetween(a.timed, b.timed, how)) return *offsetS;
   for (std::size_t i = 0; i < 2; ++i) {
     const TimedProfile& side = (i == 0 ? a : b).timed;
     if (side.profile.numFrames() == 0) throw Error(given.words()[i] + ": has no frames");
@@ -111,11 +118,16 @@ double offsetFor(const CommandLine& given, const TimedRecording& a, const TimedR
   throw Error("these two recordings can't be aligned; try --align start");
 }
 
-AverageOptions averageOptionsOf(const CommandLine& given) {
-  constexpr double kLongestStepS = 1e6;
-  AverageOptions options;
-  if (given.choice("band", {"sd", "percentiles"}).value_or("sd") == "percentiles")
-    options.band = AverageBand::kPercentiles;
+// What --average depends on.
+struct AverageChoices {
+  AverageOptions average = {};
+  bool ofGrasps = true;
+  double marginS = 0.5;
+};
+
+constexpr std::array<OptionWord<bool>, 2> kOfGraspsWords{{{"grasps", true}, {"recordings", false}}};
+
+void takePercentiles(const CommandLine& given, AverageOptions& options) {
   if (const auto text = given.text("percentiles")) {
     const std::vector<std::string> parts = splitAtCommas(*text);
     const auto low = parseDouble(parts.front()), high = parseDouble(parts.back());
@@ -128,10 +140,6 @@ AverageOptions averageOptionsOf(const CommandLine& given) {
     options.lowPercent = *low;
     options.highPercent = *high;
   }
-  constexpr double kShortestStepS = 1e-6;
-  options.stepS = given.number("step", kShortestStepS, kLongestStepS).value_or(0.0);
-  options.least = static_cast<std::size_t>(given.integer("least", 1, INT32_MAX).value_or(2));
-  return options;
 }
 
 // Curves with their names.
@@ -155,7 +163,10 @@ std::vector<std::string> shownNames(const std::vector<std::string>& files, const
   return shown;
 }
 
-void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves& all) {
+void addCurvesOf(const CommandLine& given,
+                 const AverageChoices& choices,
+                 const std::string& file,
+                 NamedCurves& all) {
   const TimedRecording whole = opened(file, given.quiet());
   const TimedProfile& timed = whole.timed;
   if (timed.profile.numFrames() == 0) throw Error(file + ": has no frames");
@@ -164,12 +175,14 @@ void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves&
   const auto series = std::make_shared<const Series>(
       typedSeries(timed.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));
   const double longestS = gapFromS(timed.timing);
-  if (given.choice("of", {"grasps", "recordings"}).value_or("grasps") == "recordings") {
-    const std::string how = given.choice("align", {"contact", "start"}).value_or("contact");
-    if (how == "contact" && !timed.contact)
+  if (!choices.ofGrasps) {
+    const Alignment how = given.chosen("align", alignmentWords()).value_or(Alignment::kContact);
+    if (how == Alignment::kClock)
+      throw UsageError("--align of --average must be one of contact, start, not 'clock'");
+    if (how == Alignment::kContact && !timed.contact)
       throw Error(file + ": no lasting contact (3 taxels in 3 frames in a row); use --align start");
     all.curves.push_back({.series = series,
-                          .zeroS = how == "contact" ? timed.timeS(*timed.contact) : 0.0,
+                          .zeroS = how == Alignment::kContact ? timed.timeS(*timed.contact) : 0.0,
                           .longestS = longestS});
     all.files.push_back(file);
     all.grasps.emplace_back();
@@ -181,23 +194,21 @@ void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves&
     all.files.push_back(file);
     all.grasps.push_back(" grasp " + std::to_string(spans.size()));
   }
-  constexpr double kUsualMarginS = 0.5;
-  const double marginS = given.number("margin", 0.0, kFurthestS).value_or(kUsualMarginS);
-  for (AlignedCurve& curve : alignedStretches(series, spans, marginS, longestS))
+  for (AlignedCurve& curve : alignedStretches(series, spans, choices.marginS, longestS))
     all.curves.push_back(std::move(curve));
 }
 
 // --average NAME
-int writeAverage(const CommandLine& given) {
+int writeAverage(const CommandLine& given, AverageChoices choices) {
   for (const char* other : {"grasp", "offset"})
     if (given.has(other))
       throw UsageError(std::string("--average aligns all at their contacts: leave out --") + other);
-  const bool ofGrasps = given.choice("of", {"grasps", "recordings"}).value_or("grasps") == "grasps";
-  if (ofGrasps && given.has("align"))
+  if (choices.ofGrasps && given.has("align"))
     throw UsageError("--align needs --of recordings; grasps are aligned where they begin");
-  const AverageOptions options = averageOptionsOf(given);
+  AverageOptions& options = choices.average;
+  takePercentiles(given, options);
   NamedCurves all;
-  for (const std::string& file : given.words()) addCurvesOf(given, file, all);
+  for (const std::string& file : given.words()) addCurvesOf(given, choices, file, all);
   const AverageCurve average = averageCurve(all.curves, options);
   return writeTable(given,
                     *averageTable(average, options, all.curves, shownNames(given.words(), all)));
@@ -206,6 +217,7 @@ int writeAverage(const CommandLine& given) {
 }  // namespace
 
 int compareCommand(const Arguments& words) {
+  AverageChoices choices;
   const CommandLine given(
       {.synopsis =
            "palpate compare A B [--align contact|start|clock | --grasp I:J | --offset S]\n"
@@ -223,27 +235,52 @@ int compareCommand(const Arguments& words) {
            "the median with percentiles, then the value of every grasp: "
            "time_s,curves,mean,low,high,.. The column curves tells how many have a value.",
        .options = withOneTableOptions(
-           {{"align", "HOW", "contact (default): first contacts; start; clock: by host time"},
+           {worded("align",
+                   "HOW",
+                   "by first contacts, first frames, or host time",
+                   alignmentWords(),
+                   "contact"),
             {"grasp",
              "I:J",
              "instead: where grasp I of A and grasp J of B begin, numbers from 1; says on standard "
              "error where both last"},
-            {"offset", "S", "instead: when B begins, in seconds from A's first frame"},
+            ranged("offset", "S", "instead: when B begins, from A's first frame", kOffsetS),
             {"average",
              "SIGNAL",
              "the average of a signal: m1_mean, hand_sum, m5_x2_y9, angle3, or a formula as for "
              "derive"},
-            {"of", "WHAT", "grasps (default): all of each FILE; recordings: each as a whole"},
-            {"band", "HOW", "sd (default): mean and standard deviation; percentiles"},
+            boundChoice("of",
+                        "WHAT",
+                        "all grasps of each FILE, or each as a whole",
+                        choices.ofGrasps,
+                        kOfGraspsWords),
+            boundChoice("band",
+                        "HOW",
+                        "sd: mean and standard deviation",
+                        choices.average.band,
+                        kAverageBandWords),
             {"percentiles", "LOW,HIGH", "default 10,90"},
-            {"margin", "S", "seconds before and after each grasp, default 0.5"},
-            {"step", "S", "of the time base, default: the longest median interval"},
-            {"least", "N", "values that a mean needs, default 2"}}),
+            bound("margin",
+                  "S",
+                  "before and after each grasp",
+                  choices.marginS,
+                  {0.0, kFurthestS, "s"}),
+            bound("step",
+                  "S",
+                  "of the time base",
+                  choices.average.stepS,
+                  AverageOptions::kStepS,
+                  "the longest median interval"),
+            bound("least",
+                  "N",
+                  "values that a mean needs",
+                  choices.average.least,
+                  AverageOptions::kLeast)}),
        .example = "palpate compare run_1.dsa run_2.dsa > differences.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  if (given.has("average")) return writeAverage(given);
+  if (given.has("average")) return writeAverage(given, choices);
   for (const char* only : {"of", "band", "percentiles", "margin", "step", "least"})
     if (given.has(only)) throw UsageError(std::string("--") + only + " needs --average");
   if (given.words().size() != 2) throw UsageError("compare needs two recordings, or --average");

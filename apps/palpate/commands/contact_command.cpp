@@ -72,6 +72,7 @@ std::unique_ptr<ResultTable> contactOfRecording(const CommandLine& given,
 }  // namespace
 
 int contactCommand(const Arguments& words) {
+  ContactRequest request;
   const CommandLine given(
       {.synopsis = "palpate contact PATH... [--angles A0,A1,..] [--matrices | --size]",
        .purpose = "Prints for every frame, as CSV, how many taxels are active (value > 0) and the "
@@ -87,13 +88,14 @@ int contactCommand(const Arguments& words) {
                   "last column names the file. A recording without joint angles needs --angles.",
        .options = withTableOptions(withCalibration(withFilterOptions(withFrameOptions(
            {{"angles", "A0,A1,..", "assume these joint angles [deg] for all frames"},
-            {"matrices", "", "a row per matrix"},
+            bound("matrices", "a row per matrix", request.rows.matrices),
             {"size", "", "a row per grasp: diameter and compression of the object"},
-            {"threshold", "N", "a taxel above N is active [counts], default 0"},
-            {"fingertip",
-             "study|effective",
-             "radius of bent fingertips: nominal (default; SDH-2: 58 mm) or effective "
-             "(default of --size; 48.4 mm)"},
+            bound("threshold",
+                  "N",
+                  "a taxel above N is active",
+                  request.rows.contact.threshold,
+                  ContactOptions::kThreshold),
+            fingertipOption("study, of --size effective"),
             timeColumnOption()})))),
        .example = "palpate contact foam_ball.dsa > contact.csv",
        .minArguments = 1},
@@ -101,13 +103,10 @@ int contactCommand(const Arguments& words) {
   if (given.helpShown()) return kDone;
   if (given.has("size")) return contactSizes(given);
   anglesOf(given);
-  ContactRequest request{.filters = recipeOf(given),
-                         .frames = frameChoiceOf(given),
-                         .calibration = calibrationGiven(given)};
-  request.rows.matrices = given.has("matrices");
-  request.rows.contact = {
-      .threshold = given.number("threshold", 0.0, kLargestFullScale).value_or(0.0),
-      .spheres = !request.rows.matrices};
+  request.filters = recipeOf(given);
+  request.frames = frameChoiceOf(given);
+  request.calibration = calibrationGiven(given);
+  request.rows.contact.spheres = !request.rows.matrices;
   if (request.calibration && request.rows.matrices)
     throw UsageError(
         "--calibration fills force_n of frames; forces of matrices: palpate calibrate apply");

@@ -46,8 +46,8 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   formatOf(out);
   requireOther(in, out);
   requireWritable(out, overwrite);
-  const auto from = given.integer("from", 0, INT64_MAX);
-  const auto to = given.integer("to", 0, INT64_MAX);
+  const auto from = given.integer("from", kFrameOption);
+  const auto to = given.integer("to", kFrameOption);
   if (from && to && *from > *to) throw UsageError("--from is after --to");
   const Recipe recipe = recipeOf(given);
   const ExportChoices choices = exportChoicesOf(given, recipe, out);
@@ -89,10 +89,9 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   return kPartlyDone;
 }
 
-std::vector<std::string> formNames() {
-  std::vector<std::string> names;
-  for (const std::string& ending : recordingEndings()) names.push_back(ending.substr(1));
-  return names;
+// The endings without their dots.
+auto formWords() {
+  return wordsOf(recordingEndings(), [](const std::string& ending) { return ending.substr(1); });
 }
 
 BatchTask convertTaskOf(const CommandLine& given, const std::string& ending) {
@@ -135,16 +134,16 @@ int convertBatch(const CommandLine& given) {
   return runBatchCommand(given, names, convertTaskOf(given, names.ending()));
 }
 
-// FOLDER OUTFOLDER --to-form FORM: a batch that keeps the names; of two that would get the same
-// one, the second fails.
-int convertFolder(const CommandLine& given, const std::string& form) {
+// FOLDER OUTFOLDER --to-form FORM (`ending`: ".FORM"): a batch that keeps the names; of two that
+// would get the same one, the second fails.
+int convertFolder(const CommandLine& given, const std::string& ending) {
   const fs::path outFolder = given.words()[1];
   std::error_code ignored;
   if (fs::exists(outFolder, ignored) && !fs::is_directory(outFolder, ignored))
     throw FileError(outFolder, "is not a folder");
   return runBatchCommand(given,
-                         BatchTemplate(outFolder, "{name}." + form),
-                         convertTaskOf(given, "." + form),
+                         BatchTemplate(outFolder, "{name}" + ending),
+                         convertTaskOf(given, ending),
                          {.paths = {given.words()[0]},
                           .sameResults = SameResults::kSecondFails,
                           .summary = hasBatchOptions(given)});
@@ -163,10 +162,10 @@ int convertCommand(const Arguments& words) {
                   "into OUTFOLDER under the same names with the ending of FORM, and prints a line "
                   "per file. If one fails, the others are still converted: exit code 3.",
        .options = withBatchOptions(withExportOptions(withFilterOptions(
-           {{"from", "N", "first frame, default 0"},
-            {"to", "M", "last frame (inclusive), default the last one"},
+           {rangedWhole("from", "N", "first frame", kFrameOption, "0"),
+            rangedWhole("to", "M", "last frame (inclusive)", kFrameOption, "the last one"),
             {"each-grasp", "", "a file for each grasp, as -o out/{name}_{n}.palpate"},
-            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5, mat or mcap"},
+            worded("to-form", "FORM", "of a folder", formWords()),
             timeOption(),
             topicOption()}))),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
@@ -180,15 +179,15 @@ int convertCommand(const Arguments& words) {
                      counted(given.words().size(), "word"));
   const std::string& in = given.words()[0];
   const std::string& out = given.words()[1];
-  const auto form = given.choice("to-form", formNames());
+  const auto ending = given.chosen("to-form", formWords());
   std::error_code ignored;
   const bool isFolder = fs::is_directory(in, ignored);
-  if (isFolder && !form)
+  if (isFolder && !ending)
     throw UsageError(in + " is a folder: choose the format of the results with --to-form");
-  if (!isFolder && form) throw UsageError("--to-form needs a folder; " + in + " isn't one");
+  if (!isFolder && ending) throw UsageError("--to-form needs a folder; " + in + " isn't one");
   if (isFolder && (given.has("from") || given.has("to") || given.has("topic")))
     throw UsageError("--from, --to and --topic work with one recording, not with a folder");
-  if (isFolder) return convertFolder(given, *form);
+  if (isFolder) return convertFolder(given, *ending);
   refuseBatchOptions(given);
   return convertOne(given, in, out);
 }

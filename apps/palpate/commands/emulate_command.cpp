@@ -43,7 +43,7 @@ void setRate(const std::string& text, EmulatedHandOptions& options) {
 }
 
 std::uint64_t seedOf(const CommandLine& given) {
-  return static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
+  return static_cast<std::uint64_t>(given.integer("seed", kSeedOption).value_or(1));
 }
 
 Faults faultsOf(const CommandLine& given) {
@@ -63,8 +63,8 @@ EmulatedHandOptions emulateOptionsOf(const CommandLine& given) {
     throw UsageError("--dsa and --sdh need different names");
   if (const auto rate = given.text("rate")) setRate(*rate, options);
   options.seed = seedOf(given);
-  options.dsa.firmware =
-      static_cast<std::uint16_t>(given.integer("dsa-firmware", 1, 0xFFFF).value_or(0x2900));
+  options.dsa.firmware = static_cast<std::uint16_t>(
+      given.integer("dsa-firmware", DsaServerOptions::kFirmware).value_or(options.dsa.firmware));
   if (const auto firmware = given.text("sdh-firmware")) options.sdh.firmware = *firmware;
   options.faults = faultsOf(given);
   return options;
@@ -81,19 +81,15 @@ std::uint32_t serialOfThisProcess() {
 EmulatedStreamOptions streamedOptionsOf(const CommandLine& given) {
   EmulatedStreamOptions options;
   options.where = *given.text("stream");
-  const std::string format = given.text("format").value_or("binary");
-  if (format == "lines")
-    options.format = EmulatedStreamFormat::kLines;
-  else if (format == "json")
-    options.format = EmulatedStreamFormat::kJson;
-  else if (format != "binary")
-    throw UsageError("--format must be binary, lines or json, not '" + format + "'");
+  options.format = given.chosen("format", kEmulatedStreamWords).value_or(options.format);
   if (const auto rate = given.text("rate")) {
     const auto hz = parseDouble(*rate);
     if (*rate == "max")
       options.asFastAsRead = true;
-    else if (!hz || *hz < 0.1 || *hz > 5000.0)
-      throw UsageError("--rate of a stream must be max or a number 0.1..5000, not '" + *rate + "'");
+    else if (!hz || !options.kRateHz.contains(*hz))
+      throw UsageError("--rate of a stream must be max or a number " +
+                       numberText(options.kRateHz.minimum) + ".." +
+                       numberText(options.kRateHz.maximum) + ", not '" + *rate + "'");
     else
       options.rateHz = *hz;
   }
@@ -149,7 +145,7 @@ CommandSpec emulateSpec() {
             "PORT",
             "send the frames of --hand at this TCP port of this machine (0: any); ADDRESS:PORT "
             "opens it to other machines"},
-           {"format", "FORMAT", "form of the stream: binary (default), lines or json"},
+           worded("format", "FORMAT", "form of the stream", kEmulatedStreamWords, "binary"),
            {"scene",
             "NAME|FILE.json",
             "objects and events around the hand: " + joinedSceneNames() +
@@ -166,11 +162,17 @@ CommandSpec emulateSpec() {
             "real: a serial line at 115200 baud (default); HZ: frames per second, "
             "0.1..1000; max: as fast as the client reads. For a stream HZ, 0.1..5000 (default "
             "100), or max"},
-           {"seed",
-            "N",
-            "seed of noise and faults, default 1, and of the serial numbers; without it each start "
-            "has others, a replay those of its recording"},
-           {"dsa-firmware", "N", "firmware of the tactile controller, default 10496 (2.9.0.0)"},
+           rangedWhole("seed",
+                       "N",
+                       "seed of noise and faults, and of the serial numbers; without it each start "
+                       "has others, a replay those of its recording",
+                       kSeedOption,
+                       "1"),
+           rangedWhole("dsa-firmware",
+                       "N",
+                       "firmware of the tactile controller",
+                       DsaServerOptions::kFirmware,
+                       std::to_string(DsaServerOptions{}.firmware) + " (2.9.0.0)"),
            {"sdh-firmware", "TEXT", "firmware of the motion controller, default 0.0.3.3"},
            {"force", "", "replace OUT.csv"}},
       .example = "palpate emulate --dsa /tmp/dsa --sdh /tmp/sdh --scene ball",

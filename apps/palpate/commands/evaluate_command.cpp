@@ -1,6 +1,7 @@
 // The command `palpate evaluate PATH` measures how well grasps are recognised, by cross-validation
 // or with a model on other recordings.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -16,6 +17,7 @@ namespace palpate::commands {
 namespace {
 
 constexpr std::size_t kBlocks = 5;
+constexpr OptionRange kSplits{1, 100'000};
 
 struct SetChoice {
   // Empty: that of the hand of the recordings.
@@ -23,19 +25,24 @@ struct SetChoice {
   StudyPart part = StudyPart::kAll;
 };
 
-SetChoice setGiven(const CommandLine& given) {
-  SetChoice choice;
-  const auto name = given.choice(
-      "set", {"diameter", "first4", "moments", "study", "best", "session", "statistics"});
-  if (!name) return choice;
-  choice.set = featureSetNamed(*name);
-  if (choice.set) return choice;
-  choice.set = FeatureSet::kStudy;
-  choice.part = *name == "diameter" ? StudyPart::kDiameter
-                : *name == "first4" ? StudyPart::kFirst4
-                                    : StudyPart::kMoments;
-  return choice;
-}
+// A feature set, or a part of the study's.
+const std::array<OptionWord<SetChoice>, 7> kSetWords{
+    {{"diameter", {FeatureSet::kStudy, StudyPart::kDiameter}},
+     {"first4", {FeatureSet::kStudy, StudyPart::kFirst4}},
+     {"moments", {FeatureSet::kStudy, StudyPart::kMoments}},
+     {"study", {FeatureSet::kStudy}},
+     {"best", {FeatureSet::kBest}},
+     {"session", {FeatureSet::kSession}},
+     {"statistics", {FeatureSet::kStatistics}}}};
+constexpr std::array<OptionWord<bool>, 2> kBlocksWords{{{"S", false}, {"B", true}}};
+
+// What --model doesn't go with.
+struct CrossValidation {
+  std::optional<SetChoice> set = {};
+  bool blocks = false;
+  std::size_t numSplits = 10;
+  std::uint64_t seed = 0;
+};
 
 Json coverageJson(const std::vector<CoveragePoint>& curve) {
   return jsonList(curve, [](const CoveragePoint& point) {
@@ -137,12 +144,9 @@ void printResult(const CommandLine& given, const Json& json, ResultTable& table)
     printJson(given, json);
 }
 
-int crossValidation(const CommandLine& given) {
-  const SetChoice choice = setGiven(given);
+int crossValidation(const CommandLine& given, const CrossValidation& how) {
+  const SetChoice choice = how.set.value_or(SetChoice{});
   PipelineOptions options = pipelineGiven(given, choice.set.value_or(FeatureSet::kBest));
-  const bool blocks = given.choice("protocol", {"S", "B"}) == "B";
-  const auto numSplits = static_cast<std::size_t>(given.integer("splits", 1, 100000).value_or(10));
-  const auto seed = static_cast<std::uint64_t>(given.integer("seed", 0, 1'000'000'000).value_or(0));
   if (given.has("later") && !given.has("unknown")) throw UsageError("--later needs --unknown");
   if (given.has("later") && options.classifier != ClassifierKind::kGauss)
     throw UsageError(
@@ -154,15 +158,16 @@ int crossValidation(const CommandLine& given) {
   options = pipelineGiven(given, table.set);
   sayNotes(given, table.set, samples);
   requireLearnable(samples);
-  const auto splits =
-      blocks ? blockSplits(samples.y, kBlocks) : stratifiedSplits(samples.y, numSplits, seed);
+  const auto splits = how.blocks ? blockSplits(samples.y, kBlocks)
+                                 : stratifiedSplits(samples.y, how.numSplits, how.seed);
   ValidationReport report(samples.classes);
   std::vector<LearningPoint> curve;
   std::vector<EliminationStep> steps;
   runInterruptibly(given, "cross-validation", [&](const Progress& progress) {
     report = crossValidate(samples, options, splits, 0, progress);
     if (given.has("learning-curve"))
-      curve = learningCurve(samples, options, curveSizes(samples), numSplits, seed, 0, progress);
+      curve = learningCurve(
+          samples, options, curveSizes(samples), how.numSplits, how.seed, 0, progress);
     if (given.has("eliminate")) steps = eliminateFeatures(samples, options, splits, 0, progress);
   });
   const Json confusion = report.confusion.confusionJson();
@@ -171,10 +176,10 @@ int crossValidation(const CommandLine& given) {
                   .set("accuracy_mean", report.accuracyMean)
                   .set("accuracy_sd", report.accuracySd)
                   .set("top3", report.top3)
-                  .set("protocol", blocks ? "B" : "S")
+                  .set("protocol", how.blocks ? "B" : "S")
                   .set("set", given.text("set").value_or(std::string(featureSetName(table.set))))
                   .set("pipeline", jsonOf(options))
-                  .set("seed", blocks ? Json() : Json(static_cast<std::int64_t>(seed)))
+                  .set("seed", how.blocks ? Json() : Json(static_cast<std::int64_t>(how.seed)))
                   .set("splits", splits.size())
                   .set("grasps", samples.numSamples())
                   .set("accuracies", std::move(accuracies))
@@ -214,7 +219,7 @@ Json answersJson(const ModelEvaluation& evaluation,
   return list;
 }
 
-int withModel(const CommandLine& given) {
+int withModel(const CommandLine& given, EvaluationOptions options) {
   for (const char* option : {"set",
                              "lda",
                              "classifier",
@@ -228,8 +233,6 @@ int withModel(const CommandLine& given) {
     if (given.has(option))
       throw UsageError(std::string("--") + option +
                        " can't be used with --model, which has its own");
-  EvaluationOptions options;
-  options.adaptPerClass = static_cast<std::size_t>(given.integer("adapt", 0, 10000).value_or(0));
   try {
     if (const auto text = given.text("session-offset")) options.offset = OffsetChoice::from(*text);
   } catch (const std::invalid_argument& error) {
@@ -256,14 +259,17 @@ int withModel(const CommandLine& given) {
 }  // namespace
 
 int evaluateCommand(const Arguments& words) {
+  CrossValidation how;
+  EvaluationOptions evaluation;
   std::vector<OptionSpec> options = {
-      {"set",
-       "SET",
-       "diameter, first4, moments, study, best (default where two pads pinch), session or "
-       "statistics (default of other hands)"},
-      {"protocol", "P", "S (default): stratified shuffles; B: five contiguous blocks per class"},
-      {"splits", "N", "splits of protocol S, default 10"},
-      {"seed", "N", "seed of protocol S, default 0"},
+      boundChoice("set", "SET", "", how.set, kSetWords, kDefaultFeatureSetText),
+      boundChoice("protocol",
+                  "P",
+                  "S: stratified shuffles; B: five contiguous blocks per class",
+                  how.blocks,
+                  kBlocksWords),
+      bound("splits", "N", "splits of protocol S", how.numSplits, kSplits),
+      bound("seed", "N", "seed of protocol S", how.seed, kSeedOption),
       {"confidence",
        "",
        "calibrate probabilities, too: adds their calibration error and the coverage curve"},
@@ -275,9 +281,11 @@ int evaluateCommand(const Arguments& words) {
       {"unknown", "", "adds how well unknown objects are detected: each class left out in turn"},
       {"later", "PATH2", "with --unknown: the same on these grasps of another session (gauss)"},
       {"model", "M.json", "test this model instead (protocol X)"},
-      {"adapt",
-       "K",
-       "adapt it with the first K grasps of each class and session, which are not tested"},
+      bound("adapt",
+            "K",
+            "adapt it with the first K grasps of each class and session, which are not tested",
+            evaluation.adaptPerClass,
+            EvaluationOptions::kAdaptPerClass),
       {"session-offset",
        "WHICH",
        "model (default: what adapt stored), none (all offsets are averaged), batch, or mm"},
@@ -307,10 +315,10 @@ int evaluateCommand(const Arguments& words) {
       words);
   if (given.helpShown()) return kDone;
   formOf(given);
-  if (given.has("model")) return withModel(given);
+  if (given.has("model")) return withModel(given, std::move(evaluation));
   for (const char* option : {"adapt", "session-offset"})
     if (given.has(option)) throw UsageError(std::string("--") + option + " needs --model");
-  return crossValidation(given);
+  return crossValidation(given, how);
 }
 
 }  // namespace palpate::commands

@@ -10,9 +10,9 @@ std::vector<OptionSpec> withExportOptions(std::vector<OptionSpec> options) {
   options.push_back(
       {"no-signals", "", "of .h5, .mat and .mcap: without the characteristic signals"});
   options.push_back({"no-slip", "", "of .h5, .mat and .mcap: without the slip"});
-  options.push_back({"compression", "KIND", "of .mcap: zstd (default), lz4 or none"});
+  options.push_back(worded("compression", "KIND", "of .mcap", kMcapCompressionWords, "zstd"));
   options.push_back(
-      {"images", "KIND", "of .mcap: ros (sensor_msgs/Image, default) or foxglove (RawImage)"});
+      worded("images", "KIND", "of .mcap: sensor_msgs/Image or RawImage", kMcapImagesWords, "ros"));
   options.push_back({"units-row", "", "of .csv: a second row with the units"});
   return options;
 }
@@ -23,12 +23,8 @@ ExportChoices exportChoicesOf(const CommandLine& given,
   ExportChoices choices{.withSignals = !given.has("no-signals"),
                         .withSlip = !given.has("no-slip"),
                         .unitsRow = given.has("units-row")};
-  if (const auto kind = given.choice("compression", {"zstd", "lz4", "none"}))
-    choices.compression = *kind == "lz4"    ? McapCompression::kLz4
-                          : *kind == "none" ? McapCompression::kNone
-                                            : McapCompression::kZstd;
-  if (const auto kind = given.choice("images", {"ros", "foxglove"}))
-    choices.images = *kind == "ros" ? McapImages::kRos : McapImages::kFoxglove;
+  choices.compression = given.chosen("compression", kMcapCompressionWords);
+  choices.images = given.chosen("images", kMcapImagesWords);
   try {
     requirePossible(choices, filters, out);
   } catch (const std::invalid_argument& error) {

@@ -35,6 +35,7 @@ FeatureTable gather(const CommandLine& given, const FeatureExtractionOptions& op
 }  // namespace
 
 int featuresCommand(const Arguments& words) {
+  FeatureExtractionOptions options;
   const CommandLine given(
       {.synopsis = "palpate features PATH... [--set study|best|session|statistics] [-o TEMPLATE]",
        .purpose =
@@ -52,17 +53,11 @@ int featuresCommand(const Arguments& words) {
            "face each other) and a recording without a grasp are reported on standard error; then "
            "the exit code is 3. With -o there is a table for each recording.",
        .options = withTableOptions(withFilterOptions(
-           {{"set",
-             "SET",
-             "study, best (default where two pads pinch), session or statistics (default of "
-             "other hands)"}})),
+           {boundChoice("set", "SET", "", options.set, kFeatureSetWords, kDefaultFeatureSetText)})),
        .example = "palpate features recordings --set best > features.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  FeatureExtractionOptions options;
-  const auto set = given.choice("set", {"study", "best", "session", "statistics"});
-  if (set) options.set = *featureSetNamed(*set);
   options.filters = recipeOf(given);
   if (given.has("output"))
     return runBatchCommand(given,

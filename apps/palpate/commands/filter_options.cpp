@@ -60,16 +60,16 @@ std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options) {
 }
 
 OptionSpec timeOption() {
-  return {"time",
-          "WHICH",
-          "times of frames and series: arrival (default), or fitted: the sender's clock, fitted to "
-          "it (docs/manual/spectra.md)"};
+  return worded("time",
+                "WHICH",
+                "times of frames and series; fitted: the sender's clock, fitted to arrival "
+                "(docs/manual/spectra.md)",
+                kTimeChoiceWords,
+                "arrival");
 }
 
 TimeChoice timeChoiceOf(const CommandLine& given) {
-  return given.choice("time", {"arrival", "fitted"}).value_or("arrival") == "fitted"
-             ? TimeChoice::kFitted
-             : TimeChoice::kArrival;
+  return given.chosen("time", kTimeChoiceWords).value_or(TimeChoice::kArrival);
 }
 
 void takeTimes(const CommandLine& given,
@@ -83,13 +83,14 @@ void takeTimes(const CommandLine& given,
 }
 
 std::vector<OptionSpec> withFrameOptions(std::vector<OptionSpec> options) {
-  options.push_back({"from", "N", "first frame, default 0"});
-  options.push_back({"to", "M", "last frame (inclusive), default the last one"});
+  options.push_back(rangedWhole("from", "N", "first frame", kFrameOption, "0"));
+  options.push_back(
+      rangedWhole("to", "M", "last frame (inclusive)", kFrameOption, "the last one"));
   return options;
 }
 
 FrameChoice frameChoiceOf(const CommandLine& given) {
-  const FrameChoice choice{given.integer("from", 0, INT64_MAX), given.integer("to", 0, INT64_MAX)};
+  const FrameChoice choice{given.integer("from", kFrameOption), given.integer("to", kFrameOption)};
   if (choice.from && choice.to && *choice.from > *choice.to)
     throw UsageError("--from is after --to");
   return choice;
@@ -120,11 +121,12 @@ Recipe recipeOf(const CommandLine& given) {
   return recipe;
 }
 
+std::vector<std::pair<std::string, SignalKind>> signalWords() {
+  return wordsOf(kAllSignalKinds, signalName);
+}
+
 std::optional<SignalKind> signalChosen(const CommandLine& given) {
-  Arguments known;
-  for (const SignalKind kind : kAllSignalKinds) known.emplace_back(signalName(kind));
-  const auto name = given.choice("signal", known);
-  return name ? signalKindNamed(*name) : std::nullopt;
+  return given.chosen("signal", signalWords());
 }
 
 std::string filterList() {

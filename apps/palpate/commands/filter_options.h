@@ -23,6 +23,9 @@ std::vector<OptionSpec> filterOptions();
 // `options` followed by the filter options.
 std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options);
 
+// The signals of --signal.
+std::vector<std::pair<std::string, SignalKind>> signalWords();
+
 // --time, and what it chooses. Throws UsageError.
 OptionSpec timeOption();
 TimeChoice timeChoiceOf(const CommandLine& given);

@@ -65,15 +65,14 @@ Progress partOf(const Progress& whole, std::size_t part, std::size_t parts) {
 
 std::vector<double> numbersOf(const CommandLine& given,
                               const std::string& option,
-                              double least,
-                              double most,
+                              OptionRange range,
                               std::span<const double> defaultValue) {
   std::vector<double> numbers;
   for (const std::string& text : given.texts(option)) {
     const auto number = parseDouble(text);
-    if (!number || *number < least || *number > most)
-      throw UsageError("--" + option + " must be a number from " + numberText(least) + " to " +
-                       numberText(most) + ", not '" + text + "'");
+    if (!number || !range.contains(*number))
+      throw UsageError("--" + option + " must be a number from " + numberText(range.minimum) +
+                       " to " + numberText(range.maximum) + ", not '" + text + "'");
     numbers.push_back(*number);
   }
   if (numbers.empty()) numbers.assign(defaultValue.begin(), defaultValue.end());
@@ -82,12 +81,10 @@ std::vector<double> numbersOf(const CommandLine& given,
 
 int emulated(const CommandLine& given,
              const std::vector<Recipe>& recipes,
-             const GhostingOptions& options) {
-  const std::vector<double> temperatures = numbersOf(given, "deg", 0.0, 80.0, kDefaultDegC);
-  const std::vector<double> belows = numbersOf(given, "below", -100.0, 100.0, kDefaultBelow);
-  NoisyContactsOptions make;
-  make.seed = static_cast<std::uint64_t>(given.integer("seed", 0, INT64_MAX).value_or(1));
-  make.frames = static_cast<std::size_t>(given.integer("frames", 1, 100'000).value_or(3000));
+             const GhostingOptions& options,
+             NoisyContactsOptions make) {
+  const std::vector<double> temperatures = numbersOf(given, "deg", make.kDegC, kDefaultDegC);
+  const std::vector<double> belows = numbersOf(given, "below", make.kBelowCounts, kDefaultBelow);
   GhostOutput rows(given, true);
   ProgressLine line("the emulated hand", given.quiet());
   const std::size_t parts = temperatures.size() * belows.size() * recipes.size();
@@ -152,7 +149,7 @@ int recorded(const CommandLine& given,
       throw UsageError(std::string("--") + option +
                        " works with the emulated hand only: leave out PATH");
   std::vector<std::optional<double>> belows;
-  for (const double below : numbersOf(given, "below", -100.0, 100.0, {}))
+  for (const double below : numbersOf(given, "below", NoisyContactsOptions::kBelowCounts, {}))
     belows.emplace_back(below);
   if (belows.empty()) belows.emplace_back();
   GhostOutput rows(given, false);
@@ -185,6 +182,8 @@ int recorded(const CommandLine& given,
 }  // namespace
 
 int ghostsCommand(const Arguments& words) {
+  GhostingOptions options;
+  NoisyContactsOptions make;
   const CommandLine given(
       {.synopsis = "palpate ghosts [PATH...] [--filter SPEC]... [--recipe R.json] [--json]",
        .purpose =
@@ -207,16 +206,22 @@ int ghostsCommand(const Arguments& words) {
            "first one with it; latency_frames: of the filters themselves; cost_us: mean time of "
            "the filters per frame.",
        .options = withOneTableOptions(
-           withFilterOptions(
-               {{"deg",
-                 "DEGC",
-                 "emulated: temperature of the hand, default 30 and 45; several times"},
-                {"below",
-                 "COUNTS",
-                 "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
-                {"frames", "N", "emulated: frames, default 3000"},
-                {"seed", "N", "emulated: seed of noise and contacts, default 1"},
-                {"above", "COUNTS", "a filtered value above it is active, default 0"}}),
+ withFilterOptions(
+           {{"deg", "DEGC", "emulated: temperature of the hand, default 30 and 45; several times"},
+            {"below",
+             "COUNTS",
+             "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
+            bound("frames", "N", "emulated: frames", make.frames, make.kFrames),
+            bound("seed",
+                  "N",
+                  "emulated: seed of noise and contacts",
+                  make.seed,
+                  {0, kFrameOption.maximum}),
+            bound("above",
+                  "COUNTS",
+                  "a filtered value above it is active",
+                  options.activeAboveCounts,
+                  options.kActiveAboveCounts)}),
            "full reports, per matrix and per contact, as one object"),
        .example = "palpate ghosts --below 5 --filter min-median:window=3,masked=1"},
       words);
@@ -225,9 +230,7 @@ int ghostsCommand(const Arguments& words) {
   const Recipe own = recipeOf(given);
   const std::vector<Recipe> recipes =
       given.has("filter") || given.has("recipe") ? std::vector{own} : ghostCandidates();
-  GhostingOptions options;
-  options.activeAboveCounts = given.number("above", 0.0, kLargestFullScale).value_or(0.0);
-  return given.words().empty() ? emulated(given, recipes, options)
+  return given.words().empty() ? emulated(given, recipes, options, make)
                                : recorded(given, recipes, options);
 }
 

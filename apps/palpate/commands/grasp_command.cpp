@@ -20,6 +20,7 @@
 #include "palpate/core/time.h"
 #include "palpate/device/last_stop.h"
 #include "palpate/device/live_hand.h"
+#include "palpate/interop/remote_fields.h"
 #include "palpate/kinematics/preshape_opening.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
@@ -36,7 +37,19 @@ constexpr std::int64_t kNoticeUs = 5'000'000;  // while no stop is answered
 constexpr double kPortBackS = 10.0;            // beyond the end of the motion
 constexpr std::size_t kMostSequenceBytes = 10'000'000;
 
-CommandSpec graspSpec() {
+// What is bound to options of the command line.
+struct GraspChoices {
+  GraspRequest request = {};
+  std::optional<double> closeRatio = {};
+  std::optional<int> limitCounts = {}, mostLimitCounts = {};
+  double massKg = 0.0;
+  std::optional<double> objectMm = {};
+  double waitS = 15.0;
+};
+
+CommandSpec graspSpec(GraspChoices& choices) {
+  GraspRequest& request = choices.request;
+  HoldingOptions& holding = request.holding;
   return {
       .synopsis = "palpate grasp --sdh PORT [--dsa PORT] --preshape NAME [--close R] ..",
       .purpose =
@@ -54,57 +67,104 @@ CommandSpec graspSpec() {
           {{"sdh", "PORT", "motion controller"},
            {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
            {"preshape", "NAME", "preshape: pose of the fingers before they close"},
-           {"close", "R", "close ratio, 0..1"},
-           {"velocity", "V", "velocity of the joints, 0.2..100 deg/s, default 10"},
-           {"mode", "plain|reactive|slip", "default plain"},
-           {"limit", "N", "limit of 'reactive' and 'slip', 3..3300 counts, default 200"},
+           bound("close",
+                 "R",
+                 "close ratio",
+                 choices.closeRatio,
+                 GraspRequest::kCloseRatio,
+                 numberText(request.closeRatio) + ", under tactile control 1"),
+           bound("velocity",
+                 "V",
+                 "velocity of the joints",
+                 request.velocityDegPerS,
+                 GraspRequest::kVelocityDegPerS),
+           boundChoice("mode",
+                       "MODE",
+                       "",
+                       request.mode,
+                       wordsOf(kAllGraspModes, [](GraspMode each) { return nameOf(each); })),
+           bound("limit",
+                 "N",
+                 "limit of 'reactive' and 'slip'",
+                 choices.limitCounts,
+                 GraspRequest::kLimitCounts,
+                 std::to_string(request.limitCounts)),
            {"object",
             "NAME",
             "of 'reactive' and 'slip': the object; where grasps of it touched is remembered"},
-           {"object-size", "MM", "its width: the hand closes fast until it is this narrow"},
+           bound("object-size",
+                 "MM",
+                 "its width: the hand closes fast until it is this narrow",
+                 choices.objectMm,
+                 {0.1, kLargestObjectMm, "mm"}),
            {"quick",
             "",
             "closes at V deg/s all the way and stays where it stops: the limit isn't kept"},
            {"finger-limits", "N0,N1,..", "instead of --limit: a limit for each finger, in counts"},
            {"force-limit",
             "F[,F1,..]",
-            "also stops when a finger presses harder than F newtons; F,F1,..: each finger; "
-            "0.05..500, needs --calibration"},
+            "also stops when a finger presses harder than F newtons; F,F1,..: each finger; " +
+                numberText(kMinForceLimitN) + ".." + numberText(kMaxForceLimitN) +
+                ", needs --calibration"},
            {"calibration", "FILE", "the calibration that measures --force-limit"},
-           {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
-           {"hold", "S", "of 'slip': end after S seconds; the hand keeps holding"},
-           {"calm",
-            "S",
-            "of 'slip': after S seconds without slip the limit falls again, default 5"},
-           {"loosen", "", "of 'slip': the hand may open slowly to a limit that fell"},
-           {"object-mass",
-            "KG",
-            "of 'slip': opens slowly once, until it slips, and measures the friction"},
-           {"newtons-per-count", "F", "newtons per count of a calibration, for the friction"},
+           bound("most",
+                 "N",
+                 "of 'slip': the limit rises up to N counts",
+                 choices.mostLimitCounts,
+                 GraspRequest::kLimitCounts,
+                 std::to_string(holding.maxLimitCounts)),
+           bound("hold",
+                 "S",
+                 "of 'slip': end after this time; the hand keeps holding",
+                 holding.holdS,
+                 HoldingOptions::kHoldS,
+                 "until Ctrl-C"),
+           bound("calm",
+                 "S",
+                 "of 'slip': after this time without slip the limit falls again",
+                 holding.noSlipS,
+                 HoldingOptions::kNoSlipS),
+           bound("loosen",
+                 "of 'slip': the hand may open slowly to a limit that fell",
+                 holding.loosen),
+           bound("object-mass",
+                 "KG",
+                 "of 'slip': opens slowly once, until it slips, and measures the friction",
+                 choices.massKg,
+                 HoldingOptions::kMassKg,
+                 ""),
+           bound("newtons-per-count",
+                 "F",
+                 "of a calibration, for the friction",
+                 holding.newtonsPerCount,
+                 HoldingOptions::kNewtonsPerCount,
+                 ""),
            {"sequence",
             "FILE",
             "instead of a grasp: the steps of a table that the window saved (dock Hand)"},
-           {"wait", "S", "give up when the hand doesn't answer for S seconds, default 15"}},
+           bound("wait",
+                 "S",
+                 "give up when the hand doesn't answer",
+                 choices.waitS,
+                 StartLimits::kFirstFrameS)},
       .example =
           "palpate grasp --sdh /dev/ttyUSB1 --dsa /dev/ttyUSB0 --preshape centrical "
           "--mode reactive",
       .maxArguments = 0};
 }
 
-void holdingOf(const CommandLine& given, GraspRequest& request) {
+void holdingOf(const CommandLine& given, const GraspChoices& choices, GraspRequest& request) {
   for (const char* option : {"most", "hold", "calm", "loosen", "object-mass", "newtons-per-count"})
     if (given.has(option) && request.mode != GraspMode::kSlip)
       throw UsageError("--" + std::string(option) + " needs --mode slip");
   constexpr double kGravity = 9.81;  // [m/s^2]
   HoldingOptions& holding = request.holding;
-  const int most = std::max(holding.maxLimitCounts, request.limitCounts);
-  holding.maxLimitCounts = static_cast<int>(
-      given.integer("most", request.limitCounts, kMaxGraspLimitCounts).value_or(most));
-  holding.holdS = given.number("hold", 0.1, 86'400.0).value_or(0.0);
-  holding.noSlipS = given.number("calm", 0.1, 86'400.0).value_or(holding.noSlipS);
-  holding.loosen = given.has("loosen");
-  holding.weightN = kGravity * given.number("object-mass", 0.001, 100.0).value_or(0.0);
-  holding.newtonsPerCount = given.number("newtons-per-count", 1e-9, 1.0).value_or(0.0);
+  holding.maxLimitCounts =
+      choices.mostLimitCounts.value_or(std::max(holding.maxLimitCounts, request.limitCounts));
+  if (holding.maxLimitCounts < request.limitCounts)
+    throw UsageError("--most " + std::to_string(holding.maxLimitCounts) +
+                     " is below the limit of " + std::to_string(request.limitCounts) + " counts");
+  holding.weightN = kGravity * choices.massKg;
 }
 
 // Limits of single fingers, and limits in newtons.
@@ -138,8 +198,7 @@ void fingerLimitsOf(const CommandLine& given, GraspRequest& request) {
 }
 
 // How the limit is kept.
-void approachOf(const CommandLine& given, GraspRequest& request) {
-  const auto size = given.number("object-size", 0.1, kLargestObjectMm);
+void approachOf(const CommandLine& given, std::optional<double> size, GraspRequest& request) {
   for (const char* option : {"object", "object-size", "quick"})
     if (given.has(option) && request.mode == GraspMode::kPlain)
       throw UsageError("--" + std::string(option) + " needs --mode reactive or slip");
@@ -156,12 +215,10 @@ void approachOf(const CommandLine& given, GraspRequest& request) {
     throw UsageError("--object-size: the closed hand is wider than " + numberText(*size) + " mm");
 }
 
-GraspRequest graspRequestOf(const CommandLine& given) {
-  GraspRequest request;
-  const std::string mode = given.choice("mode", {"plain", "reactive", "slip"}).value_or("plain");
-  const bool feels = mode != "plain";
+GraspRequest graspRequestOf(const CommandLine& given, const GraspChoices& choices) {
+  GraspRequest request = choices.request;
+  const bool feels = request.mode != GraspMode::kPlain;
   if (feels) {
-    request.mode = mode == "slip" ? GraspMode::kSlip : GraspMode::kReactive;
     request.startRatio = 0.0;
     request.closeRatio = 1.0;
   }
@@ -173,15 +230,12 @@ GraspRequest graspRequestOf(const CommandLine& given) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  request.closeRatio = given.number("close", 0.0, 1.0).value_or(request.closeRatio);
-  request.velocityDegPerS = given.number("velocity", kMinGraspDegPerS, kMaxGraspDegPerS)
-                                .value_or(request.velocityDegPerS);
-  const auto limit = given.integer("limit", kMinGraspLimitCounts, kMaxGraspLimitCounts);
-  if (limit && !feels) throw UsageError("--limit needs --mode reactive or slip");
-  request.limitCounts = static_cast<int>(limit.value_or(request.limitCounts));
+  request.closeRatio = choices.closeRatio.value_or(request.closeRatio);
+  if (choices.limitCounts && !feels) throw UsageError("--limit needs --mode reactive or slip");
+  request.limitCounts = choices.limitCounts.value_or(request.limitCounts);
   fingerLimitsOf(given, request);
-  holdingOf(given, request);
-  approachOf(given, request);
+  holdingOf(given, choices, request);
+  approachOf(given, choices.objectMm, request);
   try {
     request.validate();
   } catch (const std::invalid_argument& error) {
@@ -375,13 +429,14 @@ int exitCodeOf(const GraspReport& report) {
 }  // namespace
 
 int graspCommand(const Arguments& words) {
-  const CommandLine given(graspSpec(), words);
+  GraspChoices choices;
+  const CommandLine given(graspSpec(choices), words);
   if (given.helpShown()) return kDone;
   std::optional<MotionSequence> sequence;
   if (given.has("sequence")) sequence = sequenceOf(given);
   GraspRequest request;
   if (!sequence)
-    request = graspRequestOf(given);
+    request = graspRequestOf(given, choices);
   else if (feels(*sequence))
     request.mode = GraspMode::kReactive;  // waits for the tactile stream, too
   LiveHandOptions ports;
@@ -392,7 +447,6 @@ int graspCommand(const Arguments& words) {
     throw UsageError(
         (sequence ? std::string("the sequence") : "--mode " + std::string(nameOf(request.mode))) +
         " needs --dsa PORT: it stops by the readings of the taxels");
-  const double waitS = given.number("wait", 0.1, 1e6).value_or(15.0);
   std::optional<Calibration> calibration;
   if (const auto file = given.text("calibration")) calibration = loadCalibration(*file);
   if (const std::string problem = stopProgramProblem(); !problem.empty())
@@ -406,7 +460,7 @@ int graspCommand(const Arguments& words) {
   control.run();
   lines.show("connecting");
   session.start();
-  awaitHand(control, request, waitS, interruption);
+  awaitHand(control, request, choices.waitS, interruption);
   // Nothing was asked for yet: what is said of the motion is that the hand moved when it was found.
   for (const Event& event : session.takeEvents())
     if (event.kind == "motion") showState(lines, "stopped", event.text);

@@ -7,6 +7,7 @@
 namespace palpate::commands {
 
 int graspsCommand(const Arguments& words) {
+  GraspRowsOptions options;
   const CommandLine given(
       {.synopsis = "palpate grasps PATH... [--rule general|study] [-o TEMPLATE]",
        .purpose =
@@ -25,16 +26,14 @@ int graspsCommand(const Arguments& words) {
            "taxels over the middle half of its frames (1: held steadily)\n  1, 1/2 or 1/4 if both, "
            "one or none of its ends are inside the recording (not at its first or last frame, nor "
            "beside a gap)",
-       .options = withTableOptions(
-           withFilterOptions({{"rule", "RULE", "general (default) or study"}, timeColumnOption()})),
+       .options = withTableOptions(withFilterOptions(
+           {boundChoice("rule", "RULE", "", options.segments.rule, kGraspRuleWords),
+            timeColumnOption()})),
        .example = "palpate grasps recordings --rule general > grasps.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  GraspRowsOptions options;
   options.filters = recipeOf(given);
-  if (given.choice("rule", {"general", "study"}) == "study")
-    options.segments.rule = GraspRule::kStudy;
   return runTableCommand(given, graspsOf(options));
 }
 

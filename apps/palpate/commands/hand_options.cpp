@@ -61,19 +61,20 @@ std::optional<std::vector<double>> anglesOf(const CommandLine& given, const Hand
 }
 
 OptionSpec fingertipOption(const std::string& defaultName) {
-  return {"fingertip",
-          "study|effective",
-          "radius of bent fingertips: nominal, or the one that measures every object "
-          "alike (SDH-2: 58 mm, 48.4 mm); default " +
-              defaultName};
+  return worded("fingertip",
+                "NAME",
+                "radius of bent fingertips: nominal, or the one that measures every object alike "
+                "(SDH-2: 58 mm, 48.4 mm)",
+                kBendRadiusWords,
+                defaultName);
 }
 
 GeometryDescription geometryOf(const CommandLine& given,
                                const HandDescription& hand,
                                const std::string& defaultName) {
-  const std::string name = given.choice("fingertip", {"study", "effective"}).value_or(defaultName);
-  return describeGeometry(hand,
-                          name == "effective" ? BendRadius::kEffective : BendRadius::kNominal);
+  const BendRadius usual =
+      defaultName == "effective" ? BendRadius::kEffective : BendRadius::kNominal;
+  return describeGeometry(hand, given.chosen("fingertip", kBendRadiusWords).value_or(usual));
 }
 
 GeometryDescription geometryOf(const CommandLine& given,

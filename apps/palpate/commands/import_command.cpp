@@ -1,5 +1,6 @@
 // The command `palpate import DATA --hand HAND` imports a table of another program as a recording.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,25 @@
 namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr std::array<OptionWord<char>, 2> kDecimalWords{{{"point", '.'}, {"comma", ','}}};
+constexpr std::array<OptionWord<HeaderChoice>, 3> kHeaderWords{{{"present", HeaderChoice::kPresent},
+                                                                {"absent", HeaderChoice::kAbsent},
+                                                                {"detect", HeaderChoice::kDetect}}};
+constexpr std::array<OptionWord<ComponentOrder>, 2> kComponentWords{
+    {{"interleaved", ComponentOrder::kInterleaved}, {"planar", ComponentOrder::kPlanar}}};
+constexpr OptionRange kRateHz{1e-6, 1e6, "Hz"};
+constexpr OptionRange kFactor{-1e12, 1e12};
+
+auto delimiterWords() {
+  return wordsOf(std::array{"comma", "semicolon", "tab", "blank", "detect"},
+                 [](const char* word) { return word; });
+}
+
+auto timeUnitWords() {
+  return wordsOf(std::array{"s", "ms", "us", "ns", "min", "h", "iso", "dmy", "mdy"},
+                 [](const char* word) { return word; });
+}
 
 // "2=left*" of --matrix; without a number all matrices.
 MatrixMapping matrixOption(const std::string& text) {
@@ -39,25 +59,16 @@ MatrixMapping matrixOption(const std::string& text) {
 ImportMapping importMappingOf(const CommandLine& given) {
   ImportMapping mapping;
   if (const auto file = given.text("map")) mapping = readMapping(*file);
-  if (const auto name = given.choice("delimiter", {"comma", "semicolon", "tab", "blank", "detect"}))
-    mapping.text.delimiter = *delimiterNamed(*name);
-  if (const auto decimal = given.choice("decimal", {"point", "comma"}))
-    mapping.text.decimal = *decimal == "comma" ? ',' : '.';
-  if (const auto header = given.choice("header", {"present", "absent", "detect"}))
-    mapping.text.header = *header == "present"  ? HeaderChoice::kPresent
-                          : *header == "absent" ? HeaderChoice::kAbsent
-                                                : HeaderChoice::kDetect;
+  if (const auto delimiter = given.chosen("delimiter", delimiterWords()))
+    mapping.text.delimiter = *delimiterNamed(*delimiter);
+  if (const auto decimal = given.chosen("decimal", kDecimalWords)) mapping.text.decimal = *decimal;
+  if (const auto header = given.chosen("header", kHeaderWords)) mapping.text.header = *header;
   if (const auto column = given.text("time")) {
     mapping.time.column = *column;
     mapping.time.rateHz.reset();
   }
-  if (const auto unit =
-          given.choice("time-unit", {"s", "ms", "us", "ns", "min", "h", "iso", "dmy", "mdy"}))
-    mapping.time.unit = *unit;
-  constexpr double kLowestRateHz = 1e-6;
-  constexpr double kHighestRateHz = 1e6;
-  if (const auto rate = given.number("rate", kLowestRateHz, kHighestRateHz))
-    mapping.time.rateHz = *rate;
+  if (const auto unit = given.chosen("time-unit", timeUnitWords())) mapping.time.unit = *unit;
+  if (const auto rate = given.number("rate", kRateHz)) mapping.time.rateHz = *rate;
   if (given.has("rate") && given.has("time"))
     throw UsageError("--rate makes the times: --time can't be given as well");
   if (const auto start = given.text("start")) {
@@ -74,17 +85,13 @@ ImportMapping importMappingOf(const CommandLine& given) {
   const bool scaled = given.has("scale") || given.has("offset") || given.has("unit");
   if (scaled && mapping.matrices.empty())
     throw UsageError("--scale, --offset and --unit need --matrix, or matrices in the mapping");
-  constexpr double kLargest = 1e12;
   for (MatrixMapping& matrix : mapping.matrices) {
-    matrix.values.scale = given.number("scale", -kLargest, kLargest).value_or(matrix.values.scale);
-    matrix.values.offset =
-        given.number("offset", -kLargest, kLargest).value_or(matrix.values.offset);
+    matrix.values.scale = given.number("scale", kFactor).value_or(matrix.values.scale);
+    matrix.values.offset = given.number("offset", kFactor).value_or(matrix.values.offset);
     matrix.values.unit = given.text("unit").value_or(matrix.values.unit);
     if (matrix.values.scale == 0.0) throw UsageError("--scale 0 would make every value the same");
   }
-  if (const auto order = given.choice("components", {"interleaved", "planar"}))
-    mapping.components =
-        *order == "planar" ? ComponentOrder::kPlanar : ComponentOrder::kInterleaved;
+  mapping.components = given.chosen("components", kComponentWords).value_or(mapping.components);
   if (const auto angles = given.text("angles")) mapping.angles.columns = *angles;
   if (const auto unit = given.text("angle-unit")) mapping.angles.values.unit = *unit;
   if (const auto temperatures = given.text("temperatures"))
@@ -265,12 +272,14 @@ int importCommand(const Arguments& words) {
             {"matrix",
              "[M=]COLUMNS",
              "the columns of matrix M (number or name), or of all matrices; may be repeated"},
-            {"components",
-             "ORDER",
-             "of taxels with three components: interleaved (x, y, z of each taxel) or planar (all "
-             "x, then all y, then all z); default: by the names"},
-            {"scale", "X", "of the matrices: value = number * X + offset"},
-            {"offset", "X", "see --scale"},
+            worded("components",
+                   "ORDER",
+                   "of taxels with three components: x, y, z of each taxel, or all x, then all y, "
+                   "then all z",
+                   kComponentWords,
+                   "by the names"),
+            ranged("scale", "X", "of the matrices: value = number * X + offset", kFactor),
+            ranged("offset", "X", "see --scale", kFactor),
             {"unit", "UNIT", "of the matrices, after scale and offset (kPa, Pa, N, ..)"},
             {"angles", "COLUMNS", "the joint angles, in the order of the axes, or none"},
             {"angle-unit", "UNIT", "deg or rad, mm or m"},
@@ -279,10 +288,11 @@ int importCommand(const Arguments& words) {
              "COLUMN",
              "the times of the rows; DATE,CLOCK or S,NS (S,US, S,MS): two columns; or a file with "
              "the times of the rows"},
-            {"time-unit",
-             "UNIT",
-             "s, ms, us, ns, min, h or iso; dmy or mdy: dates with the day or month first"},
-            {"rate", "HZ", "rows at equal intervals, where there are no times"},
+            worded("time-unit",
+                   "UNIT",
+                   "dmy, mdy: dates with the day or month first",
+                   timeUnitWords()),
+            ranged("rate", "HZ", "rows at equal intervals, where there are no times", kRateHz),
             {"start",
              "DATE",
              "date of the first row (2026-11-22T10:31:05Z); the day of times of day"},
@@ -292,9 +302,9 @@ int importCommand(const Arguments& words) {
             {"series-rate",
              "NAME=HZ",
              "rows of that table at equal intervals, where it has no times"},
-            {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
-            {"decimal", "NAME", "point (default) or comma"},
-            {"header", "WORD", "a line of names is present, absent or detect (default)"},
+            worded("delimiter", "NAME", "", delimiterWords(), "detect"),
+            worded("decimal", "NAME", "", kDecimalWords, "point"),
+            worded("header", "WORD", "a line of names", kHeaderWords, "detect"),
             {"strict", "", "the first row that can't be used, or has a NaN, is an error"},
             {"force", "", "replace OUT, and the file of --save-map"}},
        .example = "palpate import pad.csv --hand flat_pad_16x16 -o pad.palpate",

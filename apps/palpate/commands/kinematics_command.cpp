@@ -54,10 +54,10 @@ int kinematicsCommand(const Arguments& words) {
                   "prints those of one point of a sensor surface, given in mm from the centre of "
                   "taxel (0, 0); x and y are then fractions of taxels.",
        .options = withOneTableOptions({anglesOption(),
-                                       handOption(),
-                                       {"matrix", "M", "this matrix only"},
-                                       {"point", "M,X_MM,Y_MM", "one point"},
-                                       fingertipOption()}),
+                   handOption(),
+                   rangedWhole("matrix", "M", "this matrix only", kMatrixOption),
+                   {"point", "M,X_MM,Y_MM", "one point"},
+                   fingertipOption()}),
        .example = "palpate kinematics --angles 60,-20,40,-20,40,-20,40 --matrix 1",
        .maxArguments = 0},
       words);
@@ -70,7 +70,7 @@ int kinematicsCommand(const Arguments& words) {
     throw UsageError("--matrix and --point can't be used together");
   const HandGeometry geometry(geometryOf(given, hand));
   const SensorLayout& layout = geometry.description().layout;
-  const auto only = given.integer("matrix", 0, INT64_MAX);
+  const auto only = given.integer("matrix", kMatrixOption);
   if (only && *only >= static_cast<std::int64_t>(layout.numMatrices()))
     throw Error("the hand has no matrix " + std::to_string(*only) + ", only 0.." +
                 std::to_string(layout.numMatrices() - 1));

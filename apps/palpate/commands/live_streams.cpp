@@ -70,8 +70,8 @@ void addFoxglove(const CommandLine& given, StreamTargets& targets) {
   FoxgloveServerOptions& server = targets.foxglove->server;
   server.address = given.text("listen").value_or(server.address);
   server.origins = given.texts("origin");
-  if (given.choice("image", {"values", "colored"}) == "colored")
-    targets.foxglove->image = FoxgloveImage::kColored;
+  FoxgloveImage& image = targets.foxglove->image;
+  image = given.chosen("image", kFoxgloveImageWords).value_or(image);
 }
 
 bool isLoopback(const std::string& address) {
@@ -83,7 +83,7 @@ bool isLoopback(const std::string& address) {
 std::vector<OptionSpec> foxgloveOptions() {
   return {{"listen", "ADDRESS", "of the WebSocket, default 127.0.0.1: only this machine"},
           {"origin", "URL", "a web page that may connect beside https://app.foxglove.dev"},
-          {"image", "FORM", "of the WebSocket's heat maps: values (default) or colored"}};
+          worded("image", "FORM", "of the WebSocket's heat maps", kFoxgloveImageWords, "values")};
 }
 
 StreamTargets streamTargetsOf(const CommandLine& given, const std::string& option) {

@@ -100,25 +100,28 @@ void sayNotes(const CommandLine& given, FeatureSet set, const SampleSet& samples
 }
 
 std::vector<OptionSpec> pipelineOptionSpecs() {
-  return {{"classifier", "NAME", "svm, qda, lda or gauss"},
-          {"lda", "N", "components of a discriminant analysis before it (not for gauss)"},
-          {"c", "C", "cost of the svm, default 100"},
+  return {worded("classifier", "NAME", "", kClassifierWords),
+          rangedWhole("lda",
+                      "N",
+                      "components of a discriminant analysis before it (not for gauss)",
+                      PipelineOptions::kComponents),
+          ranged("c", "C", "cost of the svm", SvmOptions::kC, numberText(SvmOptions{}.c)),
           {"shrinkage",
            "S",
-           "shrinkage of the discriminant analysis: 0..1, default 0, or auto (Ledoit and Wolf)"}};
+           "shrinkage of the discriminant analysis, or auto (Ledoit and Wolf)" +
+               detail::rangeText(DiscriminantOptions::kShrinkage, "0", false)}};
 }
 
 void takePipelineOptions(const CommandLine& given, PipelineOptions& options) {
-  if (const auto name = given.choice("classifier", {"svm", "qda", "lda", "gauss"}))
-    options.classifier = *classifierNamed(*name);
-  if (const auto count = given.integer("lda", 1, 10000))
+  options.classifier = given.chosen("classifier", kClassifierWords).value_or(options.classifier);
+  if (const auto count = given.integer("lda", PipelineOptions::kComponents))
     options.components = static_cast<std::size_t>(*count);
-  if (const auto cost = given.number("c", 1e-6, 1e9)) options.svm.c = *cost;
+  options.svm.c = given.number("c", SvmOptions::kC).value_or(options.svm.c);
   if (const auto text = given.text("shrinkage")) {
     const auto share = parseDouble(*text);
     if (*text == "auto")
       options.discriminant.shrinkage.reset();
-    else if (share && *share >= 0.0 && *share <= 1.0)
+    else if (share && DiscriminantOptions::kShrinkage.contains(*share))
       options.discriminant.shrinkage = *share;
     else
       throw UsageError("--shrinkage takes a number from 0 to 1, or auto");

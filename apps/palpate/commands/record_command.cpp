@@ -19,6 +19,7 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/live_hand.h"
+#include "palpate/interop/remote_fields.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -86,23 +87,21 @@ fs::path outputPath(const CommandLine& given) {
   }
 }
 
-RecordingOptions recordingOptions(const CommandLine& given) {
-  RecordingOptions options;
+// What is bound to options of the command line.
+struct RecordChoices {
+  RecordingOptions recording = {};
+  RecordingLimits limits = {};
+  CaptureOptions capture = {};
+  double firstFrameS = 15.0;
+};
+
+RecordingOptions recordingOptions(const CommandLine& given, const RecordChoices& choices) {
+  RecordingOptions options = choices.recording;
   if (!given.has("remote")) options.path = outputPath(given);
   options.preTriggerS = 0.0;
-  using Limits = RecordingLimits;
-  Limits limits;
-  limits.stopAfterS = given.number("duration", Limits::kLeastStopS, Limits::kMostStopS);
-  limits.splitMinutes =
-      given.number("split-minutes", Limits::kLeastSplitMinutes, Limits::kMostSplitMinutes);
-  limits.splitMb = given.number("split-mb", Limits::kLeastSplitMb, Limits::kMostSplitMb);
-  limits.applyTo(options);
+  choices.limits.applyTo(options);
   for (const char* key : {"operator", "object", "run", "notes"})
     if (const auto text = given.text(key)) options.meta[key] = *text;
-  options.startOnContact = given.has("start-on-contact");
-  options.stopWithoutContactS = given.number("stop-without-contact", 0.05, 1e6);
-  options.contact.threshold =
-      given.number("contact-threshold", 0.0, 1e9).value_or(options.contact.threshold);
   if (given.has("remote") && (options.startOnContact || options.stopWithoutContactS))
     throw UsageError(
         "--start-on-contact and --stop-without-contact can't be used with --remote: other programs "
@@ -237,7 +236,9 @@ std::unique_ptr<Device> recordedDevice(const CommandLine& given) {
   return std::make_unique<LiveHand>(std::move(hand));
 }
 
-CommandSpec recordSpec() {
+CommandSpec recordSpec(RecordChoices& choices) {
+  using Limits = RecordingLimits;
+  RecordingOptions& recording = choices.recording;
   CommandSpec spec{
       .synopsis =
           "palpate record (--dsa PORT [--sdh PORT] | --stream SOURCE --hand NAME|FOLDER) -o "
@@ -255,25 +256,51 @@ CommandSpec recordSpec() {
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"output,o", "OUT.palpate", "where to record"},
-                  {"duration", "S", "stop S seconds after the first frame"},
-                  {"wait", "S", "give up if no frame arrives within S seconds, default 15"},
+                  bound("duration",
+                        "S",
+                        "stop at this time after the first frame",
+                        choices.limits.stopAfterS,
+                        Limits::kStopAfterS),
+                  bound("wait",
+                        "S",
+                        "give up if no frame arrives",
+                        choices.firstFrameS,
+                        StartLimits::kFirstFrameS),
                   {"operator", "NAME", "who records"},
                   {"object", "NAME", "what is grasped"},
                   {"run", "TEXT", "which run"},
                   {"notes", "TEXT", "any other notes"},
-                  {"baseline",
-                   "S",
-                   "takes the readings of the first S seconds for those at rest, before the "
-                   "recording begins"},
-                  {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
-                  {"split-mb", "N", "a new file at about N MB"},
-                  {"start-on-contact",
-                   "",
-                   "begin with the first contact, and include the 2 s before it"},
-                  {"stop-without-contact", "S", "end after S seconds without contact"},
-                  {"contact-threshold",
-                   "N",
-                   "contact: a taxel above N counts (default 0: any active taxel)"},
+                  bound("baseline",
+                        "S",
+                        "takes the readings of the first S seconds for those at rest, before the "
+                        "recording begins",
+                        choices.capture.baselineS,
+                        CaptureOptions::kBaselineS,
+                        ""),
+                  bound("split-minutes",
+                        "M",
+                        "a new file after this time: NAME_002.palpate, ..",
+                        choices.limits.splitMinutes,
+                        Limits::kSplitMinutes),
+                  bound("split-mb",
+                        "N",
+                        "a new file at about this size",
+                        choices.limits.splitMb,
+                        Limits::kSplitMb),
+                  bound("start-on-contact",
+                        "begin with the first contact, and include the " +
+                            numberText(recording.preTriggerS) + " s before it",
+                        recording.startOnContact),
+                  bound("stop-without-contact",
+                        "S",
+                        "end after this time without contact",
+                        recording.stopWithoutContactS,
+                        RecordingOptions::kStopWithoutContactS),
+                  bound("contact-threshold",
+                        "N",
+                        "contact: a taxel above N counts",
+                        recording.contact.threshold,
+                        ContactTriggerOptions::kThreshold),
                   {"mcap", "", "write OUT.mcap beside it, too: for Foxglove and ROS 2"},
                   remoteOption(),
                   socketOption(),
@@ -296,7 +323,8 @@ CommandSpec recordSpec() {
 }  // namespace
 
 int recordCommand(const Arguments& words) {
-  const CommandLine given(recordSpec(), words);
+  RecordChoices choices;
+  const CommandLine given(recordSpec(choices), words);
   if (given.helpShown()) return kDone;
   checkStreamSource(given);
   const bool isStream = given.has("stream");
@@ -304,14 +332,13 @@ int recordCommand(const Arguments& words) {
   if (!port || port->empty())
     throw UsageError("record needs --dsa PORT, or --stream SOURCE and --hand NAME|FOLDER");
   if (!given.has("output")) throw UsageError("record needs -o OUT.palpate");
-  const double firstFrameS = given.number("wait", 0.1, 1e6).value_or(15.0);
   if (given.has("socket") && !given.has("remote")) throw UsageError("--socket needs --remote");
-  RecordingOptions options = recordingOptions(given);
+  RecordingOptions options = recordingOptions(given, choices);
   const StreamTargets targets = streamTargetsOf(given, "to");
   const auto calibration = streamCalibrationOf(given);
   Interruption interruption;  // must exist until the file is finished
   CaptureOptions captureOptions = streamCaptureOptions(given);
-  captureOptions.baselineS = given.number("baseline", 0.1, 60.0).value_or(captureOptions.baselineS);
+  captureOptions.baselineS = choices.capture.baselineS;
   if (given.has("baseline") && given.has("remote"))
     throw UsageError("--baseline can't be used with --remote: other programs start and stop");
   CaptureSession session(recordedDevice(given), captureOptions);
@@ -323,10 +350,11 @@ int recordCommand(const Arguments& words) {
       std::fprintf(stderr, "%s\n", escapedLine(place).c_str());
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
   if (given.has("baseline"))
-    takeBaseline(session, interruption, captureOptions.baselineS, firstFrameS, given.quiet());
+    takeBaseline(
+        session, interruption, captureOptions.baselineS, choices.firstFrameS, given.quiet());
   session.startRecording(std::move(options));
   StreamNotice notice(streamOf(session), given.quiet());
-  recordUntilDone(session, interruption, firstFrameS, given.quiet(), notice);
+  recordUntilDone(session, interruption, choices.firstFrameS, given.quiet(), notice);
   const LinkHealth health = session.health();
   session.stop();
   notice.show();

@@ -17,8 +17,6 @@
 namespace palpate::commands {
 namespace {
 
-constexpr double kUsualWaitS = 60.0;  // a stop waits for the disk
-
 std::string remoteRequestOf(const CommandLine& given) {
   std::string request;
   for (const std::string& word : given.words()) request += (request.empty() ? "" : " ") + word;
@@ -35,6 +33,7 @@ bool isPart(const Json& answer) {
 }  // namespace
 
 int remoteCommand(const Arguments& words) {
+  double waitS = 60.0;  // a stop waits for the disk
   const CommandLine given(
       {.synopsis = "palpate remote [--socket PATH] REQUEST [TEXT]",
        .purpose =
@@ -47,13 +46,12 @@ int remoteCommand(const Arguments& words) {
        .options = {{"socket",
                     "PATH",
                     "socket at which it listens; default $XDG_RUNTIME_DIR/palpate-remote"},
-                   {"wait", "S", "give up after S seconds without an answer, default 60"}},
+                   bound("wait", "S", "give up without an answer", waitS, {0.01, 1e5, "s"})},
        .example = "palpate remote start pen_{run}",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const std::string request = remoteRequestOf(given);
-  const double waitS = given.number("wait", 0.01, 1e5).value_or(kUsualWaitS);
   const auto socket = given.text("socket");
   RemoteClient client(socket ? std::filesystem::path(*socket) : usualRemoteSocket());
   const std::string line =

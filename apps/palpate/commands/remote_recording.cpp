@@ -7,6 +7,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/interop/remote_fields.h"
 #include "palpate/interop/remote_file.h"
 #include "palpate/interop/remote_recorder.h"
 #include "palpate/interop/remote_server.h"
@@ -35,7 +36,8 @@ RemoteRecorderOptions remoteRecordingOptionsOf(const CommandLine& given, Recordi
     if (const std::string problem = problemOfRemoteName(options.nameTemplate); !problem.empty())
       throw UsageError("-o: " + problem);
   }
-  options.limits.firstFrameS = given.number("wait", 0.1, 1e6).value_or(options.limits.firstFrameS);
+  options.limits.firstFrameS =
+      given.number("wait", StartLimits::kFirstFrameS).value_or(options.limits.firstFrameS);
   options.recording = std::move(each);
   return options;
 }

@@ -37,10 +37,8 @@ namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
 
-std::vector<std::string> colorMapNames() {
-  std::vector<std::string> names;
-  for (gui::ColorMapName map : gui::kAllColorMaps) names.emplace_back(gui::nameOf(map));
-  return names;
+auto colorMapWords() {
+  return wordsOf(gui::kAllColorMaps, [](gui::ColorMapName map) { return gui::nameOf(map); });
 }
 
 // Parses "MIN,MAX".
@@ -67,7 +65,10 @@ constexpr double kMovieDpi = 96.0;       // one pixel for each of --size
 constexpr double kUsualWidthMm = 174.0;  // two columns of a journal
 constexpr double kUsualHeight = 0.8;     // of the width
 constexpr double kUsualTextPt = 8.0;
-constexpr double kLeastMm = 20.0, kMostMm = 1200.0;
+constexpr OptionRange kPaperMm{20.0, 1200.0, "mm"};
+constexpr OptionRange kTextPt{4.0, 40.0, "pt"};
+constexpr OptionRange kDpi{36.0, 2400.0};
+constexpr double kPaperDpi = 300.0;
 constexpr double kMostPixels = 16384.0;  // largest side
 
 const std::vector<const char*> kPaperOptions = {"width-mm", "height-mm", "text-pt", "print"};
@@ -86,17 +87,16 @@ Sheet chosenSheet(const CommandLine& given, gui::MatricesPictureOptions& options
                                    kPaperOptions.end(),
                                    [&](const char* name) { return given.has(name); });
   if (onPaper) {
-    const double widthMm = given.number("width-mm", kLeastMm, kMostMm).value_or(kUsualWidthMm);
-    const double heightMm =
-        given.number("height-mm", kLeastMm, kMostMm).value_or(widthMm * kUsualHeight);
-    const double textPt = given.number("text-pt", 4.0, 40.0).value_or(kUsualTextPt);
+    const double widthMm = given.number("width-mm", kPaperMm).value_or(kUsualWidthMm);
+    const double heightMm = given.number("height-mm", kPaperMm).value_or(widthMm * kUsualHeight);
+    const double textPt = given.number("text-pt", kTextPt).value_or(kUsualTextPt);
     options.size = QSizeF(widthMm, heightMm) / kMmPerInch * kUnitsPerInch;
     sheet.textUnits = static_cast<int>(std::lround(textPt * kUnitsPerPt));
     paper.unitsPerInch = kUnitsPerInch;
-    paper.dpi = 300.0;
+    paper.dpi = kPaperDpi;
   }
   paper.size = options.size;
-  paper.dpi = given.number("dpi", 36.0, 2400.0).value_or(paper.dpi);
+  paper.dpi = given.number("dpi", kDpi).value_or(paper.dpi);
   const double longest = std::max(paper.size.width(), paper.size.height()) * paper.scale();
   if (longest > kMostPixels)
     throw UsageError("a PNG of " + fixedText(longest, 0) +
@@ -179,9 +179,9 @@ gui::FrameSpan chosenSpan(const CommandLine& given,
                           const std::string& file,
                           const Profile& profile) {
   if (profile.numFrames() == 0) throw Error(file + ": has no frame to draw");
-  const auto from = given.integer("from", 0, INT64_MAX).value_or(0);
+  const auto from = given.integer("from", kFrameOption).value_or(0);
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
-  const auto to = given.integer("to", 0, INT64_MAX).value_or(last);
+  const auto to = given.integer("to", kFrameOption).value_or(last);
   if (from > to || to > last)
     throw Error(file + ": has no frames " + std::to_string(from) + ".." + std::to_string(to) +
                 ", only 0.." + std::to_string(last));
@@ -253,7 +253,7 @@ int drawOne(const CommandLine& given,
             Overwrite overwrite) {
   const std::string out = *given.text("output");
   const std::size_t frame =
-      chosenFrame(given.integer("frame", 0, INT64_MAX), given.words()[0], profile);
+      chosenFrame(given.integer("frame", kFrameOption), given.words()[0], profile);
   if (gui::imageFormatOf(out) == gui::ImageFormat::kPng) options.pixelRatio = paper.scale();
   const auto paint = painterOf(given, profile, {frame, frame}, options);
   gui::writePicture(
@@ -267,6 +267,7 @@ struct RenderPage {
   gui::MatricesPictureOptions options = {};
   Sheet sheet = {};
   Recipe filters = {};
+  MovieOptions movie = {};
 };
 
 // The options that pictures depend on, as text: of all but those of the batch itself.
@@ -304,7 +305,7 @@ BatchTask renderTask(const CommandLine& given, const CommandSpec& spec, const Re
               options.pixelRatio = paper.scale();
               useOneRange(profile, span, options);
               writeChosenMovie(
-                  given,
+                  page.movie,
                   item.target,
                   profile,
                   span,
@@ -315,7 +316,7 @@ BatchTask renderTask(const CommandLine& given, const CommandSpec& spec, const Re
               return BatchAnswer{.said = counted(span.count(), "frame"), .problem = lost};
             }
             const std::size_t frame =
-                chosenFrame(given.integer("frame", 0, INT64_MAX), file, profile);
+                chosenFrame(given.integer("frame", kFrameOption), file, profile);
             if (gui::imageFormatOf(item.target.string()) == gui::ImageFormat::kPng)
               options.pixelRatio = paper.scale();
             const auto paint = painterOf(given, profile, {frame, frame}, options);
@@ -337,7 +338,7 @@ bool isRenderBatch(const CommandLine& given) {
 
 // Checks the options without reading a file.
 void checkUsage(const CommandLine& given, bool isSeries) {
-  if (given.has("to") && given.integer("from", 0, INT64_MAX) > given.integer("to", 0, INT64_MAX))
+  if (given.has("to") && given.integer("from", kFrameOption) > given.integer("to", kFrameOption))
     throw UsageError("--from is after --to");
   const auto out = given.text("output");
   if (!out)
@@ -382,6 +383,9 @@ int renderBatch(const CommandLine& given, const CommandSpec& spec, RenderPage pa
 }  // namespace
 
 int renderCommand(const Arguments& words) {
+  RenderPage page;
+  gui::MatricesPictureOptions& options = page.options;
+  MovieOptions& movie = page.movie;
   CommandSpec spec = {
       .synopsis =
           "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER|OUT.mp4\n"
@@ -393,41 +397,62 @@ int renderCommand(const Arguments& words) {
           ".mp4, it makes a movie of these frames at their recorded times; this needs the program "
           "ffmpeg ($PALPATE_FFMPEG, else in $PATH). With a template as OUT (out/{name}.png) it "
           "makes a picture or movie of each recording.",
-      .options = {{"frame", "N", "default: the frame of largest sum"},
-                  {"from", "N", "first frame of a series; default 0"},
-                  {"to", "M", "last frame, inclusive; default the recording's last"},
-                  {"output,o", "OUT", "the picture or movie, or the folder of a series"},
-                  {"speed", "X", "speed of a movie, 0.1..16; default 1: the recorded speed"},
-                  {"fps", "N", "pictures per second of a movie, 1..120; default 30"},
-                  {"view",
-                   "matrices|hand|both",
-                   "what to draw; default matrices; both: side by side"},
-                  {"size", "WxH", "px (96 per inch), default 900x720; PNG has twice as many"},
-                  {"print", "", "for paper: white background, 174 mm wide, text of 8 pt, 300 dpi"},
-                  {"width-mm", "W", "width on paper; journals take 85, 114, 174"},
-                  {"height-mm", "H", "height on paper; default 0.8 of the width"},
-                  {"text-pt", "P", "size of text on paper, default 8"},
-                  {"dpi", "D", "pixels of a PNG per inch, default 192, on paper 300"},
-                  {"map",
-                   "NAME",
-                   "colour map: inferno (default), viridis, magma, plasma, cividis, "
-                   "turbo, grey"},
-                  {"range",
-                   "MIN,MAX",
-                   "counts of the lowest and the highest colour; default 0 to "
-                   "the maximum of the frame, or of all frames of a series"},
-                  {"interpolated", "", "smooth between the taxels"},
-                  {"values", "", "print the value of every active taxel"},
-                  {"component",
-                   "normal|magnitude",
-                   "of readings with a sign or three components; default normal: z, with its sign "
-                   "on a diverging map"},
-                  {"arrows",
-                   "F",
-                   "length of the arrows of shear, 0..50; 1: a shear as large as the highest "
-                   "colour is one taxel long; default 2; 0: none"},
-                  {"theme", "dark|light", "default light"},
-                  {"force", "", "replace OUT"}},
+      .options =
+          {rangedWhole("frame", "N", "which", kFrameOption, "the frame of largest sum"),
+           rangedWhole("from", "N", "first frame of a series", kFrameOption, "0"),
+           rangedWhole("to", "M", "last frame, inclusive", kFrameOption, "the recording's last"),
+           {"output,o", "OUT", "the picture or movie, or the folder of a series"},
+           bound("speed",
+                 "X",
+                 "speed of a movie; 1: the recorded speed",
+                 movie.speed,
+                 MovieOptions::kSpeed),
+           bound("fps",
+                 "N",
+                 "pictures per second of a movie",
+                 movie.picturesPerS,
+                 MovieOptions::kPicturesPerS),
+           {"view", "matrices|hand|both", "what to draw; default matrices; both: side by side"},
+           {"size", "WxH", "px (96 per inch), default 900x720; PNG has twice as many"},
+           {"print", "", "for paper: white background, 174 mm wide, text of 8 pt, 300 dpi"},
+           ranged("width-mm",
+                  "W",
+                  "width on paper; journals take 85, 114, 174",
+                  kPaperMm,
+                  numberText(kUsualWidthMm)),
+           ranged("height-mm",
+                  "H",
+                  "height on paper",
+                  kPaperMm,
+                  numberText(kUsualHeight) + " of the width"),
+           ranged("text-pt", "P", "size of text on paper", kTextPt, numberText(kUsualTextPt)),
+           ranged("dpi",
+                  "D",
+                  "pixels of a PNG per inch",
+                  kDpi,
+                  numberText(gui::PicturePaper{}.dpi) + ", on paper " + numberText(kPaperDpi)),
+           boundChoice("map", "NAME", "colours", options.map, colorMapWords()),
+           {"range",
+            "MIN,MAX",
+            "counts of the lowest and the highest colour; default 0 to "
+            "the maximum of the frame, or of all frames of a series"},
+           bound("interpolated", "smooth between the taxels", options.interpolated),
+           bound("values", "print the value of every active taxel", options.values),
+           boundChoice(
+               "component",
+               "NAME",
+               "of readings with a sign or three components; normal: z, with its "
+               "sign on a diverging map",
+               options.taxels,
+               wordsOf(gui::kAllTaxelViews, [](gui::TaxelView view) { return gui::nameOf(view); })),
+           bound("arrows",
+                 "F",
+                 "length of the arrows of shear; 1: a shear as large as the highest colour "
+                 "is one taxel long; 0: none",
+                 options.arrows,
+                 {0.0, gui::kLongestArrows}),
+           boundChoice("theme", "NAME", "", options.theme, gui::kThemeWords),
+           {"force", "", "replace OUT"}},
       .example = "palpate render foam_ball.dsa --frame 2411 -o frame.svg --values",
       .minArguments = 1};
   const auto ofHand = handViewOptions();
@@ -435,29 +460,21 @@ int renderCommand(const Arguments& words) {
   spec.options = withResumeOptions(withFilterOptions(std::move(spec.options)));
   const CommandLine given(spec, words);
   if (given.helpShown()) return kDone;
-  const Recipe recipe = recipeOf(given);
+  const Recipe& recipe = page.filters = recipeOf(given);
   const bool isSeries = given.has("from") || given.has("to");
   checkUsage(given, isSeries);
   const bool isBatch = isRenderBatch(given);
   if (!isBatch) refuseBatchOptions(given);
-  gui::MatricesPictureOptions options;
   if (const auto size = given.text("size")) options.size = parsedSize(*size, kSmallestPicture);
-  if (const auto map = given.choice("map", colorMapNames())) options.map = *gui::colorMapFrom(*map);
   if (const auto range = given.text("range")) parseRange(*range, options);
-  options.interpolated = given.has("interpolated");
-  options.values = given.has("values");
-  if (given.choice("component", {"normal", "magnitude"}) == "magnitude")
-    options.taxels = gui::TaxelView::kMagnitude;
-  options.arrows = given.number("arrows", 0.0, gui::kLongestArrows).value_or(options.arrows);
-  const std::string theme = given.choice("theme", {"dark", "light"}).value_or("light");
-  if (theme == "dark" && given.has("print"))
+  if (options.theme == gui::Theme::kDark && given.has("print"))
     throw UsageError("--print has a white background, not a dark one");
-  options.theme = theme == "dark" ? gui::Theme::kDark : gui::Theme::kLight;
-  Sheet sheet = chosenSheet(given, options);
+  Sheet& sheet = page.sheet;
+  sheet = chosenSheet(given, options);
   const bool isMovie = isMovieName(*given.text("output"));
   if (isMovie && !given.has("dpi") && sheet.textUnits == 0) sheet.paper.dpi = kMovieDpi;
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-  if (isBatch) return renderBatch(given, spec, {options, sheet, recipe});
+  if (isBatch) return renderBatch(given, spec, page);
 
   if (isMovie) requireMovie(*given.text("output"), overwrite);  // before the long work
 
@@ -482,8 +499,13 @@ int renderCommand(const Arguments& words) {
     const gui::FrameSpan span = chosenSpan(given, file, profile);
     options.pixelRatio = sheet.paper.scale();
     useOneRange(profile, span, options);
-    return drawMovie(
-        given, profile, span, painterOf(given, profile, span, options), sheet.paper, overwrite);
+    return drawMovie(given,
+                     movie,
+                     profile,
+                     span,
+                     painterOf(given, profile, span, options),
+                     sheet.paper,
+                     overwrite);
   }
   return isSeries ? drawSeries(given, profile, sheet.paper, options, overwrite)
                   : drawOne(given, profile, sheet.paper, options, overwrite);

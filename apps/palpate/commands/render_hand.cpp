@@ -17,36 +17,25 @@ namespace {
 
 constexpr std::size_t kLooks = 12;  // frames that the camera must show completely
 
-const std::vector<std::string> kSpheresOf = {"taxels", "centroids"};
+constexpr std::array<OptionWord<gui::SphereOf>, 2> kSphereOfWords{
+    {{"taxels", gui::SphereOf::kTaxels}, {"centroids", gui::SphereOf::kCentroids}}};
 
 // Names as words of the command line: "flat cells" becomes "flat-cells".
 template <class All>
-std::vector<std::string> wordsOf(const All& all) {
-  std::vector<std::string> words;
-  for (const auto each : all) words.push_back(nameOf(each).replace(' ', '-').toStdString());
-  return words;
-}
-
-template <class All>
-auto chosenOf(const CommandLine& given, const char* option, const All& all) {
-  const auto words = wordsOf(all);
-  const auto word = given.choice(option, words);
-  if (!word) return all.front();
-  return all[static_cast<std::size_t>(std::find(words.begin(), words.end(), *word) -
-                                      words.begin())];
+auto lookWords(const All& all) {
+  return wordsOf(all, [](auto each) { return nameOf(each).replace(' ', '-').toStdString(); });
 }
 
 gui::HandLook lookOf(const CommandLine& given, const Profile& profile) {
   gui::HandLook look;
-  look.taxels = chosenOf(given, "taxels", gui::kAllTaxelShapes);
-  look.sphere = chosenOf(given, "sphere", gui::kAllSphereLooks);
-  if (given.choice("sphere-of", kSpheresOf) == "centroids")
-    look.sphereOf = gui::SphereOf::kCentroids;
+  look.taxels = given.chosen("taxels", lookWords(gui::kAllTaxelShapes)).value_or(look.taxels);
+  look.sphere = given.chosen("sphere", lookWords(gui::kAllSphereLooks)).value_or(look.sphere);
+  look.sphereOf = given.chosen("sphere-of", kSphereOfWords).value_or(look.sphereOf);
   look.normals = given.has("normals");
   look.wire = given.has("wire");
   look.axes = given.has("axes");
   look.contacts = !given.has("no-contacts");
-  if (const auto matrix = given.integer("matrix", 0, INT64_MAX)) {
+  if (const auto matrix = given.integer("matrix", kMatrixOption)) {
     const std::size_t count = profile.layout().numMatrices();
     if (static_cast<std::uint64_t>(*matrix) >= count)
       throw Error("there is no matrix " + std::to_string(*matrix) + ", only 0.." +
@@ -60,10 +49,10 @@ gui::HandLook lookOf(const CommandLine& given, const Profile& profile) {
 
 std::vector<OptionSpec> handViewOptions() {
   return {{"angles", "A0,A1,..", "hand: joint angles [deg] assumed where none are recorded"},
-          {"taxels", "NAME", "hand: cells (default), bars, points, flat-cells, flat-bars"},
-          {"sphere", "NAME", "hand: glass (default), opaque, wire, no-sphere"},
-          {"sphere-of", "NAME", "hand: taxels (default) or centroids"},
-          {"matrix", "M", "hand: only this matrix"},
+          worded("taxels", "NAME", "of the hand", lookWords(gui::kAllTaxelShapes), "cells"),
+          worded("sphere", "NAME", "of the hand", lookWords(gui::kAllSphereLooks), "glass"),
+          worded("sphere-of", "NAME", "of the hand", kSphereOfWords, "taxels"),
+          rangedWhole("matrix", "M", "hand: only this matrix", kMatrixOption),
           {"camera", "AZ,EL", "hand: direction of the camera, about z and above the palm [deg]"},
           {"normals", "", "hand: the taxels' normals"},
           {"no-contacts", "", "hand: without centroids and axes of the contacts"},
@@ -80,9 +69,6 @@ void checkHandUsage(const CommandLine& given) {
   for (const char* name : {"interpolated", "values"})
     if (view == "hand" && given.has(name))
       throw UsageError("--" + std::string(name) + " is for the heat maps, not for --view hand");
-  given.choice("taxels", wordsOf(gui::kAllTaxelShapes));
-  given.choice("sphere", wordsOf(gui::kAllSphereLooks));
-  given.choice("sphere-of", kSpheresOf);
   anglesOf(given);
   if (const auto camera = given.text("camera")) {
     const auto numbers = numbersOf(*camera, "camera", 2);

@@ -17,16 +17,6 @@
 namespace palpate::commands {
 namespace {
 
-MovieOptions chosenOptions(const CommandLine& given) {
-  MovieOptions options;
-  options.picturesPerS =
-      given.number("fps", MovieOptions::kMinPicturesPerS, MovieOptions::kMaxPicturesPerS)
-          .value_or(options.picturesPerS);
-  options.speed = given.number("speed", Playback::kMinimumSpeed, Playback::kMaximumSpeed)
-                      .value_or(options.speed);
-  return options;
-}
-
 void printMovie(const std::string& out, const gui::Movie& movie) {
   std::printf("%s: %s s, %zu pictures, frames %zu..%zu",
               escapedLine(out).c_str(),
@@ -52,7 +42,6 @@ void checkMovieUsage(const CommandLine& given) {
   for (const char* name : {"speed", "fps"})
     if (given.has(name) && !isMovie)
       throw UsageError("--" + std::string(name) + " needs a movie: -o OUT.mp4");
-  chosenOptions(given);
 }
 
 void requireMovie(const std::string& out, Overwrite overwrite) {
@@ -60,7 +49,7 @@ void requireMovie(const std::string& out, Overwrite overwrite) {
   requireWritable(out, overwrite);
 }
 
-gui::Movie writeChosenMovie(const CommandLine& given,
+gui::Movie writeChosenMovie(const MovieOptions& options,
                             const std::filesystem::path& out,
                             const Profile& profile,
                             const gui::FrameSpan& span,
@@ -69,12 +58,13 @@ gui::Movie writeChosenMovie(const CommandLine& given,
                             Overwrite overwrite,
                             const Progress& progress) {
   const auto timeUs = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
-  const gui::Movie movie = gui::plannedMovie(span, timeUs, chosenOptions(given), progress);
+  const gui::Movie movie = gui::plannedMovie(span, timeUs, options, progress);
   gui::writeMovie(out, movie, paint, paper, overwrite, progress);
   return movie;
 }
 
 int drawMovie(const CommandLine& given,
+              const MovieOptions& options,
               const Profile& profile,
               const gui::FrameSpan& span,
               const gui::FramePictures::Paint& paint,
@@ -89,7 +79,7 @@ int drawMovie(const CommandLine& given,
     const auto goOn = [&](double fraction) {
       return !interruption.waitForSignal(0) && (!show || show(fraction));
     };
-    movie = writeChosenMovie(given, out, profile, span, paint, paper, overwrite, goOn);
+    movie = writeChosenMovie(options, out, profile, span, paint, paper, overwrite, goOn);
   } catch (const Cancelled&) {
     std::fprintf(stderr, "palpate: interrupted: %s was not written\n", escapedLine(out).c_str());
     return kPartlyDone;

@@ -23,7 +23,7 @@ void checkMovieUsage(const CommandLine& given);
 void requireMovie(const std::string& out, Overwrite overwrite);
 
 // Writes the movie with the options --speed and --fps. Throws as gui::writeMovie().
-gui::Movie writeChosenMovie(const CommandLine& given,
+gui::Movie writeChosenMovie(const MovieOptions& options,
                             const std::filesystem::path& out,
                             const Profile& profile,
                             const gui::FrameSpan& span,
@@ -33,6 +33,7 @@ gui::Movie writeChosenMovie(const CommandLine& given,
                             const Progress& progress);
 // The same with its progress on standard error; returns the exit code. Throws Error.
 int drawMovie(const CommandLine& given,
+              const MovieOptions& options,
               const Profile& profile,
               const gui::FrameSpan& span,
               const gui::FramePictures::Paint& paint,

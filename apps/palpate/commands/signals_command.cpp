@@ -43,7 +43,7 @@ int signalsCommand(const Arguments& words) {
            "code 3. With -o there is a table for each recording. With --centre a row is the centre "
            "of force of a matrix that is touched: sum,x,y [taxels],x_mm,y_mm.",
        .options = withTableOptions(withFilterOptions(
-           {{"matrix", "M", "only this matrix (0, 1, ..)"},
+           {bound("matrix", "M", "only this matrix", options.matrix, kMatrixOption),
             timeOption(),
             timeColumnOption(),
             bound("centre",
@@ -54,7 +54,6 @@ int signalsCommand(const Arguments& words) {
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  options.matrix = given.integer("matrix", 0, INT64_MAX);
   options.filters = recipeOf(given);
   options.smooth = smoothOf(given);
   options.times = timeChoiceOf(given);

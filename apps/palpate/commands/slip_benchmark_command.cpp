@@ -42,37 +42,36 @@ Json slipBenchmarkToJson(const SlipAccuracy& accuracy) {
 }  // namespace
 
 int slipBenchmarkCommand(const Arguments& words) {
+  SlipAccuracyOptions options;
   const CommandLine given(
       {.synopsis = "palpate slip-benchmark [--noise SD] [--edge SD] [--shape S].. [--seed N]",
        .purpose = "Measures the accuracy of every slip method on synthetic contacts whose motion "
                   "is known, and compares it with the Cramer-Rao bound. Prints JSON; docs/notes/slip.md "
                   "explains it.",
-       .options = withOutputOptions(
-           {{"noise", "SD", "standard deviation of the noise [counts], default 5"},
-            {"edge",
-             "SD",
-             "standard deviation of the edges of disc, bar and flat-ellipse [taxels], "
-             "default 0.4"},
-            {"shape",
-             "S",
-             "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
-             "default all"},
-            {"seed", "N", "seed of noise and places, default 1"},
-            {"trials", "N", "contacts per shape, default 8"},
-            {"recordings",
-             "FOLDER",
-             "also scores alarms on real recordings: FOLDER/slip-detection slips, "
-             "FOLDER/grasps_by_class doesn't"}}),
+       .options = withOutputOptions({bound("noise",
+                         "SD",
+                         "standard deviation of the noise",
+                         options.noiseSd,
+                         options.kNoiseSd),
+                   bound("edge",
+                         "SD",
+                         "standard deviation of the edges of disc, bar and flat-ellipse",
+                         options.sensor.coverTaxels,
+                         options.sensor.kCoverTaxels),
+                   {"shape",
+                    "S",
+                    "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
+                    "default all"},
+                   bound("seed", "N", "seed of noise and places", options.seed, kSeedOption),
+                   bound("trials", "N", "contacts per shape", options.trials, options.kTrials),
+                   {"recordings",
+                    "FOLDER",
+                    "also scores alarms on real recordings: FOLDER/slip-detection slips, "
+                    "FOLDER/grasps_by_class doesn't"}}),
        .example = "palpate slip-benchmark --noise 20",
        .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
-  SlipAccuracyOptions options;
-  options.noiseSd = given.number("noise", 0.0, 1000.0).value_or(options.noiseSd);
-  options.sensor.coverTaxels =
-      given.number("edge", 0.05, 10.0).value_or(options.sensor.coverTaxels);
-  options.seed = static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
-  options.trials = static_cast<int>(given.integer("trials", 1, 1000).value_or(options.trials));
   for (const std::string& name : given.texts("shape")) {
     const auto shape = slipShapeNamed(name);
     if (!shape) {

@@ -16,10 +16,7 @@ namespace {
 
 // What isn't bound to a field.
 void takeWords(const CommandLine& given, SlipRowsOptions& options) {
-  std::vector<std::string> methods;
-  for (const SlipMethod method : slipMethods()) methods.emplace_back(nameOf(method));
-  const auto name = given.choice("method", methods);
-  setSlipMethod(options, name ? std::string_view(*name) : nameOf(options.pass.detector.method));
+  setSlipMethod(options, nameOf(options.pass.detector.method));
   try {
     setSlipReference(options, given.text("reference").value_or("first"));
   } catch (const std::invalid_argument& error) {
@@ -47,11 +44,12 @@ int slipCommand(const Arguments& words) {
            "folder: every recording below it. With several recordings a last column names the "
            "file. With -o there is a table for each recording.",
        .options = withTableOptions(withFilterOptions(
-           {{"method",
-             "METHOD",
-             "centroid, alcazar, ncc-paraboloid, ncc-gauss3, phase, phase-normalized, "
-             "register, contest (default: compares a motion with a load shift)"},
-            bound("matrix", "M", "only this matrix", options.matrix, {0, INT32_MAX}),
+           {boundChoice("method",
+                        "METHOD",
+                        "contest compares a motion with a load shift",
+                        options.pass.detector.method,
+                        wordsOf(slipMethods(), [](SlipMethod each) { return nameOf(each); })),
+            bound("matrix", "M", "only this matrix", options.matrix, kMatrixOption),
             {"reference",
              "WHAT",
              "first: first frame with an active taxel (default); rest: each contact from when "

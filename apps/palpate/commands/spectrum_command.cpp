@@ -36,10 +36,10 @@ constexpr double kPercent = 100.0;
 TypedSignal choiceOf(const CommandLine& given, const Profile& profile) {
   const SensorLayout& layout = profile.layout();
   const std::string& file = given.words().front();
-  const auto matrix = given.integer("matrix", 0, INT64_MAX);
+  const auto matrix = given.integer("matrix", kMatrixOption);
   const auto numMatrices = static_cast<std::int64_t>(layout.numMatrices());
   requireMatrix(file, layout, matrix);
-  const auto x = given.integer("x", 0, INT32_MAX), y = given.integer("y", 0, INT32_MAX);
+  const auto x = given.integer("x", kMatrixOption), y = given.integer("y", kMatrixOption);
   if (const auto text = given.text("signal")) {
     if (x || y) throw UsageError("give --signal, or --x and --y, not both");
     if (const auto signal = signalKindNamed(*text))
@@ -97,17 +97,14 @@ Series seriesOf(const CommandLine& given,
 
 SpectrumOptions spectrumOptionsOf(const CommandLine& given, bool oneLine) {
   SpectrumOptions options = oneLine ? welchOptions() : SpectrumOptions{};
-  options.window = static_cast<int>(given.integer("window", 2, 65'536).value_or(options.window));
+  options.window =
+      static_cast<int>(given.integer("window", options.kWindow).value_or(options.window));
   // Default: all but one sample, as in the study; half a window where segments are averaged.
   options.overlap =
       static_cast<int>(given.integer("overlap", 0, options.window - 1)
                            .value_or(oneLine ? options.window / 2 : options.window - 1));
-  const std::string detrend = given.choice("detrend", {"mean", "line", "none"}).value_or("mean");
-  options.detrend = detrend == "none"   ? Detrend::kNone
-                    : detrend == "line" ? Detrend::kLine
-                                        : Detrend::kMean;
-  if (given.choice("rate", {"mean", "median"}).value_or("mean") == "median")
-    options.gridRate = GridRate::kMedian;
+  options.detrend = given.chosen("detrend", kDetrendWords).value_or(options.detrend);
+  options.gridRate = given.chosen("rate", kGridRateWords).value_or(options.gridRate);
   return options;
 }
 
@@ -272,38 +269,43 @@ int spectrumCommand(const Arguments& words) {
            "instead, the mean over all segments: frequency_hz,psd,magnitude; with --peaks the "
            "peaks of this spectrum; with --coherence what two signals have in common: "
            "frequency_hz,coherence,phase_deg,psd_a,psd_b.",
-       .options = withOneTableOptions(
-           withFilterOptions(withFrameOptions(
-               {{"matrix", "M", "matrix (0, 1, ..)"},
-                {"x", "X", "column of the taxel"},
-                {"y", "Y", "row of the taxel; row 0 is the fingertip"},
-                {"signal",
-                 "NAME",
-                 "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
-                 "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
-                 "m5_x2_y9, angle3, m1_sum-m3_sum"},
-                {"welch", "", "the mean over all segments as one spectrum (Welch)"},
-                {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
-                {"coherence",
-                 "A,B",
-                 "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
-                 "m5_x2_y9,m5_x3_y9"},
-                {"window",
-                 "N",
-                 "samples per segment, 2..65536, default 32; 256 for --welch, --peaks, "
-                 "--coherence"},
-                {"overlap",
-                 "N",
-                 "samples shared with the next segment, default window - 1; window / 2 for "
-                 "--welch, "
-                 "--peaks, --coherence"},
-                {"detrend",
-                 "HOW",
-                 "what is subtracted from each segment first: mean (default), line, none"},
-                {"rate",
-                 "HOW",
-                 "sampling rate after interpolation: mean (default) or median of the intervals"},
-                timeOption()})),
+       .options = withOneTableOptions(withFilterOptions(withFrameOptions(
+           {rangedWhole("matrix", "M", "matrix", kMatrixOption),
+            rangedWhole("x", "X", "column of the taxel", kMatrixOption),
+            rangedWhole("y", "Y", "row of the taxel; row 0 is the fingertip", kMatrixOption),
+            {"signal",
+             "NAME",
+             "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
+             "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
+             "m5_x2_y9, angle3, m1_sum-m3_sum"},
+            {"welch", "", "the mean over all segments as one spectrum (Welch)"},
+            {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
+            {"coherence",
+             "A,B",
+             "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
+             "m5_x2_y9,m5_x3_y9"},
+            rangedWhole("window",
+                        "N",
+                        "length of a segment",
+                        SpectrumOptions::kWindow,
+                        std::to_string(SpectrumOptions{}.window) + "; " +
+                            std::to_string(welchOptions().window) +
+                            " for --welch, --peaks, --coherence"),
+            {"overlap",
+             "N",
+             "samples shared with the next segment, default window - 1; window / 2 for --welch, "
+             "--peaks, --coherence"},
+            worded("detrend",
+                   "HOW",
+                   "what is subtracted from each segment first",
+                   kDetrendWords,
+                   "mean"),
+            worded("rate",
+                   "HOW",
+                   "of the intervals: sampling rate after interpolation",
+                   kGridRateWords,
+                   "mean"),
+            timeOption()})),
            "no table: rate, Nyquist, jitter, strongest line (or line and peaks) as JSON"),
        .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
        .minArguments = 1,

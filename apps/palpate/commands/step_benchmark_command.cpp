@@ -60,20 +60,20 @@ Json stepsToJson(const StepCoverage& coverage) {
 }  // namespace
 
 int stepBenchmarkCommand(const Arguments& words) {
+  std::size_t trials = 200;
+  std::uint64_t seed = 1;
   const CommandLine given(
       {.synopsis = "palpate step-benchmark [--trials N] [--seed N]",
        .purpose =
            "Fits synthetic loading steps whose parameters are known, by noise, length and drift, "
            "and counts how often the stated 95 % intervals contain them, with Wilson's interval of "
            "that fraction. Prints JSON; docs/notes/calibration.md explains it.",
-       .options = withOutputOptions({{"trials", "N", "steps per kind, default 200"},
-                                     {"seed", "N", "seed of noise and loads, default 1"}}),
+       .options = withOutputOptions({bound("trials", "N", "steps per kind", trials, {1, 1e6}),
+                   bound("seed", "N", "seed of noise and loads", seed, kSeedOption)}),
        .example = "palpate step-benchmark --trials 50",
        .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
-  const auto trials = static_cast<std::size_t>(given.integer("trials", 1, 1'000'000).value_or(200));
-  const auto seed = static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
   Json cells = Json::array();
   std::size_t contradictory = 0;
   {

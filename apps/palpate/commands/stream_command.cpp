@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include "palpate/capture/recording_limits.h"
 #include "palpate/capture/replay.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
@@ -81,7 +82,7 @@ CommandSpec streamSpec() {
                   {"foxglove", "[PORT]", "the same as --to foxglove[:PORT]; PORT 0: any free one"},
                   {"lines", "", "lines on standard output instead of datagrams"},
                   {"calibration", "C.json", "also pressures and forces"},
-                  {"duration", "S", "stop after S seconds"}},
+                  ranged("duration", "S", "stop after this time", RecordingLimits::kStopAfterS)},
       .example = "palpate stream --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1",
       .maxArguments = 1};
   const std::vector<OptionSpec> stream = streamSourceOptions();
@@ -171,7 +172,7 @@ void runSession(const CommandLine& given,
                 CaptureSession& session,
                 Interruption& interruption,
                 const std::function<bool()>& over) {
-  const double durationS = given.number("duration", 0.05, 1e7).value_or(1e9);
+  const double durationS = given.number("duration", RecordingLimits::kStopAfterS).value_or(1e9);
   const std::int64_t beginUs = systemClock().monotonicUs();
   session.start();
   const auto* replay = dynamic_cast<const Replay*>(&session.device());

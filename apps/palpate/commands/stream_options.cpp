@@ -6,41 +6,24 @@
 #include <string>
 
 #include "palpate/core/escaped_line.h"
-#include "palpate/core/number_text.h"
 #include "palpate/imports/label_places.h"
 
 #include "commands/hand_options.h"
 
 namespace palpate::commands {
-namespace {
-
-StreamFormat streamFormatOf(const CommandLine& given) {
-  const std::string name =
-      given.choice("format", {"auto", "lines", "json", "binary"}).value_or("auto");
-  if (name == "lines") return StreamFormat::kLines;
-  if (name == "json") return StreamFormat::kJson;
-  return name == "binary" ? StreamFormat::kBinary : StreamFormat::kAuto;
-}
-
-StreamTime streamTimeOf(const CommandLine& given) {
-  const std::string name = given.choice("time", {"auto", "none", "s", "ms", "us"}).value_or("auto");
-  if (name == "none") return StreamTime::kNone;
-  if (name == "s") return StreamTime::kSeconds;
-  if (name == "ms") return StreamTime::kMilliseconds;
-  return name == "us" ? StreamTime::kMicroseconds : StreamTime::kAuto;
-}
-
-}  // namespace
-
 std::vector<OptionSpec> streamSourceOptions() {
   return {{"stream",
            "SOURCE",
            "frames of any hand: a port, tcp:HOST:PORT, listen:[ADDRESS:]PORT, udp:[ADDRESS:]PORT "
            "or - (standard input)"},
           handOption(),
-          {"format", "FORM", "of the stream: auto (default), lines, json or binary"},
-          {"time", "UNIT", "of the time in lines: auto (default), none, s, ms or us"},
-          {"baud", "N", "speed of a serial port of the stream, default 115200"}};
+          worded("format", "FORM", "of the stream", kStreamFormatWords, "auto"),
+          worded("time", "UNIT", "of the time in lines", kStreamTimeWords, "auto"),
+          rangedWhole("baud",
+                      "N",
+                      "speed of a serial port of the stream",
+                      StreamDeviceOptions::kBaud,
+                      std::to_string(StreamDeviceOptions{}.baud))};
 }
 
 void checkStreamSource(const CommandLine& given) {
@@ -57,12 +40,12 @@ void checkStreamSource(const CommandLine& given) {
 std::unique_ptr<StreamDevice> streamSourceOf(const CommandLine& given) {
   StreamDeviceOptions options;
   options.source = given.text("stream").value();
-  options.format = streamFormatOf(given);
-  options.time = streamTimeOf(given);
+  options.format = given.chosen("format", kStreamFormatWords).value_or(options.format);
+  options.time = given.chosen("time", kStreamTimeWords).value_or(options.time);
   if (options.time != StreamTime::kAuto &&
       (options.format == StreamFormat::kJson || options.format == StreamFormat::kBinary))
     throw UsageError("--time is for lines: the other forms say their time themselves");
-  options.baud = static_cast<int>(given.integer("baud", 50, 10'000'000).value_or(options.baud));
+  options.baud = static_cast<int>(given.integer("baud", options.kBaud).value_or(options.baud));
   options.hand = handOf(given).value();
   options.placesOfLabels = std::bind_front(placesOfLabels, options.hand);
   try {

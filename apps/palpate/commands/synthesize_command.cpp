@@ -17,41 +17,39 @@ namespace palpate::commands {
 namespace {
 
 constexpr std::int64_t kDayUs = 24LL * 3600 * 1'000'000;
+constexpr OptionRange kRuns{1, 1000};  // of a scene
+constexpr OptionRange kZeroErrorDeg{-5.0, 5.0, "deg"};
+constexpr OptionRange kDaysLater{0, 36'500};
 constexpr double kFramesPerGrasp = 12.0;  // at least; see SyntheticOptions::validate
 
 Profile fromScene(const CommandLine& given, const std::string& name, const Progress& progress) {
   const Scene scene = loadScene(name, dataFolder() / "scenes");
   SimulatedRecordingOptions options;
-  options.durationS = given.number("duration", 0.1, 3600.0).value_or(options.durationS);
+  options.durationS =
+      given.number("duration", SyntheticOptions::kDurationS).value_or(options.durationS);
   options.frameIntervalS =
-      1.0 / given.number("rate", 0.1, 1000.0).value_or(1.0 / options.frameIntervalS);
-  options.hand.seed = static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
-  if (const auto error = given.number("zero-error", -5.0, 5.0))
+      1.0 / given.number("rate", SyntheticOptions::kRateHz).value_or(1.0 / options.frameIntervalS);
+  options.hand.seed = static_cast<std::uint64_t>(given.integer("seed", kSeedOption).value_or(1));
+  if (const auto error = given.number("zero-error", kZeroErrorDeg))
     options.hand.zeroErrorDeg = {0.0, *error, 0.0, *error, 0.0, *error, 0.0};  // proximal joints
-  options.startUs += kDayUs * given.integer("days-later", 0, 36'500).value_or(0);
-  const auto runs = given.integer("grasps", 1, 1000);
+  options.startUs += kDayUs * given.integer("days-later", kDaysLater).value_or(0);
+  const auto runs = given.integer("grasps", kRuns);
   if (!runs) return simulateRecording(scene, options, progress);
   return simulateGrasps(scene, static_cast<int>(*runs), {}, options, progress);
 }
 
-Profile fromOptions(const CommandLine& given) {
-  SyntheticOptions options;
-  options.durationS = given.number("duration", 0.1, 86'400.0).value_or(options.durationS);
-  options.rateHz = given.number("rate", 0.1, 1000.0).value_or(options.rateHz);
+Profile fromOptions(const CommandLine& given, SyntheticOptions options) {
   // The default is limited to the grasps that fit into a short recording.
   const double fits = std::floor(options.durationS * options.rateHz / kFramesPerGrasp);
-  options.grasps = static_cast<int>(std::min<double>(options.grasps, fits));
-  options.grasps = static_cast<int>(given.integer("grasps", 0, 10'000).value_or(options.grasps));
-  options.peakCounts = given.number("peak", 50.0, 3500.0).value_or(options.peakCounts);
-  options.noiseCounts = given.number("noise", 0.0, 1000.0).value_or(options.noiseCounts);
-  options.seed =
-      static_cast<std::uint32_t>(given.integer("seed", 0, UINT32_MAX).value_or(options.seed));
+  if (!given.has("grasps"))
+    options.grasps = static_cast<int>(std::min<double>(options.grasps, fits));
   return synthesize(options);
 }
 
 }  // namespace
 
 int synthesizeCommand(const Arguments& words) {
+  SyntheticOptions options;
   const CommandLine given(
       {.synopsis = "palpate synthesize -o OUT [--scene NAME] [--duration S] [--grasps N] "
                    "[--noise SD] ..",
@@ -67,16 +65,31 @@ int synthesizeCommand(const Arguments& words) {
                     "OUT",
                     "where to write it: .palpate, .dsa and the other endings of palpate convert"},
                    {"scene", "NAME", "of data/scenes, or a JSON file"},
-                   {"duration", "S", "length [s] (of a scene: of each run), default 12"},
-                   {"rate", "HZ", "tactile frames per second, default 31.7"},
-                   {"grasps", "N", "grasps, spread evenly; default 3"},
-                   {"peak", "COUNTS", "value under the middle of the contact, default 1800"},
-                   {"noise", "SD", "standard deviation of the noise [counts], default 0"},
-                   {"seed", "N", "seed of the noise, default 1"},
-                   {"zero-error",
-                    "DEG",
-                    "of a scene: error of the proximal joints' zero, default 0"},
-                   {"days-later", "N", "of a scene: host time N days later, default 0"},
+                   bound("duration",
+                         "S",
+                         "length (of a scene: of each run)",
+                         options.durationS,
+                         options.kDurationS),
+                   bound("rate", "HZ", "of the tactile frames", options.rateHz, options.kRateHz),
+                   bound("grasps", "N", "grasps, spread evenly", options.grasps, options.kGrasps),
+                   bound("peak",
+                         "COUNTS",
+                         "value under the middle of the contact",
+                         options.peakCounts,
+                         options.kPeakCounts),
+                   bound("noise",
+                         "SD",
+                         "standard deviation of the noise",
+                         options.noiseCounts,
+                         options.kNoiseCounts),
+                   bound("seed", "N", "seed of the noise", options.seed, kSeedOption),
+                   ranged("zero-error",
+                          "DEG",
+                          "of a scene: error of the proximal joints' zero",
+                          kZeroErrorDeg,
+                          "0"),
+                   rangedWhole(
+                       "days-later", "N", "of a scene: host time N days later", kDaysLater, "0"),
                    {"force", "", "replace OUT"}},
        .example = "palpate synthesize -o grasps.dsa --grasps 4 --noise 8",
        .maxArguments = 0},
@@ -97,7 +110,7 @@ int synthesizeCommand(const Arguments& words) {
     if (!scene && given.has(name)) throw UsageError(std::string("--") + name + " needs --scene");
   ProgressLine progress("making " + *out, given.quiet());
   const Profile profile =
-      scene ? fromScene(given, *scene, progress.callback()) : fromOptions(given);
+      scene ? fromScene(given, *scene, progress.callback()) : fromOptions(given, options);
   progress.setLabel("writing " + *out);
   saveRecording(profile,
                 {},

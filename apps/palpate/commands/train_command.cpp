@@ -57,14 +57,13 @@ Json reportOf(const TrainedModel& model,
 }  // namespace
 
 int trainCommand(const Arguments& words) {
-  std::vector<OptionSpec> options = {{"output,o", "MODEL.json", "write the model there"},
-                                     {"set",
-                                      "SET",
-                                      "best (default where two pads pinch), study, session, or "
-                                      "statistics (default of other hands)"},
-                                     zeroOptionSpec(),
-                                     {"force", "", "replace MODEL.json"},
-                                     {"json", "", "no effect: it always prints JSON"}};
+  std::optional<FeatureSet> asked;
+  std::vector<OptionSpec> options = {
+      {"output,o", "MODEL.json", "write the model there"},
+      boundChoice("set", "SET", "", asked, kFeatureSetWords, kDefaultFeatureSetText),
+      zeroOptionSpec(),
+      {"force", "", "replace MODEL.json"},
+      {"json", "", "no effect: it always prints JSON"}};
   for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.end() - 3, std::move(one));
   const CommandLine given(
       {.synopsis =
@@ -86,9 +85,6 @@ int trainCommand(const Arguments& words) {
   const auto out = given.text("output");
   if (!out) throw UsageError("-o MODEL.json is missing: the file for the model");
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-  std::optional<FeatureSet> asked;
-  if (const auto name = given.choice("set", {"best", "study", "session", "statistics"}))
-    asked = featureSetNamed(*name);
   searchGiven(given, asked.value_or(FeatureSet::kBest));  // refuses wrong options first
   requireWritable(*out, overwrite);
 

@@ -27,6 +27,7 @@ std::optional<Recipe> filtersOf(const CommandLine& given) {
   return recipe.steps.empty() ? std::nullopt : std::optional(std::move(recipe));
 }
 
+constexpr OptionRange kAfterS{0.0, 3600.0, "s"};
 constexpr QSize kSmallestWindow{800, 500};
 
 // The angles of --angles, of the hand of --hand.
@@ -38,14 +39,14 @@ int screenshot(const CommandLine& given) {
   gui::ScreenshotOptions options;
   options.out = *given.text("screenshot");
   if (const auto size = given.text("size")) options.size = parsedSize(*size, kSmallestWindow);
-  if (const auto frame = given.integer("frame", 0, INT64_MAX))
+  if (const auto frame = given.integer("frame", kFrameOption))
     options.frame = static_cast<std::size_t>(*frame);
-  options.afterS = given.number("after", 0.0, 3600.0).value_or(0.0);
+  options.afterS = given.number("after", kAfterS).value_or(0.0);
   options.docks = given.texts("dock");
   for (const std::string& text : given.texts("press"))
     options.presses.push_back(gui::parsedPress(text));
   if (const auto settings = given.text("settings")) options.settings = *settings;
-  options.theme = given.choice("theme", {"dark", "light"}).value_or("dark");
+  options.theme = given.text("theme").value_or("dark");
   options.demo = given.has("demo");
   options.dataFolder = dataFolder();
   options.force = given.has("force");
@@ -97,8 +98,9 @@ int windowCommand(const Arguments& words) {
            {{"demo", "", "open on the emulated hand, which grasps a ball"},
             {"screenshot", "OUT.png", "save a picture of the window and exit"},
             {"size", "WxH", "with --screenshot: size in pixels, default 1600x1000"},
-            {"frame", "N", "with --screenshot: default the frame of largest sum"},
-            {"after", "S", "with --screenshot: let the source play for S seconds first"},
+            rangedWhole(
+                "frame", "N", "with --screenshot", kFrameOption, "the frame of largest sum"),
+            ranged("after", "S", "with --screenshot: let the source play first", kAfterS, "0"),
             {"dock",
              "NAME",
              "with --screenshot: show this dock ('Calibrate/Noise': a page of it); may be "
@@ -111,7 +113,7 @@ int windowCommand(const Arguments& words) {
 
             },
             {"settings", "INI", "with --screenshot: settings file of the window; it isn't changed"},
-            {"theme", "dark|light", "with --screenshot: default dark"},
+            worded("theme", "NAME", "with --screenshot", gui::kThemeWords, "dark"),
             {"gl", "", "draw the hand in 3-D with OpenGL, even by the processor"},
             {"no-gl", "", "draw the hand in 3-D without OpenGL"},
             {"angles", "A0,A1,..", "joint angles [deg; mm] assumed for recordings without any"},

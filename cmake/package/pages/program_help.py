@@ -69,6 +69,12 @@ def table(lines):
     return rows
 
 
+def grouped(lines):
+    """The rows of all tables below headings "Look:", by name."""
+    end = next(i for i, line in enumerate(lines) if line.startswith("Exit codes"))
+    return sorted(table([line for line in lines[:end] if line.startswith("  ")]))
+
+
 def join(lines, width):
     """Undoes the line breaks of Boost.Program_options: `width` is that of the column. It breaks at a
     blank, but within a word where that would leave less than half a line."""
@@ -204,7 +210,7 @@ class Program:
         self.version = run(program, "--version").split()[1]
         lines = run(program, "--help").splitlines()
         self.commands = [read_command(program, name, summary, [name])
-                         for name, summary in table(lines[lines.index("Commands:") + 1:])]
+                         for name, summary in grouped(lines[lines.index("Commands:") + 1:])]
         self.window = read_command(program, "", "the window", ["--demo"])
         filters = [line.split()[0] for line in run(program, "filter", "--list").splitlines()
                    if re.match(r"[a-z]", line)]

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include <palpate/batch/batch_plan.h>
+#include <palpate/core/option_check.h>
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/core/text_table.h>
@@ -46,6 +47,7 @@ struct BatchTask {
 
 struct BatchOptions {
   // Recordings at the same time; 0: as many as the machine runs at once.
+  static constexpr OptionRange kThreads{1, 256};
   std::size_t threads = 0;
   Overwrite overwrite = Overwrite::kRefuse;
   // A result is not made again when the journal says that it was made with the same options, of

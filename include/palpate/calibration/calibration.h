@@ -11,6 +11,7 @@
 #include <palpate/calibration/noise_floor.h>
 #include <palpate/calibration/pressure_model.h>
 #include <palpate/core/json.h>
+#include <palpate/core/option_check.h>
 #include <palpate/core/output_file.h>
 
 namespace palpate {
@@ -18,9 +19,12 @@ namespace palpate {
 // Settings of the tactile controller. A .dsa recording does not contain them: then a user entered
 // them, and the calibration file says so.
 struct SensorSettings {
-  double sensitivity = 1.0;      // 0..1
-  double thresholdCounts = 100;  // 0..4095
-  bool assumed = true;           // entered by a user, not read from the device or the recording
+  static constexpr OptionRange kSensitivity{0.01, 1.0};
+  // Up to the full scale of any hand.
+  static constexpr OptionRange kThresholdCounts{0.0, 1e9, "counts"};
+  double sensitivity = 1.0;
+  double thresholdCounts = 100;
+  bool assumed = true;  // entered by a user, not read from the device or the recording
   bool operator==(const SensorSettings&) const = default;
 };
 

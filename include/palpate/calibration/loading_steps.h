@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
 #include <palpate/signals/characteristic_signals.h>
@@ -18,8 +19,10 @@ namespace palpate {
 // What counts as a loading step.
 struct LoadingStepOptions {
   SignalKind signal = SignalKind::kFilteredMean;
-  double aboveCounts = 0.0;   // the matrix is loaded when the signal is above this, >= 0
-  double minDurationS = 1.0;  // shorter contacts are no steps [s], >= 0
+  static constexpr OptionRange kAboveCounts{0.0, 1e6};
+  static constexpr OptionRange kMinDurationS{0.0, 86'400.0, "s"};
+  double aboveCounts = 0.0;   // the matrix is loaded when the signal is above this
+  double minDurationS = 1.0;  // shorter contacts are no steps [s]
   // Contacts with fewer frames are no steps; >= 6.
   std::size_t minFrames = 20;
   // Unloaded stretches of at most this many frames are ignored as flicker.

@@ -16,13 +16,15 @@
 #include <vector>
 
 #include <palpate/core/json.h>
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
 
 namespace palpate {
 
 struct NoiseFloorOptions {
-  std::size_t bins = 20;  // 2..1000
+  static constexpr OptionRange kBins{2, 1000};
+  std::size_t bins = 20;
 
   // Throws std::invalid_argument that names the field.
   void validate() const;

@@ -13,6 +13,7 @@
 
 #include <palpate/calibration/surface.h>
 #include <palpate/core/json.h>
+#include <palpate/core/option_check.h>
 
 namespace palpate {
 
@@ -43,6 +44,7 @@ struct PressureModelOptions {
   double assumedSdDegC = 8.0;
   // Area of the stamp [mm^2]; 0 when not known. Rubber distributes a load: more taxels are active
   // than it covers.
+  static constexpr OptionRange kIndenterAreaMm2{0.0, 1e6, "mm^2"};
   double indenterAreaMm2 = 0.0;
 
   // Throws std::invalid_argument that names the field.

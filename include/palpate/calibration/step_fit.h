@@ -4,6 +4,7 @@
 // search, which fails from poor starts.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -13,17 +14,22 @@
 #include <Eigen/Core>
 
 #include <palpate/calibration/step_model.h>
+#include <palpate/core/option_check.h>
 
 namespace palpate {
 
 // The loss of the fit (least_squares.h).
 enum class StepLoss { kSquares, kHuber, kCauchy };
+inline constexpr std::array<OptionWord<StepLoss>, 3> kStepLossWords{
+    {{"squares", StepLoss::kSquares}, {"huber", StepLoss::kHuber}, {"cauchy", StepLoss::kCauchy}}};
 // Which dampings d the fit may use.
 enum class StepDamping {
   // d >= 1, as the study fits.
   kOverdamped,
   kAny,  // d < 1 (oscillating) is allowed where it fits the data better
 };
+inline constexpr std::array<OptionWord<StepDamping>, 2> kStepDampingWords{
+    {{"over", StepDamping::kOverdamped}, {"any", StepDamping::kAny}}};
 
 struct StepFitOptions {
   StepLoss loss = StepLoss::kSquares;

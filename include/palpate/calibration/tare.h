@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <palpate/core/json.h>
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
 
@@ -17,10 +18,12 @@ namespace palpate {
 
 // What counts as unloaded.
 struct TareOptions {
-  // Length of a window, which is unloaded or not as a whole [s]; > 0. Where frames are rarer than
+  // Length of a window, which is unloaded or not as a whole [s]. Where frames are rarer than
   // three in this time, a window is as long as three usual intervals of frames.
+  static constexpr OptionRange kWindowS{0.05, 3600.0, "s"};
   double windowS = 1.0;
-  // A matrix whose calmest window has a larger reading [counts] is never unloaded; >= 0.
+  // A matrix whose calmest window has a larger reading [counts] is never unloaded.
+  static constexpr OptionRange kMaxRestCounts{0.0, 1e9, "counts"};
   double maxRestCounts = 150;
   // Windows within this distance of the calmest one are also unloaded [counts]; >= 0.
   double sameRestCounts = 10;

@@ -24,11 +24,12 @@
 #include <palpate/capture/link_health.h>
 #include <palpate/capture/recorder.h>
 #include <palpate/core/latest_value.h>
+#include <palpate/core/option_check.h>
 #include <palpate/core/time.h>
 #include <palpate/device/device.h>
 #include <palpate/device/series_source.h>
-#include <palpate/model/time_base.h>
 #include <palpate/model/rest_span.h>
+#include <palpate/model/time_base.h>
 
 namespace palpate {
 
@@ -37,6 +38,7 @@ struct CaptureOptions {
   HealthOptions health;
   // False: the caller runs the recorder by step().
   bool ownThread = true;
+  static constexpr OptionRange kBaselineS{0.1, 60.0, "s"};
   double baselineS = 1.0;  // how long takeBaseline() looks back
 };
 

@@ -6,13 +6,15 @@
 #include <cstdint>
 #include <optional>
 
+#include <palpate/core/option_check.h>
 #include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 
 struct ContactTriggerOptions {
-  // A taxel touches when its value is above this, in the unit of the hand (an SDH-2's: counts), 0
-  // or more. With 0 every active taxel touches.
+  // A taxel touches when its value is above this, in the unit of the hand (an SDH-2's: counts).
+  // With 0 every active taxel touches.
+  static constexpr OptionRange kThreshold{0.0, 1e9};
   double threshold = 0.0;
   // Taxels that touch in each of the frames, over all matrices, 1..1,000,000.
   int taxels = 3;

@@ -21,6 +21,7 @@
 
 #include <palpate/capture/capture_queue.h>
 #include <palpate/capture/contact_trigger.h>
+#include <palpate/core/option_check.h>
 #include <palpate/core/time.h>
 #include <palpate/device/frame_losses.h>
 #include <palpate/model/series.h>
@@ -74,8 +75,9 @@ struct RecordingOptions {
   // before it; until then nothing is written (RecorderStatus::State::kArmed). All limits then count
   // from the contact.
   bool startOnContact = false;
-  // It ends after a contact, once there has been none for this time [s], 0.05..1e6. What is missing
+  // It ends after a contact, once there has been none for this time [s]. What is missing
   // (the stream was interrupted) doesn't count as released.
+  static constexpr OptionRange kStopWithoutContactS{0.05, 1e6, "s"};
   std::optional<double> stopWithoutContactS = {};
   // When it ends by itself and can't be written: it waits for the disk, Recorder::continueIn() or
   // stop(), which finishes what can be written within 2 s. False: it does that at once.

@@ -6,19 +6,20 @@
 #include <string>
 
 #include <palpate/capture/recorder.h>
+#include <palpate/core/option_check.h>
 
 namespace palpate {
 
 struct RecordingLimits {
-  static constexpr double kLeastStopS = 0.05, kMostStopS = 1e7;
-  static constexpr double kLeastSplitMinutes = 1.0 / 60.0, kMostSplitMinutes = 1e5;
-  static constexpr double kLeastSplitMb = 0.1, kMostSplitMb = 1e6;
+  static constexpr OptionRange kStopAfterS{0.05, 1e7, "s"};
+  static constexpr OptionRange kSplitMinutes{1.0 / 60.0, 1e5, "min"};
+  static constexpr OptionRange kSplitMb{0.1, 1e6, "MB"};
 
-  // Duration from the first frame after the start [s], kLeastStopS..kMostStopS.
+  // Duration from the first frame after the start [s].
   std::optional<double> stopAfterS = {};
-  // Duration of a part [min], kLeastSplitMinutes..kMostSplitMinutes.
+  // Duration of a part [min].
   std::optional<double> splitMinutes = {};
-  // Approximate size of a part [10^6 bytes], kLeastSplitMb..kMostSplitMb.
+  // Approximate size of a part [10^6 bytes].
   std::optional<double> splitMb = {};
 
   // Throws std::invalid_argument that names the field and its range.

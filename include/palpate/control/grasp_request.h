@@ -1,6 +1,7 @@
 // Request of a grasp and report of its result. GraspControl takes requests and returns reports.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <palpate/control/limit_feasibility.h>
+#include <palpate/core/option_check.h>
 #include <palpate/device/device.h>
 #include <palpate/device/sdh2.h>
 #include <palpate/model/event.h>
@@ -27,6 +29,8 @@ enum class GraspMode {
   kSlip,
 };
 std::string_view nameOf(GraspMode mode);  // "plain", "reactive", "slip"
+inline constexpr std::array kAllGraspModes{
+    GraspMode::kPlain, GraspMode::kReactive, GraspMode::kSlip};
 
 constexpr double kMinGraspDegPerS = 0.2;
 constexpr double kMaxGraspDegPerS = 100.0;
@@ -37,7 +41,8 @@ constexpr int kMaxSlipLimitCounts = 2200;
 // Options of holding in a slip-aware grasp.
 struct HoldingOptions {
   // The grasp ends by itself after this time, and the hand keeps holding [s]; 0: ends only on
-  // request; at most one day.
+  // request.
+  static constexpr OptionRange kHoldS{0.0, 86'400.0, "s"};
   double holdS = 0.0;
   // Rest before the first references are taken [s], 0..60.
   double settleS = 0.5;
@@ -48,15 +53,19 @@ struct HoldingOptions {
   // Highest limit that slips can cause, limitCounts..3300 [counts].
   int maxLimitCounts = kMaxSlipLimitCounts;
   // After this time without slip the limit falls again by raiseCounts, down to its first
-  // value [s], > 0.
+  // value [s].
+  static constexpr OptionRange kNoSlipS{0.01, 86'400.0, "s"};
   double noSlipS = 5.0;
   // Allows the hand then to open slowly, under tactile control, until no taxel is over the lower
   // limit. Off by default, because the hand holds a load.
   bool loosen = false;
   // Weight of the object [N]; 0: not known. If it is known, the hand opens slowly once until the
   // object slips, and catches it again; the measured forces then give the friction.
+  static constexpr OptionRange kWeightN{0.0, 1000.0, "N"};
+  static constexpr OptionRange kMassKg{0.0, 100.0, "kg"};  // of the object of this weight
   double weightN = 0.0;
   // Normal force per count of all taxels, from a calibration [N/count]; 0: not known, no friction.
+  static constexpr OptionRange kNewtonsPerCount{0.0, 1.0, "N"};
   double newtonsPerCount = 0.0;
 
   // Throws std::invalid_argument naming field, value and range.
@@ -88,11 +97,14 @@ struct GraspRequest {
   // its present posture. In a reactive grasp this motion is under tactile control, too.
   std::optional<double> startRatio = {};
   // 0 (open) .. 1 (closed); for a reactive grasp the largest ratio.
+  static constexpr OptionRange kCloseRatio{0.0, 1.0};
   double closeRatio = 0.5;
-  // 0.2..100 [deg/s]; slower axes move as fast as they can.
+  // [deg/s]; slower axes move as fast as they can.
+  static constexpr OptionRange kVelocityDegPerS{kMinGraspDegPerS, kMaxGraspDegPerS, "deg/s"};
   double velocityDegPerS = 10.0;
-  // Limit of a reactive grasp, which stops above it, 3..3300 [counts]; first limit of a slip-aware
+  // Limit of a reactive grasp, which stops above it [counts]; first limit of a slip-aware
   // one.
+  static constexpr OptionRange kLimitCounts{kMinGraspLimitCounts, kMaxGraspLimitCounts, "counts"};
   int limitCounts = 200;
   // Lower limits of single fingers, one per finger, each 3..limitCounts [counts]; empty:
   // limitCounts holds for all. A slip-aware grasp raises them together with limitCounts.

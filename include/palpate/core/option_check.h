@@ -1,9 +1,10 @@
-// The ranges of the fields of an Options struct, for validate(), the command line and its help; and
-// what validate() does with each field.
+// The ranges of the fields of an Options struct and the words of its enums, for validate(), the
+// command line, its help, the window and Python; and what validate() does with each field.
 #pragma once
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <palpate/core/number_text.h>
 
@@ -16,6 +17,10 @@ struct OptionRange {
   const char* unit = "";
   constexpr bool contains(double value) const { return value >= minimum && value <= maximum; }
 };
+
+// A value of an enum and its word. One array of them, beside the enum, serves all texts.
+template <typename T>
+using OptionWord = std::pair<const char*, T>;
 
 // Throws std::invalid_argument "OPTIONS: FIELD is VALUE" unless a field is good, or in its range.
 struct OptionCheck {

@@ -3,6 +3,7 @@
 // specifies what is sent.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/time.h>
 #include <palpate/device/byte_channel.h>
 #include <palpate/device/device.h>
@@ -23,6 +25,11 @@ enum class StreamFormat {
   kJson,    // JSON objects, one per line
   kBinary,  // packets
 };
+inline constexpr std::array<OptionWord<StreamFormat>, 4> kStreamFormatWords{
+    {{"auto", StreamFormat::kAuto},
+     {"lines", StreamFormat::kLines},
+     {"json", StreamFormat::kJson},
+     {"binary", StreamFormat::kBinary}}};
 
 struct StreamDeviceOptions {
   // Where the stream comes from:
@@ -39,7 +46,8 @@ struct StreamDeviceOptions {
   HandDescription hand = {};
   StreamFormat format = StreamFormat::kAuto;
   StreamTime time = StreamTime::kAuto;  // of lines of numbers
-  int baud = 115'200;                   // of a serial port, 50..10,000,000 [baud]
+  static constexpr OptionRange kBaud{50, 10'000'000, "baud"};
+  int baud = 115'200;  // of a serial port
   // Which taxel each label of a line stands for (imports/label_places.h).
   PlacesOfLabels placesOfLabels = {};
   // Opens the source; empty means that `source` is opened. Tests pass their own channel. Called

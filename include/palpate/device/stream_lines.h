@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/device/stream_shape.h>
 
 namespace palpate {
@@ -34,6 +35,12 @@ enum class StreamTime {
   kMilliseconds,
   kMicroseconds,
 };
+inline constexpr std::array<OptionWord<StreamTime>, 5> kStreamTimeWords{
+    {{"auto", StreamTime::kAuto},
+     {"none", StreamTime::kNone},
+     {"s", StreamTime::kSeconds},
+     {"ms", StreamTime::kMilliseconds},
+     {"us", StreamTime::kMicroseconds}}};
 
 // Which value of a frame each label stands for, by the labels and, where they don't say it, by
 // their order; nothing when they fit no frame. Adds what was guessed to `notes`.

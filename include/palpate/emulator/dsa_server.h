@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/emulator/hand_model.h>
 #include <palpate/emulator/paced_line.h>
 
@@ -25,6 +26,7 @@ struct DsaServerOptions {
   // Values below 0x1000 are release numbers (218..288) with the limitations of those releases:
   // thresholds only since 268; sensitivities read as 0.5 up to 218; a request for a single frame
   // starts a stream up to 288, except 269.
+  static constexpr OptionRange kFirmware{1, 0xFFFF};
   std::uint16_t firmware = 0x2900;
   std::uint16_t generatedBy = 105;
   // Controller's clock when it is switched on [ms]; wraps at 2^32.

@@ -6,12 +6,14 @@
 // client the hand rests.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
 
+#include <palpate/core/option_check.h>
 #include <palpate/emulator/faults.h>
 #include <palpate/emulator/physical_hand.h>
 
@@ -22,13 +24,18 @@ enum class EmulatedStreamFormat {
   kLines,   // lines of numbers
   kJson,    // JSON objects, one per line
 };
+inline constexpr std::array<OptionWord<EmulatedStreamFormat>, 3> kEmulatedStreamWords{
+    {{"binary", EmulatedStreamFormat::kBinary},
+     {"lines", EmulatedStreamFormat::kLines},
+     {"json", EmulatedStreamFormat::kJson}}};
 
 struct EmulatedStreamOptions {
   // [ADDRESS:]PORT, where clients connect. Without an ADDRESS (numeric; IPv6 in brackets) only
   // programs of this machine can; PORT 0 takes a free one.
   std::string where = "0";
   EmulatedStreamFormat format = EmulatedStreamFormat::kBinary;
-  double rateHz = 100.0;  // 0.1..5000
+  static constexpr OptionRange kRateHz{0.1, 5000.0, "Hz"};
+  double rateHz = 100.0;
   // Frames follow as fast as the client reads, without loss; `rateHz` is that of the hand's time.
   bool asFastAsRead = false;
   // Faults of the connection; times are the hand's, and frames of a stall are lost. An unplug ends

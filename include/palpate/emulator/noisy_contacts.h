@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/model/hand_file.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/sensor_characteristics.h>
@@ -33,13 +34,16 @@ std::string_view nameOf(ContactSize size);
 
 struct NoisyContactsOptions {
   std::uint64_t seed = 1;
-  std::size_t frames = 3000;  // 1..1,000,000
-  double rateHz = 30.0;       // [Hz], 1..1000
-  double degC = 30.0;         // of all sensors [deg C], 0..80
-  double sensitivity = 1.0;   // 0..1
+  static constexpr OptionRange kFrames{1, 1e6};
+  static constexpr OptionRange kDegC{0.0, 80.0, "deg C"};
+  static constexpr OptionRange kBelowCounts{-100.0, 100.0, "counts"};
+  std::size_t frames = 3000;
+  double rateHz = 30.0;      // [Hz], 1..1000
+  double degC = 30.0;        // of all sensors [deg C]
+  double sensitivity = 1.0;  // 0..1
   // Threshold as a multiple of the RMSE above the noise line (methods: 3), -20..20.
   double noiseMultiple = 3.0;
-  // Amount subtracted from that threshold, -100..100.
+  // Amount subtracted from that threshold [counts].
   double belowCounts = 0.0;
   bool contacts = true;  // false: no contacts at all
   // Range of the peak pressure of a contact, drawn on a logarithmic scale [kPa], > 0.

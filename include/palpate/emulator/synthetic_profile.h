@@ -6,18 +6,24 @@
 #include <cstdint>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/model/profile.h>
 
 namespace palpate {
 
 struct SyntheticOptions {
-  double durationS = 12.0;         // [s], > 0, at most 86,400
-  double rateHz = 31.7;            // tactile frames [Hz], 0.1..1000
+  static constexpr OptionRange kDurationS{0.001, 86'400.0, "s"};
+  static constexpr OptionRange kRateHz{0.1, 1000.0, "Hz"};
+  static constexpr OptionRange kGrasps{0, 10'000};
+  static constexpr OptionRange kPeakCounts{50.0, 3500.0, "counts"};
+  static constexpr OptionRange kNoiseCounts{0.0, 1000.0, "counts"};
+  double durationS = 12.0;         // [s]
+  double rateHz = 31.7;            // tactile frames [Hz]
   double angleRateHz = 160.0;      // joint angles [Hz], 0..1000; 0: none
   double temperatureRateHz = 1.0;  // [Hz], 0..100; 0: none
-  // Number of grasps, 0..10,000, spread evenly; each needs 12 frames.
+  // Number of grasps, spread evenly; each needs 12 frames.
   int grasps = 3;
-  // Value under the centre of the contact [counts], 50..3500.
+  // Value under the centre of the contact [counts].
   double peakCounts = 1800.0;
   // Standard deviation of the contact's pressure distribution [taxels], 0.5..5.
   double contactRadiusTaxels = 2.4;

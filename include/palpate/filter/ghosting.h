@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
@@ -22,8 +23,9 @@ struct GhostingOptions {
   // A contact begins when at least this many touched taxels of a matrix are active in one frame;
   // at least 1.
   int minTaxels = 1;
-  // A taxel is active when its value is above this limit [counts], >= 0. Filters without mask leave
+  // A taxel is active when its value is above this limit [counts]. Filters without mask leave
   // small values behind for a long time.
+  static constexpr OptionRange kActiveAboveCounts{0.0, 1e9, "counts"};
   double activeAboveCounts = 0.0;
   // Fraction of a matrix' taxels, 0..1, above which false activations are counted separately: the
   // whole matrix is then above its threshold, and no spatial filter can separate them from a

@@ -6,6 +6,7 @@
 // units, which the schema of their channel names. docs/notes/live_streams.md lists the channels.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <palpate/capture/link_health.h>
+#include <palpate/core/option_check.h>
 #include <palpate/interop/foxglove_server.h>
 #include <palpate/kinematics/hand_geometry.h>
 #include <palpate/live/live_results.h>
@@ -28,6 +30,8 @@ enum class FoxgloveImage {
   kValues,
   kColored,  // rgb8: a colour by value / full scale; places without a taxel are black
 };
+inline constexpr std::array<OptionWord<FoxgloveImage>, 2> kFoxgloveImageWords{
+    {{"values", FoxgloveImage::kValues}, {"colored", FoxgloveImage::kColored}}};
 
 // Red, green, blue of a value in 0..1: the colour map viridis (S. van der Walt, N. Smith, 2015),
 // linear between five of its colours. Values outside of 0..1 have the colours of the ends.

@@ -6,6 +6,7 @@
 
 #include <palpate/capture/link_health.h>
 #include <palpate/capture/recorder.h>
+#include <palpate/core/option_check.h>
 #include <palpate/interop/remote_protocol.h>
 
 namespace palpate {
@@ -25,6 +26,7 @@ struct StartLimits {
   // Without a newer frame than this, no hand counts as connected [s].
   double noHandS = 1.0;
   // A start fails when no frame is on disk after this time [s].
+  static constexpr OptionRange kFirstFrameS{0.1, 1e6, "s"};
   double firstFrameS = 10.0;
   // A start fails when the disk still fails after this time [s].
   double diskS = 2.0;

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <palpate/core/option_check.h>
 #include <palpate/kinematics/bounding_sphere.h>
 #include <palpate/kinematics/hand_pose.h>
 #include <palpate/model/tactile_frame.h>
@@ -20,7 +21,8 @@
 namespace palpate {
 
 struct ContactOptions {
-  // A taxel is active above this value, >= 0 [counts, or the unit of the frame's values].
+  // A taxel is active above this value [counts, or the unit of the frame's values].
+  static constexpr OptionRange kThreshold{0.0, 1e9};
   double threshold = 0.0;
   // Whether to compute the spheres, which take most of the time. Drawing only axes does not need
   // them.

@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 
+#include <palpate/core/option_check.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/matrix_layout.h>
 
@@ -128,6 +129,8 @@ enum class BendRadius {
   kNominal,    // as constructed
   kEffective,  // with which the same rigid object always measures the same
 };
+inline constexpr std::array<OptionWord<BendRadius>, 2> kBendRadiusWords{
+    {{"study", BendRadius::kNominal}, {"effective", BendRadius::kEffective}}};
 
 // Returns whether the description of a hand contains what describeGeometry() needs.
 bool hasGeometry(const HandDescription& hand);

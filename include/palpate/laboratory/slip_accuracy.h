@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 #include <palpate/laboratory/synthetic_slip.h>
 #include <palpate/slip/slip_motion.h>
@@ -37,11 +38,13 @@ struct BenchmarkedMethod {
 std::vector<BenchmarkedMethod> benchmarkedMethods();
 
 struct SlipAccuracyOptions {
+  static constexpr OptionRange kNoiseSd{0.0, 1000.0, "counts"};
+  static constexpr OptionRange kTrials{1, 1000};
   double noiseSd = 5.0;  // [counts]
   // Shapes to test; empty: all.
   std::vector<SlipShape> shapes = {};
   std::uint64_t seed = 1;
-  // Trials per shape, 1..1000.
+  // Trials per shape.
   int trials = 8;
   // Its noise is replaced by `noiseSd`.
   SyntheticSensor sensor = {};

@@ -15,6 +15,7 @@
 #include <span>
 #include <string_view>
 
+#include <palpate/core/option_check.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/matrix_layout.h>
 #include <palpate/model/tactile_frame.h>
@@ -66,7 +67,8 @@ struct SyntheticSensor {
   double thresholdCounts = 150.0;
   // Largest reading [counts].
   double saturationCounts = 4095.0;
-  // Standard deviation of an edge [taxels], > 0.
+  // Standard deviation of an edge [taxels].
+  static constexpr OptionRange kCoverTaxels{0.05, 10.0, "taxels"};
   double coverTaxels = 0.4;
 
   // Throws std::invalid_argument naming the field.

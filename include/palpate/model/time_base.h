@@ -3,6 +3,7 @@
 // arrivals are the reference.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <palpate/core/option_check.h>
+
 namespace palpate {
 
 // Which times a result is computed with.
@@ -18,6 +21,8 @@ enum class TimeChoice : std::uint8_t {
   kArrival,  // hostUs as recorded
   kFitted    // the sender's clock, fitted to it
 };
+inline constexpr std::array<OptionWord<TimeChoice>, 2> kTimeChoiceWords{
+    {{"arrival", TimeChoice::kArrival}, {"fitted", TimeChoice::kFitted}}};
 
 // The two times of a frame or a sample.
 struct ClockStamp {

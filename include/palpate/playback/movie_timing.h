@@ -8,16 +8,17 @@
 #include <span>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/playback/playback.h>
 
 namespace palpate {
 
 struct MovieOptions {
-  static constexpr double kMinPicturesPerS = 1.0;
-  static constexpr double kMaxPicturesPerS = 120.0;
+  static constexpr OptionRange kPicturesPerS{1.0, 120.0};
+  static constexpr OptionRange kSpeed{Playback::kMinimumSpeed, Playback::kMaximumSpeed};
 
-  double picturesPerS = 30.0;  // 1..120
-  // Speed factor; 1: the duration of the recording; Playback::kMinimumSpeed..kMaximumSpeed.
+  double picturesPerS = 30.0;
+  // Speed factor; 1: the duration of the recording.
   double speed = 1.0;
 };
 

@@ -3,6 +3,7 @@
 // sample is used for fitting. A TrainedModel contains one.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <palpate/core/json.h>
+#include <palpate/core/option_check.h>
 #include <palpate/recognition/discriminant_analysis.h>
 #include <palpate/recognition/gaussian_classifier.h>
 #include <palpate/recognition/probability_calibration.h>
@@ -26,12 +28,18 @@ namespace palpate {
 // gauss: the session-adaptive classifier of session_adaptive_classifier.h, on the original features
 // without discriminant analysis.
 enum class ClassifierKind { kSvm, kQda, kLda, kGauss };
+inline constexpr std::array<OptionWord<ClassifierKind>, 4> kClassifierWords{
+    {{"svm", ClassifierKind::kSvm},
+     {"qda", ClassifierKind::kQda},
+     {"lda", ClassifierKind::kLda},
+     {"gauss", ClassifierKind::kGauss}}};
 std::string_view classifierName(ClassifierKind kind) noexcept;
 std::optional<ClassifierKind> classifierNamed(std::string_view name) noexcept;
 
 struct PipelineOptions {
   ClassifierKind classifier = ClassifierKind::kSvm;
-  // Number of components of the discriminant analysis, >= 1; empty: no discriminant analysis.
+  // Number of components of the discriminant analysis; empty: no discriminant analysis.
+  static constexpr OptionRange kComponents{1, 10'000};
   std::optional<std::size_t> components;
   // Its field `components` is not used.
   DiscriminantOptions discriminant;

@@ -15,14 +15,18 @@
 
 #include <Eigen/Core>
 
+#include <palpate/core/option_check.h>
+
 namespace palpate {
 
 struct DiscriminantOptions {
   // Number of directions; 0 or more than min(features, classes - 1): as many as there are.
   std::size_t components = 0;
-  // Added to the diagonal of S_w as a fraction of the mean of that diagonal, 1e-6..1.
+  // Added to the diagonal of S_w as a fraction of the mean of that diagonal.
+  static constexpr OptionRange kRidge{1e-6, 1.0};
   double ridge = 1e-6;
-  // Fraction of the identity in S_w, 0..1; empty: by the formula of Ledoit and Wolf.
+  // Fraction of the identity in S_w; empty: by the formula of Ledoit and Wolf.
+  static constexpr OptionRange kShrinkage{0.0, 1.0};
   std::optional<double> shrinkage = 0.0;
 
   // Throws std::invalid_argument with the field's name.

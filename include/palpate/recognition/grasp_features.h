@@ -15,12 +15,14 @@
 // for every hand.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
 #include <palpate/recognition/grasp_segments.h>
@@ -29,6 +31,11 @@
 namespace palpate {
 
 enum class FeatureSet { kStudy, kBest, kSession, kStatistics };
+inline constexpr std::array<OptionWord<FeatureSet>, 4> kFeatureSetWords{
+    {{"study", FeatureSet::kStudy},
+     {"best", FeatureSet::kBest},
+     {"session", FeatureSet::kSession},
+     {"statistics", FeatureSet::kStatistics}}};
 
 // Names of the sets: "study", "best", "session", "statistics"; featureSetNamed() returns nothing
 // for another name.
@@ -36,6 +43,7 @@ std::string_view featureSetName(FeatureSet set) noexcept;
 std::optional<FeatureSet> featureSetNamed(std::string_view name) noexcept;
 // The set for a hand: `best` where two pads pinch, otherwise `statistics`.
 FeatureSet defaultFeatureSet(const HandDescription& hand);
+inline constexpr const char* kDefaultFeatureSetText = "best where two pads pinch, else statistics";
 // Throws Error when the hand has no pads that pinch and the set needs them.
 std::vector<std::string> featureNames(FeatureSet set, const HandDescription& hand);
 // Unit of a feature of a set: "mm", "deg", "taxels", "full scale"; empty for a number without unit,

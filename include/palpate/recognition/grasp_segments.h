@@ -9,11 +9,13 @@
 // intervals)) ends a grasp, because the contact during the gap is not known.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 #include <palpate/core/result_table.h>
 #include <palpate/model/profile.h>
@@ -23,6 +25,8 @@
 namespace palpate {
 
 enum class GraspRule { kGeneral, kStudy };
+inline constexpr std::array<OptionWord<GraspRule>, 2> kGraspRuleWords{
+    {{"general", GraspRule::kGeneral}, {"study", GraspRule::kStudy}}};
 
 struct GraspSegmentOptions {
   GraspRule rule = GraspRule::kGeneral;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <palpate/core/json.h>
+#include <palpate/core/option_check.h>
 #include <palpate/recognition/classification_report.h>
 #include <palpate/recognition/sample_set.h>
 #include <palpate/recognition/session_offset.h>
@@ -74,6 +75,7 @@ std::vector<std::vector<std::size_t>> sessionsOf(const std::vector<std::int64_t>
 struct EvaluationOptions {
   // Number of grasps of each class and session, the first in time, that are labelled and adapt the
   // model; 0: none.
+  static constexpr OptionRange kAdaptPerClass{0, 10'000};
   std::size_t adaptPerClass = 0;
   OffsetChoice offset;
 };

@@ -13,10 +13,13 @@
 
 #include <Eigen/Core>
 
+#include <palpate/core/option_check.h>
+
 namespace palpate {
 
 struct SvmOptions {
-  // Cost C of a sample on the wrong side, > 0.
+  // Cost C of a sample on the wrong side.
+  static constexpr OptionRange kC{1e-6, 1e9};
   double c = 100.0;
   // Tolerance of the optimality conditions (eps of LIBSVM), > 0.
   double tolerance = 1e-3;

@@ -5,6 +5,7 @@
 // programs are read as far as they have images with one value per pixel.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
@@ -28,6 +30,10 @@ constexpr int kMcapLayoutVersion = 3;
 
 // How the chunks of a file are compressed.
 enum class McapCompression { kNone, kLz4, kZstd };
+inline constexpr std::array<OptionWord<McapCompression>, 3> kMcapCompressionWords{
+    {{"zstd", McapCompression::kZstd},
+     {"lz4", McapCompression::kLz4},
+     {"none", McapCompression::kNone}}};
 // "none", "lz4", "zstd".
 const char* nameOf(McapCompression compression) noexcept;
 
@@ -36,6 +42,8 @@ enum class McapImages {
   kRos,       // sensor_msgs/msg/Image in CDR; the file has the profile "ros2"
   kFoxglove,  // foxglove.RawImage in protobuf; the file has no profile
 };
+inline constexpr std::array<OptionWord<McapImages>, 2> kMcapImagesWords{
+    {{"ros", McapImages::kRos}, {"foxglove", McapImages::kFoxglove}}};
 
 struct McapWriteOptions {
   McapCompression compression = McapCompression::kZstd;

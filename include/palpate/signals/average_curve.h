@@ -10,6 +10,7 @@
 //   kPercentiles        median, and two percentiles by linear interpolation (as numpy.percentile)
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -17,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/timing.h>
 #include <palpate/signals/profile_series.h>
@@ -37,16 +39,20 @@ struct AlignedCurve {
 };
 
 enum class AverageBand { kStandardDeviation, kPercentiles };
+inline constexpr std::array<OptionWord<AverageBand>, 2> kAverageBandWords{
+    {{"sd", AverageBand::kStandardDeviation}, {"percentiles", AverageBand::kPercentiles}}};
 
 struct AverageOptions {
   AverageBand band = AverageBand::kStandardDeviation;
   // For kPercentiles: 0 <= low < high <= 100.
   double lowPercent = 10.0;
   double highPercent = 90.0;
-  // Step of the time base [s], > 0; 0: the longest of the curves' median intervals. It becomes
+  // Step of the time base [s]; 0: the longest of the curves' median intervals. It becomes
   // longer when the time base would have more than 200,000 times.
+  static constexpr OptionRange kStepS{1e-6, 1e6, "s"};
   double stepS = 0.0;
-  // Times at which fewer curves have a value are NaN, >= 1.
+  // Times at which fewer curves have a value are NaN.
+  static constexpr OptionRange kLeast{1, INT32_MAX};
   std::size_t least = 2;
 
   // Throws std::invalid_argument that names the field.

@@ -18,6 +18,7 @@
 // w_n)^2 / sum w_n^2. A tone half way between two bins reads as little as 0.849 A (scalloping).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,6 +26,7 @@
 #include <span>
 #include <vector>
 
+#include <palpate/core/option_check.h>
 #include <palpate/core/progress.h>
 
 namespace palpate {
@@ -37,6 +39,8 @@ enum class Detrend {
   // The line fitted by least squares: loads that rise or fall then do not fill the lowest bins.
   kLine
 };
+inline constexpr std::array<OptionWord<Detrend>, 3> kDetrendWords{
+    {{"mean", Detrend::kMean}, {"line", Detrend::kLine}, {"none", Detrend::kNone}}};
 
 // How the rate of the regular grid of a stretch is chosen.
 enum class GridRate {
@@ -44,10 +48,13 @@ enum class GridRate {
   // 1 / median interval: the rate that the stretch would have without delays.
   kMedian
 };
+inline constexpr std::array<OptionWord<GridRate>, 2> kGridRateWords{
+    {{"mean", GridRate::kMean}, {"median", GridRate::kMedian}}};
 
 // How a series is divided into segments.
 struct SpectrumOptions {
-  int window = 32;  // N [samples], 2..65,536, not only powers of two
+  static constexpr OptionRange kWindow{2, 65'536, "samples"};
+  int window = 32;  // N [samples], not only powers of two
   // Samples that a segment shares with the next, 0..window-1.
   int overlap = 31;
   Detrend detrend = Detrend::kMean;

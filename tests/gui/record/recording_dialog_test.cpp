@@ -312,8 +312,8 @@ TEST_F(RecordingDialogTest, CountdownAndContactAreSaidInOneLineAndGivenBack) {
 TEST_F(RecordingDialogTest, TooShortALimitBecomesTheShortestOne) {
   find<QDoubleSpinBox>("recordingStopAfter")->setValue(0.01);
   find<QDoubleSpinBox>("recordingSplitMinutes")->setValue(0.01);
-  EXPECT_EQ(dialog_->settings().limits.stopAfterS, RecordingLimits::kLeastStopS);
-  EXPECT_EQ(dialog_->settings().limits.splitMinutes, RecordingLimits::kLeastSplitMinutes);
+  EXPECT_EQ(dialog_->settings().limits.stopAfterS, RecordingLimits::kStopAfterS.minimum);
+  EXPECT_EQ(dialog_->settings().limits.splitMinutes, RecordingLimits::kSplitMinutes.minimum);
 }
 
 TEST_F(RecordingDialogTest, OnASmallScreenTheFieldsAreScrolledAndTheButtonsStayWhole) {

@@ -7,11 +7,15 @@
 #include <array>
 #include <cstddef>
 
+#include <palpate/core/option_check.h>
+
 class QApplication;
 
 namespace palpate::gui {
 
 enum class Theme { kDark, kLight };
+inline constexpr std::array<OptionWord<Theme>, 2> kThemeWords{
+    {{"dark", Theme::kDark}, {"light", Theme::kLight}}};
 // The theme that the user chose; kSystem follows the desktop.
 enum class ThemeChoice { kSystem, kDark, kLight };
 inline constexpr std::array kAllThemeChoices = {

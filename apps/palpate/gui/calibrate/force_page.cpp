@@ -23,7 +23,6 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kQuantile = 1.96;  // normal quantile for 95 %
-constexpr double kLeastSensitivity = 0.01;
 
 std::vector<FigureColumn> forcePageColumns() {
   return {{"matrix", {}, 16, true},
@@ -136,7 +135,8 @@ void ForcePage::makeTop() {
     });
     return made;
   };
-  sensitivity_ = field("forceSensitivity", "Sensitivity", kLeastSensitivity, 1.0);
+  sensitivity_ =
+      field("forceSensitivity", "Sensitivity", SensorSettings::kSensitivity.minimum, 1.0);
   threshold_ = field("forceThreshold", "Threshold in counts", 0.0, 0.0);  // showCalibration()
   threshold_->setDecimals(0);
   keep_ =

@@ -26,7 +26,6 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kFitShare = 0.9;  // part of the work; the rest is the hash of the file
-constexpr int kMostBins = 1000;
 constexpr int kNoiseMeasureS = 60;
 constexpr const char* kApplyTip =
     "High sensitivity (dock Hand) keeps thresholds just above these lines";
@@ -127,7 +126,8 @@ NoisePage::NoisePage(QSettings& settings, Ask& ask, QWidget* parent)
                 "noiseBins",
                 "Equal bins over the temperatures; the study uses 20",
                 "Bins");
-  bins_->setRange(2, kMostBins);
+  bins_->setRange(static_cast<int>(NoiseFloorOptions::kBins.minimum),
+                  static_cast<int>(NoiseFloorOptions::kBins.maximum));
   bins_->setValue(static_cast<int>(NoiseFloorOptions{}.bins));
   save_ = makeButton(this, "noiseSave", "Save…", "Save as JSON, or as XML for the prior program");
   save_->setEnabled(false);

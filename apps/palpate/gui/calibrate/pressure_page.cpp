@@ -32,7 +32,6 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kPressurePageWideFrom = 980;  // [px]; wider: chart and figures side by side
-constexpr double kLargestArea = 1e6;
 
 std::vector<FigureColumn> pressurePageColumns() {
   return {{"recording", {}, 15, true},
@@ -161,10 +160,10 @@ void PressurePage::makeTop() {
   area_ = field("pressureArea",
                 "Indenter in mm²",
                 "Area of the indenter; forces are then those on this area. 0: not known",
-                kLargestArea);
+                PressureModelOptions::kIndenterAreaMm2.maximum);
   sensitivity_ = field(
       "pressureSensitivity", "Sensitivity", "Used for the recordings, which don't store it", 1.0);
-  sensitivity_->setMinimum(0.01);
+  sensitivity_->setMinimum(SensorSettings::kSensitivity.minimum);
   sensitivity_->setValue(SensorSettings{}.sensitivity);
   threshold_ = field("pressureThreshold",
                      "Threshold",

@@ -21,7 +21,8 @@ namespace {
 
 constexpr int kUsualPort = 9871;
 constexpr int kHighestPort = 65'535;
-constexpr int kLeastBaud = 50, kMostBaud = 10'000'000;
+constexpr int kLeastBaud = static_cast<int>(StreamDeviceOptions::kBaud.minimum);
+constexpr int kMostBaud = static_cast<int>(StreamDeviceOptions::kBaud.maximum);
 constexpr const char* kTcp = "tcp:";
 constexpr const char* kListenAt = "listen:";
 constexpr const char* kUdpAt = "udp:";

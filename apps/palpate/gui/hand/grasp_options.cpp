@@ -133,14 +133,19 @@ void GraspOptions::makeHolding(QFormLayout& form) {
   calm_ = field("calmTime", "Ease after", 0.1, 86'400.0, 1);
   calm_->setToolTip("Slip-aware: after this time without slip the limit falls again");
   recall(settings_, kCalm, *calm_, usual.noSlipS);
-  hold_ = field("holdTime", "Hold", 0.0, 86'400.0, 1);
+  hold_ =
+      field("holdTime", "Hold", HoldingOptions::kHoldS.minimum, HoldingOptions::kHoldS.maximum, 1);
   hold_->setToolTip("Slip-aware: ends after this time; the hand keeps holding. 0: until stopped");
   hold_->setSpecialValueText("until stopped");
   recall(settings_, kHold, *hold_, usual.holdS);
   loosen_ = named(new QCheckBox("Loosen", body_), "loosenHand");
   loosen_->setToolTip(
       "Slip-aware: the hand may open slowly to a limit that fell. Off in each new session");
-  mass_ = field("objectMass", "Object mass", 0.0, 100.0, 3);
+  mass_ = field("objectMass",
+                "Object mass",
+                HoldingOptions::kMassKg.minimum,
+                HoldingOptions::kMassKg.maximum,
+                3);
   mass_->setToolTip(
       "Slip-aware: opens slowly once, until it slips, and measures the friction. Not kept for the "
       "next session");

@@ -109,8 +109,8 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                            made);
   form->addRow("Begin", timingRow({onContact_, new QLabel("above", made), threshold_}, made));
   stopAfter_ = timingField("recordingStopAfter",
-                           Limits::kLeastStopS,
-                           Limits::kMostStopS,
+                           Limits::kStopAfterS.minimum,
+                           Limits::kStopAfterS.maximum,
                            2,
                            " s",
                            "not automatically",
@@ -128,8 +128,8 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                   made);
   form->addRow("Stop &untouched for", released_);
   splitMinutes_ = timingField("recordingSplitMinutes",
-                              Limits::kLeastSplitMinutes,
-                              Limits::kMostSplitMinutes,
+                              Limits::kSplitMinutes.minimum,
+                              Limits::kSplitMinutes.maximum,
                               2,
                               " min",
                               "never",
@@ -137,8 +137,8 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                               "NAME_002.palpate, .. Nothing is lost in between",
                               made);
   splitMb_ = timingField("recordingSplitMb",
-                         Limits::kLeastSplitMb,
-                         Limits::kMostSplitMb,
+                         Limits::kSplitMb.minimum,
+                         Limits::kSplitMb.maximum,
                          1,
                          " MB",
                          "never",
@@ -169,9 +169,9 @@ void RecordingTiming::readInto(RecordingSettings& settings) const {
   settings.startOnContact = onContact_->isChecked();
   settings.contactThreshold = threshold_->value();
   settings.stopWithoutContactS = timingValue(*released_, kLeastReleasedS);
-  settings.limits.stopAfterS = timingValue(*stopAfter_, Limits::kLeastStopS);
-  settings.limits.splitMinutes = timingValue(*splitMinutes_, Limits::kLeastSplitMinutes);
-  settings.limits.splitMb = timingValue(*splitMb_, Limits::kLeastSplitMb);
+  settings.limits.stopAfterS = timingValue(*stopAfter_, Limits::kStopAfterS.minimum);
+  settings.limits.splitMinutes = timingValue(*splitMinutes_, Limits::kSplitMinutes.minimum);
+  settings.limits.splitMb = timingValue(*splitMb_, Limits::kSplitMb.minimum);
 }
 
 QString RecordingTiming::summary() const {

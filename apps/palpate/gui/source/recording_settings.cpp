@@ -29,13 +29,16 @@ void recordingFields(SettingsTable& table, RecordingSettings& recording) {
   table.text("recording/operator", recording.operatorName);
   table.text("recording/object", recording.object);
   table.text("recording/notes", recording.notes);
-  table.number(
-      "recording/stop_after_s", limits.stopAfterS, Limits::kLeastStopS, Limits::kMostStopS);
+  table.number("recording/stop_after_s",
+               limits.stopAfterS,
+               Limits::kStopAfterS.minimum,
+               Limits::kStopAfterS.maximum);
   table.number("recording/split_min",
                limits.splitMinutes,
-               Limits::kLeastSplitMinutes,
-               Limits::kMostSplitMinutes);
-  table.number("recording/split_mb", limits.splitMb, Limits::kLeastSplitMb, Limits::kMostSplitMb);
+               Limits::kSplitMinutes.minimum,
+               Limits::kSplitMinutes.maximum);
+  table.number(
+      "recording/split_mb", limits.splitMb, Limits::kSplitMb.minimum, Limits::kSplitMb.maximum);
   table.number(
       "recording/countdown_s", recording.countdownS, 0.0, RecordingSettings::kMostCountdownS);
   table.flag("recording/start_on_contact", recording.startOnContact);

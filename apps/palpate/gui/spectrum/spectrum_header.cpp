@@ -15,8 +15,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kShortest = 2;  // [samples]
-constexpr int kLongest = 65'536;
+constexpr int kShortest = static_cast<int>(SpectrumOptions::kWindow.minimum);  // [samples]
+constexpr int kLongest = static_cast<int>(SpectrumOptions::kWindow.maximum);
 constexpr const char* kTimesTip =
     "Takes the times of the sender's clock, fitted to the times of arrival: for senders whose "
     "frames "
