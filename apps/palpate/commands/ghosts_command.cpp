@@ -145,7 +145,7 @@ int recorded(const CommandLine& given,
       throw UsageError(std::string("--") + option +
                        " works with the emulated hand only: leave out PATH");
   std::vector<std::optional<double>> belows;
-  for (const double below : numbersOf(given, "below", -100.0, 100.0, {}))
+  for (const double below : numbersOf(given, "below", NoisyContactsOptions::kBelowCounts, {}))
     belows.emplace_back(below);
   if (belows.empty()) belows.emplace_back();
   Rows rows(given.has("json"), false);
