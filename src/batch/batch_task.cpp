@@ -109,9 +109,9 @@ BatchTask convertTask(const ConvertOptions& options) {
         if (const std::string leftOut = leftOutText(profile, item.target); !leftOut.empty())
           answer.said += "; " + leftOut;
         if (saved.movedStamps > 0)
-          answer.said +=
-              "; " + std::to_string(saved.movedStamps) +
-              " time stamps moved after the previous one: whole milliseconds must increase";
+          answer.said += "; " + std::to_string(saved.movedStamps) +
+                         " time stamps moved after the previous one: whole milliseconds must "
+                         "increase";
         if (!saved.beside.empty())
           answer.said +=
               "; " + std::to_string(saved.beside.size()) + " further series in separate files";
@@ -169,18 +169,17 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
 RecordingTable signalsOf(const SignalRowsOptions& options) {
   options.filters.validate();
   SignalFilter(options.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
-  return {
-      .options = "signals; " + recipeText(options.filters) + "; smooth " +
-                 recipeText(options.smooth) + matrixText(options.matrix) + timesText(options.times),
-      .of =
-          [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile =
-                filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
+  return {.options = "signals; " + recipeText(options.filters) + "; smooth " +
+                     recipeText(options.smooth) + matrixText(options.matrix) +
+                     timesText(options.times),
+          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+            const Profile profile = filteredBy(
+                options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
             requireMatrix(file, profile.layout(), options.matrix);
             requireBelowHalfRate(options.smooth, profile, file);
             return signalTable(profile, options, partOf(progress, 0.5, 1.0));
           },
-      .unitsRow = options.unitsRow};
+          .unitsRow = options.unitsRow};
 }
 
 RecordingTable slipOf(const SlipRowsOptions& options) {
@@ -188,13 +187,12 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
   return {.options = std::string("slip") + (options.segments ? "; segments" : "") + "; " +
                      passText(options.pass) + matrixText(options.matrix) +
                      filtersText(options.filters) + timesText(options.times),
-          .of =
-              [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-                const Profile profile = filteredBy(
-                    options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
-                requireThere(file, profile, options);
-                return slipTable(profile, options, partOf(progress, 0.3, 1.0));
-              },
+          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+            const Profile profile = filteredBy(
+                options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
+            requireThere(file, profile, options);
+            return slipTable(profile, options, partOf(progress, 0.3, 1.0));
+          },
           .rowNoun = options.segments ? "slip" : "row",
           .unitsRow = options.unitsRow};
 }
@@ -202,12 +200,11 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
 RecordingTable graspsOf(const GraspRowsOptions& options) {
   options.filters.validate();
   const bool isStudy = options.segments.rule == GraspRule::kStudy;
-  return {
-      .options =
-          std::string("grasps; ") + (isStudy ? "study" : "general") + filtersText(options.filters),
-      .of =
-          [options, isStudy](
-              const fs::path& file, const Recording& whole, const Progress& progress) {
+  return {.options = std::string("grasps; ") + (isStudy ? "study" : "general") +
+                     filtersText(options.filters),
+          .of = [options, isStudy](const fs::path& file,
+                                   const Recording& whole,
+                                   const Progress& progress) {
             const Profile profile =
                 filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5));
             const HandDescription& hand = profile.hand();
@@ -217,7 +214,7 @@ RecordingTable graspsOf(const GraspRowsOptions& options) {
                                   hand.name + "' doesn't name: use --rule general");
             return graspTable(profile, options.segments, partOf(progress, 0.5, 1.0));
           },
-      .rowNoun = "grasp"};
+          .rowNoun = "grasp"};
 }
 
 BatchTask tableTask(const RecordingTable& table) {
@@ -230,11 +227,11 @@ BatchTask tableTask(const RecordingTable& table) {
                 item.source, {.threads = threads}, partOf(progress, 0.0, 0.4));
             const std::unique_ptr<ResultTable> rows =
                 table.of(item.source, recording, partOf(progress, 0.4, 1.0));
-            const std::size_t count =
-                writeTableFile(*rows,
-                               item.target,
-                               overwrite,
-                               {.form = tableFormOf(item.target), .unitsRow = table.unitsRow});
+            const std::size_t count = writeTableFile(
+                *rows,
+                item.target,
+                overwrite,
+                {.form = tableFormOf(item.target), .unitsRow = table.unitsRow});
             BatchAnswer answer{.said = table.rowNoun.empty()
                                            ? counted(recording.profile.numFrames(), "frame")
                                            : counted(count, table.rowNoun),
@@ -262,8 +259,10 @@ BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
                               ? FileError(item.source, "has no grasp with features").what()
                               : table.problems.front());
             for (FeatureRow& row : table.rows) row.className = classIn(item);
-            const std::size_t count = writeTableFile(
-                *featureTable(table), item.target, overwrite, {.form = tableFormOf(item.target)});
+            const std::size_t count = writeTableFile(*featureTable(table),
+                                                     item.target,
+                                                     overwrite,
+                                                     {.form = tableFormOf(item.target)});
             BatchAnswer answer{.said = counted(count, "grasp")};
             if (!table.problems.empty()) answer.problem = table.problems.front();
             return answer;
