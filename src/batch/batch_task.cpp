@@ -112,9 +112,9 @@ BatchTask convertTask(const ConvertOptions& options) {
         if (const std::string leftOut = leftOutText(profile, item.target); !leftOut.empty())
           answer.said += "; " + leftOut;
         if (saved.movedStamps > 0)
-          answer.said +=
-              "; " + std::to_string(saved.movedStamps) +
-              " time stamps moved after the previous one: whole milliseconds must increase";
+          answer.said += "; " + std::to_string(saved.movedStamps) +
+                         " time stamps moved after the previous one: whole milliseconds must "
+                         "increase";
         if (!saved.beside.empty())
           answer.said +=
               "; " + std::to_string(saved.beside.size()) + " further series in separate files";
@@ -182,7 +182,7 @@ RecordingTable signalsOf(const SignalRowsOptions& options) {
             requireBelowHalfRate(options.smooth, profile, file);
             return signalTable(profile, options, partOf(progress, 0.5, 1.0));
           },
-      .unitsRow = options.unitsRow};
+          .unitsRow = options.unitsRow};
 }
 
 RecordingTable slipOf(const SlipRowsOptions& options) {
@@ -190,13 +190,12 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
   return {.options = std::string("slip") + (options.segments ? "; segments" : "") + "; " +
                      passText(options.pass) + matrixText(options.matrix) +
                      filtersText(options.filters) + timesText(options.times),
-          .of =
-              [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-                const Profile profile = filteredBy(
-                    options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
-                requireThere(file, profile, options);
-                return slipTable(profile, options, partOf(progress, 0.3, 1.0));
-              },
+          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+            const Profile profile = filteredBy(
+                options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
+            requireThere(file, profile, options);
+            return slipTable(profile, options, partOf(progress, 0.3, 1.0));
+          },
           .rowNoun = options.segments ? "slip" : "row",
           .unitsRow = options.unitsRow};
 }
@@ -204,12 +203,11 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
 RecordingTable graspsOf(const GraspRowsOptions& options) {
   options.filters.validate();
   const bool isStudy = options.segments.rule == GraspRule::kStudy;
-  return {
-      .options =
-          std::string("grasps; ") + (isStudy ? "study" : "general") + filtersText(options.filters),
-      .of =
-          [options, isStudy](
-              const fs::path& file, const Recording& whole, const Progress& progress) {
+  return {.options = std::string("grasps; ") + (isStudy ? "study" : "general") +
+                     filtersText(options.filters),
+          .of = [options, isStudy](const fs::path& file,
+                                   const Recording& whole,
+                                   const Progress& progress) {
             const Profile profile =
                 filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5));
             const HandDescription& hand = profile.hand();
@@ -219,7 +217,7 @@ RecordingTable graspsOf(const GraspRowsOptions& options) {
                                   hand.name + "' doesn't name: use --rule general");
             return graspTable(profile, options.segments, partOf(progress, 0.5, 1.0));
           },
-      .rowNoun = "grasp"};
+          .rowNoun = "grasp"};
 }
 
 BatchTask tableTask(const RecordingTable& table) {

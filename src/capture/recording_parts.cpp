@@ -603,7 +603,8 @@ void RecordingParts::continueIn(const fs::path& folder, RoundTime time) {
     if (movesClosing) replace(closing_);
     if (movesWriter) replace(writer_);
   } catch (const std::exception& error) {
-    // A part whose start failed is left behind, unfinished and without anything that is missing here.
+    // A part whose start failed is left behind, unfinished and without anything that is missing
+    // here.
     base_ = base;
     folder_ = folderBefore;
     nextPart_ = partBefore;

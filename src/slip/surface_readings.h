@@ -1,5 +1,5 @@
-// Observations of a surface from a registered frame, and the registration of a frame to a surface: the
-// same for LearnedSurface and MostProbableSurface.
+// Observations of a surface from a registered frame, and the registration of a frame to a surface:
+// the same for LearnedSurface and MostProbableSurface.
 #pragma once
 
 #include <algorithm>

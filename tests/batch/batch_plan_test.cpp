@@ -130,8 +130,9 @@ TEST_F(BatchPlanning, RefusesTargetsThatAreSourcesOrLieAmongThem) {
             std::string::npos);
   EXPECT_NE(refusalOf({folder_ / "in/b.dsa"}, "in/{name}.dsa").find("would overwrite a recording"),
             std::string::npos);
-  EXPECT_NE(refusalOf({folder_ / "in/b.dsa"}, "link/{name}.dsa").find("would overwrite a recording"),
-            std::string::npos);
+  EXPECT_NE(
+      refusalOf({folder_ / "in/b.dsa"}, "link/{name}.dsa").find("would overwrite a recording"),
+      std::string::npos);
 }
 
 TEST_F(BatchPlanning, ReportsFoldersWithoutRecordings) {

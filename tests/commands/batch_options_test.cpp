@@ -107,7 +107,8 @@ TEST_F(BatchOptionsTest, BadInputGetsOneLine) {
   fs::create_directories(folder_ / "empty");
   expectOneLineError(
       palpate({"signals", folder_ / "empty", "-o", out("{name}.csv")}), 1, {"no recording"});
-  expectOneLineError(palpate({"signals", in(), "-o", in("made/{name}.csv")}), 1, {"is in the folder"});
+  expectOneLineError(
+      palpate({"signals", in(), "-o", in("made/{name}.csv")}), 1, {"is in the folder"});
   expectOneLineError(
       palpate({"signals", in(), "-o", out("{hand}.csv")}), 2, {"{hand} isn't known"});
   expectOneLineError(palpate({"signals", in(), "-o", out("{name}.txt")}),

@@ -175,7 +175,8 @@ TEST_F(LiveHandTest, APtyNamedByItsNumberIsNotOpenedAgainOnceItIsGone) {
   ASSERT_TRUE(sink.await([&] { return named.status().tactile.state == PortState::kLost; }));
   controls.behaviour = Behaviour::kHonest;
   EXPECT_FALSE(sink.await([&] { return opened > 1; }, milliseconds(400)));
-  EXPECT_NE(named.status().tactile.message.find("this pseudo-terminal doesn't exist"), std::string::npos);
+  EXPECT_NE(named.status().tactile.message.find("this pseudo-terminal doesn't exist"),
+            std::string::npos);
   named.stop();
 }
 

@@ -538,7 +538,8 @@ TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfI
   bench_->hand->unplug(false, true);
   ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
   ASSERT_TRUE(bench_->handMoves());
-  EXPECT_TRUE(state().startsWith("The hand is still moving to its target")) << state().toStdString();
+  EXPECT_TRUE(state().startsWith("The hand is still moving to its target"))
+      << state().toStdString();
   EXPECT_TRUE(state().contains("emergency stop")) << state().toStdString();
   EXPECT_FALSE(state().contains("can't move")) << state().toStdString();
   bench_->hand->replug();
