@@ -172,16 +172,17 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
 RecordingTable signalsOf(const SignalRowsOptions& options) {
   options.filters.validate();
   SignalFilter(options.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
-  return {.options = (options.centres ? "centres; " : "signals; ") + recipeText(options.filters) + "; smooth " +
-                     recipeText(options.smooth) + matrixText(options.matrix) +
+  return {.options = (options.centres ? "centres; " : "signals; ") + recipeText(options.filters) +
+                     "; smooth " + recipeText(options.smooth) + matrixText(options.matrix) +
                      timesText(options.times),
-          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile = filteredBy(
-                options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
-            requireMatrix(file, profile.layout(), options.matrix);
-            requireBelowHalfRate(options.smooth, profile, file);
-            return signalTable(profile, options, partOf(progress, 0.5, 1.0));
-          },
+          .of =
+              [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+                const Profile profile = filteredBy(
+                    options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
+                requireMatrix(file, profile.layout(), options.matrix);
+                requireBelowHalfRate(options.smooth, profile, file);
+                return signalTable(profile, options, partOf(progress, 0.5, 1.0));
+              },
           .unitsRow = options.unitsRow};
 }
 
@@ -190,12 +191,13 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
   return {.options = std::string("slip") + (options.segments ? "; segments" : "") + "; " +
                      passText(options.pass) + matrixText(options.matrix) +
                      filtersText(options.filters) + timesText(options.times),
-          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile = filteredBy(
-                options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
-            requireThere(file, profile, options);
-            return slipTable(profile, options, partOf(progress, 0.3, 1.0));
-          },
+          .of =
+              [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+                const Profile profile = filteredBy(
+                    options.filters, whole, file, partOf(progress, 0.0, 0.3), options.times);
+                requireThere(file, profile, options);
+                return slipTable(profile, options, partOf(progress, 0.3, 1.0));
+              },
           .rowNoun = options.segments ? "slip" : "row",
           .unitsRow = options.unitsRow};
 }
@@ -203,11 +205,12 @@ RecordingTable slipOf(const SlipRowsOptions& options) {
 RecordingTable graspsOf(const GraspRowsOptions& options) {
   options.filters.validate();
   const bool isStudy = options.segments.rule == GraspRule::kStudy;
-  return {.options = std::string("grasps; ") + (isStudy ? "study" : "general") +
-                     filtersText(options.filters),
-          .of = [options, isStudy](const fs::path& file,
-                                   const Recording& whole,
-                                   const Progress& progress) {
+  return {
+      .options =
+          std::string("grasps; ") + (isStudy ? "study" : "general") + filtersText(options.filters),
+      .of =
+          [options, isStudy](
+              const fs::path& file, const Recording& whole, const Progress& progress) {
             const Profile profile =
                 filteredBy(options.filters, whole, file, partOf(progress, 0.0, 0.5));
             const HandDescription& hand = profile.hand();
@@ -217,7 +220,7 @@ RecordingTable graspsOf(const GraspRowsOptions& options) {
                                   hand.name + "' doesn't name: use --rule general");
             return graspTable(profile, options.segments, partOf(progress, 0.5, 1.0));
           },
-          .rowNoun = "grasp"};
+      .rowNoun = "grasp"};
 }
 
 BatchTask tableTask(const RecordingTable& table) {

@@ -10,8 +10,6 @@
 #include "palpate/core/file_name.h"
 #include "palpate/model/time_base.h"
 #include "palpate/model/time_columns.h"
-
-#include "palpate/core/file_name.h"
 #include "palpate/recording/result_file.h"
 
 #include "commands/batch_options.h"
@@ -98,8 +96,7 @@ TableForm formOf(const CommandLine& given) {
 TableTextOptions tableTextOf(const CommandLine& given) {
   const TableForm form = formOf(given);
   const bool unitsRow = given.has("units-row");
-  if (form == TableForm::kJson && unitsRow)
-    throw UsageError(kUnitsOfJson);
+  if (form == TableForm::kJson && unitsRow) throw UsageError(kUnitsOfJson);
   return {.form = form, .unitsRow = unitsRow};
 }
 

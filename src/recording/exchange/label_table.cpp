@@ -152,9 +152,8 @@ std::unique_ptr<ResultTable> labelRows(std::span<const Event> events, const Prof
   std::vector<Event> labels;
   if (profile.numFrames() > 0)
     std::copy_if(events.begin(), events.end(), std::back_inserter(labels), isTabledLabel);
-  std::stable_sort(labels.begin(), labels.end(), [](const Event& a, const Event& b) {
-    return a.tUs < b.tUs;
-  });
+  std::stable_sort(
+      labels.begin(), labels.end(), [](const Event& a, const Event& b) { return a.tUs < b.tUs; });
   const std::int64_t beginUs = labels.empty() ? 0 : profile.frameTimeUs(0);
   const auto seconds = [beginUs](const char* name, const char* meaning, std::int64_t Event::*of) {
     return columnOf<Event>(

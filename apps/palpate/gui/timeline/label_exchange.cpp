@@ -73,8 +73,8 @@ void LabelExchange::exportLabels() {
   EventEditor* editor = windowState_.events.editor();
   if (!recording || !editor) return;
   const auto& events = editor->events();
-  const auto count = static_cast<std::size_t>(
-      std::count_if(events.begin(), events.end(), isTabledLabel));
+  const auto count =
+      static_cast<std::size_t>(std::count_if(events.begin(), events.end(), isTabledLabel));
   if (count == 0) return windowState_.messages.flash("there are no labels to export");
   const QFileInfo source(pathText(recording->path));
   QString path = windowState_.ask.newFile(
@@ -85,8 +85,7 @@ void LabelExchange::exportLabels() {
   if (QFileInfo(path).suffix().isEmpty()) path += ".csv";
   try {
     // The dialogue has already asked whether an existing file may be replaced.
-    writeTableFile(
-        *labelRows(events, recording->profile), path.toStdString(), Overwrite::kReplace);
+    writeTableFile(*labelRows(events, recording->profile), path.toStdString(), Overwrite::kReplace);
     windowState_.messages.flash("written: " + path + " (" + labelCount(count) + ")");
   } catch (const Error& error) {
     windowState_.messages.fail(QString::fromUtf8(error.what()));
