@@ -21,7 +21,7 @@
 namespace palpate {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 // Of the processor for one request. A block of frames takes milliseconds; a piece of another
@@ -66,7 +66,7 @@ Hdf5Process::Hdf5Process(std::filesystem::path path, int descriptor, Hdf5Use use
 
 bool Hdf5Process::waitFor(short event) {
   for (;;) {
-    const auto left = std::chrono::ceil<milliseconds>(deadline_ - Clock::now());
+    const auto left = std::chrono::ceil<milliseconds>(deadline_ - SteadyClock::now());
     pollfd polled{socket_.get(), event, 0};
     const int ready =
         left > milliseconds::zero() ? ::poll(&polled, 1, static_cast<int>(left.count())) : 0;
@@ -106,9 +106,9 @@ std::string Hdf5Process::ending(Hdf5Request wanted, const std::string& name) {
   // Nobody asks any more: it ends, if it can.
   socket_ = FileDescriptor();
   if (!isLate_) {
-    const auto end = Clock::now() + kEndingPatience;
+    const auto end = SteadyClock::now() + kEndingPatience;
     try {
-      code = program_->finish([&] { return Clock::now() < end; });
+      code = program_->finish([&] { return SteadyClock::now() < end; });
     } catch (const Error&) {  // it is killed
     }
   }
@@ -151,7 +151,7 @@ std::vector<std::byte> Hdf5Process::ask(Hdf5Request wanted,
   appendLittleEndian(sized, request.size(), 4);
   sized += request;
   if (sized.size() > kMaxHdf5RequestBytes) throw FormatError(path_, "has too long a name");
-  deadline_ = Clock::now() + patienceFor(use_, wanted);
+  deadline_ = SteadyClock::now() + patienceFor(use_, wanted);
   if (!send(sized)) throwEnded(wanted, name);
   std::array<std::byte, 5> head{};
   if (!receive(head)) throwEnded(wanted, name);

@@ -63,7 +63,7 @@ Progress partOf(const Progress& whole, std::size_t part, std::size_t parts) {
   };
 }
 
-std::vector<double> numbersOf(const CommandLine& given,
+std::vector<double> ghostNumbersOf(const CommandLine& given,
                               const std::string& option,
                               OptionRange range,
                               std::span<const double> defaultValue) {
@@ -83,8 +83,8 @@ int emulated(const CommandLine& given,
              const std::vector<Recipe>& recipes,
              const GhostingOptions& options,
              NoisyContactsOptions make) {
-  const std::vector<double> temperatures = numbersOf(given, "deg", make.kDegC, kDefaultDegC);
-  const std::vector<double> belows = numbersOf(given, "below", make.kBelowCounts, kDefaultBelow);
+  const std::vector<double> temperatures = ghostNumbersOf(given, "deg", make.kDegC, kDefaultDegC);
+  const std::vector<double> belows = ghostNumbersOf(given, "below", make.kBelowCounts, kDefaultBelow);
   GhostOutput rows(given, true);
   ProgressLine line("the emulated hand", given.quiet());
   const std::size_t parts = temperatures.size() * belows.size() * recipes.size();
@@ -149,7 +149,7 @@ int recorded(const CommandLine& given,
       throw UsageError(std::string("--") + option +
                        " works with the emulated hand only: leave out PATH");
   std::vector<std::optional<double>> belows;
-  for (const double below : numbersOf(given, "below", NoisyContactsOptions::kBelowCounts, {}))
+  for (const double below : ghostNumbersOf(given, "below", NoisyContactsOptions::kBelowCounts, {}))
     belows.emplace_back(below);
   if (belows.empty()) belows.emplace_back();
   GhostOutput rows(given, false);
