@@ -170,17 +170,18 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
 RecordingTable signalsOf(const SignalRowsOptions& options) {
   options.filters.validate();
   SignalFilter(options.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
-  return {.options = (options.centres ? "centres; " : "signals; ") + recipeText(options.filters) + "; smooth " +
-                     recipeText(options.smooth) + matrixText(options.matrix) +
+  return {.options = (options.centres ? "centres; " : "signals; ") + recipeText(options.filters) +
+                     "; smooth " + recipeText(options.smooth) + matrixText(options.matrix) +
                      timesText(options.times),
-          .of = [options](const fs::path& file, const Recording& whole, const Progress& progress) {
-            const Profile profile = filteredBy(
-                options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
-            requireMatrix(file, profile.layout(), options.matrix);
-            requireBelowHalfRate(options.smooth, profile, file);
-            return signalTable(profile, options, partOf(progress, 0.5, 1.0));
-          },
-      .unitsRow = options.unitsRow};
+          .of =
+              [options](const fs::path& file, const Recording& whole, const Progress& progress) {
+                const Profile profile = filteredBy(
+                    options.filters, whole, file, partOf(progress, 0.0, 0.5), options.times);
+                requireMatrix(file, profile.layout(), options.matrix);
+                requireBelowHalfRate(options.smooth, profile, file);
+                return signalTable(profile, options, partOf(progress, 0.5, 1.0));
+              },
+          .unitsRow = options.unitsRow};
 }
 
 RecordingTable slipOf(const SlipRowsOptions& options) {

@@ -10,8 +10,8 @@
 #include "palpate/core/progress.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/model/profile_builder.h"
-#include "palpate/model/rest_span.h"
 #include "palpate/model/profile_over.h"
+#include "palpate/model/rest_span.h"
 #include "palpate/model/timing.h"
 
 namespace palpate {

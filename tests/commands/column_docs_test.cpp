@@ -58,7 +58,8 @@ TEST(ColumnDocs, EveryColumnIsDefinedInItsSection) {
 TEST(ColumnDocs, ThePageOfColumnsIsWhatTheProgramPrints) {
   const auto printed = palpate({"help", "columns"});
   ASSERT_EQ(printed.exitCode, 0) << printed.err;
-  EXPECT_EQ(testing::readFile(testing::dataFolder().parent_path() / "docs/manual/tables.md"), printed.out)
+  EXPECT_EQ(testing::readFile(testing::dataFolder().parent_path() / "docs/manual/tables.md"),
+            printed.out)
       << "make it anew: palpate help columns > docs/manual/tables.md";
 }
 

@@ -1,4 +1,5 @@
-// `palpate help columns` prints every column of every result table, as the page docs/manual/tables.md.
+// `palpate help columns` prints every column of every result table, as the page
+// docs/manual/tables.md.
 #include <memory>
 #include <span>
 #include <string>

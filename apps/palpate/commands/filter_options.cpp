@@ -84,8 +84,7 @@ void takeTimes(const CommandLine& given,
 
 std::vector<OptionSpec> withFrameOptions(std::vector<OptionSpec> options) {
   options.push_back(rangedWhole("from", "N", "first frame", kFrameOption, "0"));
-  options.push_back(
-      rangedWhole("to", "M", "last frame (inclusive)", kFrameOption, "the last one"));
+  options.push_back(rangedWhole("to", "M", "last frame (inclusive)", kFrameOption, "the last one"));
   return options;
 }
 

@@ -53,11 +53,12 @@ int kinematicsCommand(const Arguments& words) {
                   "frame, as CSV: matrix,x,y,x_mm,y_mm,z_mm,nx,ny,nz,exists. With --point it "
                   "prints those of one point of a sensor surface, given in mm from the centre of "
                   "taxel (0, 0); x and y are then fractions of taxels.",
-       .options = withOneTableOptions({anglesOption(),
-                   handOption(),
-                   rangedWhole("matrix", "M", "this matrix only", kMatrixOption),
-                   {"point", "M,X_MM,Y_MM", "one point"},
-                   fingertipOption()}),
+       .options =
+           withOneTableOptions({anglesOption(),
+                                handOption(),
+                                rangedWhole("matrix", "M", "this matrix only", kMatrixOption),
+                                {"point", "M,X_MM,Y_MM", "one point"},
+                                fingertipOption()}),
        .example = "palpate kinematics --angles 60,-20,40,-20,40,-20,40 --matrix 1",
        .maxArguments = 0},
       words);

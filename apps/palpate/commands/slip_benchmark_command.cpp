@@ -45,29 +45,31 @@ int slipBenchmarkCommand(const Arguments& words) {
   SlipAccuracyOptions options;
   const CommandLine given(
       {.synopsis = "palpate slip-benchmark [--noise SD] [--edge SD] [--shape S].. [--seed N]",
-       .purpose = "Measures the accuracy of every slip method on synthetic contacts whose motion "
-                  "is known, and compares it with the Cramer-Rao bound. Prints JSON; docs/notes/slip.md "
-                  "explains it.",
-       .options = withOutputOptions({bound("noise",
-                         "SD",
-                         "standard deviation of the noise",
-                         options.noiseSd,
-                         options.kNoiseSd),
-                   bound("edge",
-                         "SD",
-                         "standard deviation of the edges of disc, bar and flat-ellipse",
-                         options.sensor.coverTaxels,
-                         options.sensor.kCoverTaxels),
-                   {"shape",
-                    "S",
-                    "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
-                    "default all"},
-                   bound("seed", "N", "seed of noise and places", options.seed, kSeedOption),
-                   bound("trials", "N", "contacts per shape", options.trials, options.kTrials),
-                   {"recordings",
-                    "FOLDER",
-                    "also scores alarms on real recordings: FOLDER/slip-detection slips, "
-                    "FOLDER/grasps_by_class doesn't"}}),
+       .purpose =
+           "Measures the accuracy of every slip method on synthetic contacts whose motion "
+           "is known, and compares it with the Cramer-Rao bound. Prints JSON; docs/notes/slip.md "
+           "explains it.",
+       .options = withOutputOptions(
+           {bound("noise",
+                  "SD",
+                  "standard deviation of the noise",
+                  options.noiseSd,
+                  options.kNoiseSd),
+            bound("edge",
+                  "SD",
+                  "standard deviation of the edges of disc, bar and flat-ellipse",
+                  options.sensor.coverTaxels,
+                  options.sensor.kCoverTaxels),
+            {"shape",
+             "S",
+             "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
+             "default all"},
+            bound("seed", "N", "seed of noise and places", options.seed, kSeedOption),
+            bound("trials", "N", "contacts per shape", options.trials, options.kTrials),
+            {"recordings",
+             "FOLDER",
+             "also scores alarms on real recordings: FOLDER/slip-detection slips, "
+             "FOLDER/grasps_by_class doesn't"}}),
        .example = "palpate slip-benchmark --noise 20",
        .maxArguments = 0},
       words);

@@ -269,43 +269,45 @@ int spectrumCommand(const Arguments& words) {
            "instead, the mean over all segments: frequency_hz,psd,magnitude; with --peaks the "
            "peaks of this spectrum; with --coherence what two signals have in common: "
            "frequency_hz,coherence,phase_deg,psd_a,psd_b.",
-       .options = withOneTableOptions(withFilterOptions(withFrameOptions(
-           {rangedWhole("matrix", "M", "matrix", kMatrixOption),
-            rangedWhole("x", "X", "column of the taxel", kMatrixOption),
-            rangedWhole("y", "Y", "row of the taxel; row 0 is the fingertip", kMatrixOption),
-            {"signal",
-             "NAME",
-             "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
-             "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
-             "m5_x2_y9, angle3, m1_sum-m3_sum"},
-            {"welch", "", "the mean over all segments as one spectrum (Welch)"},
-            {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
-            {"coherence",
-             "A,B",
-             "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
-             "m5_x2_y9,m5_x3_y9"},
-            rangedWhole("window",
-                        "N",
-                        "length of a segment",
-                        SpectrumOptions::kWindow,
-                        std::to_string(SpectrumOptions{}.window) + "; " +
-                            std::to_string(welchOptions().window) +
-                            " for --welch, --peaks, --coherence"),
-            {"overlap",
-             "N",
-             "samples shared with the next segment, default window - 1; window / 2 for --welch, "
-             "--peaks, --coherence"},
-            worded("detrend",
-                   "HOW",
-                   "what is subtracted from each segment first",
-                   kDetrendWords,
-                   "mean"),
-            worded("rate",
-                   "HOW",
-                   "of the intervals: sampling rate after interpolation",
-                   kGridRateWords,
-                   "mean"),
-            timeOption()})),
+       .options = withOneTableOptions(
+           withFilterOptions(withFrameOptions(
+               {rangedWhole("matrix", "M", "matrix", kMatrixOption),
+                rangedWhole("x", "X", "column of the taxel", kMatrixOption),
+                rangedWhole("y", "Y", "row of the taxel; row 0 is the fingertip", kMatrixOption),
+                {"signal",
+                 "NAME",
+                 "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
+                 "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
+                 "m5_x2_y9, angle3, m1_sum-m3_sum"},
+                {"welch", "", "the mean over all segments as one spectrum (Welch)"},
+                {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
+                {"coherence",
+                 "A,B",
+                 "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
+                 "m5_x2_y9,m5_x3_y9"},
+                rangedWhole("window",
+                            "N",
+                            "length of a segment",
+                            SpectrumOptions::kWindow,
+                            std::to_string(SpectrumOptions{}.window) + "; " +
+                                std::to_string(welchOptions().window) +
+                                " for --welch, --peaks, --coherence"),
+                {"overlap",
+                 "N",
+                 "samples shared with the next segment, default window - 1; window / 2 for "
+                 "--welch, "
+                 "--peaks, --coherence"},
+                worded("detrend",
+                       "HOW",
+                       "what is subtracted from each segment first",
+                       kDetrendWords,
+                       "mean"),
+                worded("rate",
+                       "HOW",
+                       "of the intervals: sampling rate after interpolation",
+                       kGridRateWords,
+                       "mean"),
+                timeOption()})),
            "no table: rate, Nyquist, jitter, strongest line (or line and peaks) as JSON"),
        .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
        .minArguments = 1,

@@ -68,8 +68,9 @@ int stepBenchmarkCommand(const Arguments& words) {
            "Fits synthetic loading steps whose parameters are known, by noise, length and drift, "
            "and counts how often the stated 95 % intervals contain them, with Wilson's interval of "
            "that fraction. Prints JSON; docs/notes/calibration.md explains it.",
-       .options = withOutputOptions({bound("trials", "N", "steps per kind", trials, {1, 1e6}),
-                   bound("seed", "N", "seed of noise and loads", seed, kSeedOption)}),
+       .options =
+           withOutputOptions({bound("trials", "N", "steps per kind", trials, {1, 1e6}),
+                              bound("seed", "N", "seed of noise and loads", seed, kSeedOption)}),
        .example = "palpate step-benchmark --trials 50",
        .maxArguments = 0},
       words);

@@ -10,8 +10,6 @@
 #include "palpate/core/file_name.h"
 #include "palpate/model/time_base.h"
 #include "palpate/model/time_columns.h"
-
-#include "palpate/core/file_name.h"
 #include "palpate/recording/result_file.h"
 
 #include "commands/batch_options.h"
