@@ -1,4 +1,5 @@
 // docs/manual/columns.md defines every column that a table of the analysis prints.
+#include <map>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -81,8 +82,9 @@ TEST(ColumnDocs, EveryColumnHasAMeaningAndItsUnit) {
     if (!std::regex_match(line, cells, row)) continue;
     ++columns;
     EXPECT_FALSE(cells[4].str().empty()) << line;
-    for (const auto& [ending, unit] : units)
+    for (const auto& [ending, unit] : units) {
       if (cells[1].str().ends_with(ending)) EXPECT_EQ(cells[2], unit) << line;
+    }
   }
   EXPECT_GT(columns, 250u);
 }
