@@ -15,6 +15,7 @@
 #include "commands/hand_options.h"
 #include "commands/picture_size.h"
 #include "commands/remote_recording.h"
+#include "gui/appearance/theme.h"
 #include "gui/hand3d/gl_probe.h"
 #include "gui/shell/run_window.h"
 
