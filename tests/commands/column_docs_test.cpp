@@ -83,7 +83,9 @@ TEST(ColumnDocs, EveryColumnHasAMeaningAndItsUnit) {
     ++columns;
     EXPECT_FALSE(cells[4].str().empty()) << line;
     for (const auto& [ending, unit] : units) {
-      if (cells[1].str().ends_with(ending)) EXPECT_EQ(cells[2], unit) << line;
+      if (cells[1].str().ends_with(ending)) {
+        EXPECT_EQ(cells[2], unit) << line;
+      }
     }
   }
   EXPECT_GT(columns, 250u);
