@@ -1,5 +1,7 @@
 #include "palpate/interop/datagrams.h"
 
+#include <utility>
+
 #include "palpate/recording/tactile_sensor_json.h"
 
 namespace palpate {
@@ -36,8 +38,12 @@ class ObjectParts {
     part_ += ',';
     part_ += member;
   }
-  std::vector<std::string> take() {
+  // The next member begins another part.
+  void next() {
     if (part_.size() > head_.size()) finish();
+  }
+  std::vector<std::string> take() {
+    next();
     return std::move(parts_);
   }
   // Whether a member fits into a part of its own.
@@ -74,8 +80,11 @@ void addSeries(ObjectParts& parts, const Member& member, std::string_view object
   const std::string begin(member.text.substr(0, member.text.find('{') + 1));
   std::string chunk;  // of whole series, or the beginning of one, without its end
   const auto fits = [&](const std::string& text) { return parts.fits(begin + text + "}}"); };
+  bool isFirst = true;
   const auto finish = [&](const char* end) {
-    if (!chunk.empty()) parts.add(begin + chunk + end);
+    if (chunk.empty()) return;
+    if (!std::exchange(isFirst, false)) parts.next();  // a key stands once in an object
+    parts.add(begin + chunk + end);
     chunk.clear();
   };
   for (const Member& series : membersOf(member, object)) {

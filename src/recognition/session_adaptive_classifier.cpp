@@ -199,7 +199,7 @@ SessionAdaptiveClassifier::SessionAdaptiveClassifier(SessionAdaptiveParameters d
   background_ = prepare(data_.background, "the background");
   for (const SessionComponent& component : data_.today) {
     if (component.classIndex >= data_.classes.size())
-      throw Error("a model that saw a class today that is not one of its own");
+      throw Error("a model that saw a class today that it does not know");
     sessionComponents_.push_back(
         prepare(component.distribution,
                 "class '" + shortened(data_.classes[component.classIndex]) + "' of today"));

@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-using Row = MatrixRow<SignalValues>;
+using SignalRow = MatrixRow<SignalValues>;
 
 // The signals of the frames of a profile, filtered over time.
 class SignalRun {
@@ -33,7 +33,7 @@ class SignalRun {
             profile.givesReadings()) {}
 
   // Appends what the next frame gives; false after the last one.
-  bool next(std::vector<Row>& rows) {
+  bool next(std::vector<SignalRow>& rows) {
     rows_ = &rows;
     if (frame_ == profile_.numFrames()) {
       filter_.finish();
@@ -72,7 +72,7 @@ class SignalRun {
   SignalFilter filter_;
   TactileFrame values_;
   std::vector<CharacteristicSignals> signals_;
-  std::vector<Row>* rows_ = nullptr;
+  std::vector<SignalRow>* rows_ = nullptr;
   std::size_t frame_ = 0, written_ = 0;
 };
 
@@ -112,11 +112,11 @@ std::unique_ptr<ResultTable> signalTable(const Profile& profile,
                                          const Progress& progress) {
   if (options.centres) return centreTable(profile, options.matrix, progress);
   if (options.smooth.dependsOnRate()) options.smooth.validateForRate(timingOf(profile).rateHz);
-  return std::make_unique<RowTable<Row>>(
+  return std::make_unique<RowTable<SignalRow>>(
       "signals",
       matrixRowColumns(
           signalColumns(profile.hand().unit, profile.givesReadings() && !options.ofHand)),
-      [run = std::make_shared<SignalRun>(profile, options, progress)](std::vector<Row>& rows) {
+      [run = std::make_shared<SignalRun>(profile, options, progress)](std::vector<SignalRow>& rows) {
         return run->next(rows);
       });
 }

@@ -85,7 +85,7 @@ std::unique_ptr<ResultTable> peakTable(std::vector<SpectralPeak> peaks, const st
           finiteColumn<Peak>("width_hz", "Hz", "full width at half of the density", &Peak::widthHz),
           finiteColumn<Peak>("prominence_db",
                              "dB",
-                             "height above the higher valley beside it",
+                             "height above the higher of the valleys next to it",
                              &Peak::prominenceDb)},
       std::move(peaks));
 }

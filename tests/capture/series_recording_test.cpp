@@ -370,6 +370,7 @@ TEST(SeriesRecording, SensorsComeAndGoWhileNothingIsRecorded) {
   bench.record(folder / "a.palpate");
   EXPECT_THROW(bench.session->addSeries(bench.source("other")), std::logic_error);
   EXPECT_THROW(bench.session->removeSeries("cell"), std::logic_error);
+  bench.clock.pass(10'000);
   bench.frame();
   for (int i = 0; i < 5; ++i) {
     bench.clock.pass(10'000);

@@ -275,8 +275,8 @@ TEST_F(ConvertCommand, aFolderAndAFileAreNotMistakenForEachOther) {
                      {"dsa, palpate, csv, npz"});
   expectOneLineError(palpate({"convert", folder, folder_ / "sub/out", "--to-form", "npz"}),
                      1,
-                     {"lies in the folder"});
-  expectOneLineError(palpate({"convert", folder, folder, "--to-form", "npz"}), 1, {"lies in"});
+                     {"is in the folder"});
+  expectOneLineError(palpate({"convert", folder, folder, "--to-form", "npz"}), 1, {"is in"});
   testing::writeFile(made / "file", "mine");
   expectOneLineError(
       palpate({"convert", folder, made / "file", "--to-form", "npz"}), 1, {"is not a folder"});

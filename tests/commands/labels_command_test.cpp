@@ -84,7 +84,7 @@ TEST_F(LabelsCommandTest, NamesBadRowsByTheirLine) {
   const fs::path table = folder_ / "labels.csv";
   testing::writeFile(table, "begin_s,text\n4,good\n400,late\n");
   const auto part = palpate({"labels", path_, "--import", table});
-  expectOneLineError(part, 3, {"labels.csv: line 3: begin_s '400' lies outside"});
+  expectOneLineError(part, 3, {"labels.csv: line 3: begin_s '400' is outside"});
   EXPECT_NE(palpate({"labels", path_}).out.find("4.000000,4.000000,label,good,"),
             std::string::npos);
   testing::writeFile(table, "begin_s,text\n400,late\n");

@@ -417,7 +417,7 @@ TEST(GraspStateMachine, RefusesALimitInNewtonsThatItCannotMeasure) {
   Calibration another = kiloPascals();
   another.hand = "another";
   bench.machine.setCalibration(another);
-  EXPECT_NE(refusal().find("of another hand: another"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("is for another hand: another"), std::string::npos) << refusal();
   Calibration half = kiloPascals();
   half.pressure.areaFraction = 0.5;  // saturated: 352 kPa on 1873 mm^2, half of it
   bench.machine.setCalibration(half);

@@ -353,7 +353,7 @@ TEST(MotionSequence, BadFilesAreRefusedWithTheirPlace) {
     return std::string();
   };
   EXPECT_NE(errorOf("no").find("s.json"), std::string::npos);
-  EXPECT_NE(errorOf("[]").find("no sequence"), std::string::npos);
+  EXPECT_NE(errorOf("[]").find("not a sequence"), std::string::npos);
   const std::string head =
       R"({"format": "palpate-sequence", "version": 1, "hand": "h", "steps": [)";
   EXPECT_NE(errorOf(head + R"({"step": "jump"}]})").find("steps[0].step"), std::string::npos);

@@ -54,7 +54,7 @@ TEST(SavedPose, BadFilesAreRefusedWithTheirPlace) {
     return std::string();
   };
   EXPECT_NE(errorOf("{").find("poses.json"), std::string::npos);
-  EXPECT_NE(errorOf("{}").find("no list of poses"), std::string::npos);
+  EXPECT_NE(errorOf("{}").find("not a list of poses"), std::string::npos);
   EXPECT_NE(errorOf(R"({"format": "palpate-poses", "version": 2, "poses": []})").find("version"),
             std::string::npos);
   const std::string head = R"({"format": "palpate-poses", "version": 1, "poses": [)";

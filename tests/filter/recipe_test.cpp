@@ -68,7 +68,7 @@ TEST(Recipe, BadJsonSaysWhichStepAndWhat) {
   EXPECT_NE(messageOf(head + R"([{"size": 3}]})").find("must have \"filter\""), std::string::npos);
   EXPECT_NE(messageOf(head + R"([{"filter": "median", "size": 4}]})").find("odd"),
             std::string::npos);
-  EXPECT_NE(messageOf(head + R"([{"filter": "median", "size": [3]}]})").find("step 1"),
+  EXPECT_NE(messageOf(head + R"([{"filter": "median", "size": [3, 5]}]})").find("step 1"),
             std::string::npos);
   EXPECT_NE(messageOf(head + R"([{"filter": "median", "size=3,masked": 1}]})").find("step 1"),
             std::string::npos);

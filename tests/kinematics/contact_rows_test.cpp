@@ -1,7 +1,5 @@
 #include "palpate/kinematics/contact_rows.h"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include "palpate/model/profile_builder.h"
@@ -13,7 +11,7 @@ namespace {
 
 const std::vector<double> kStraight(7, 0.0);
 
-// Three frames: nothing, one taxel of matrix 0 with 16, and one value that is not a number.
+// Three frames: nothing, one taxel of matrix 0 with 16, and another one.
 Profile threeFrames(std::vector<double> anglesDeg = kStraight) {
   ProfileBuilder builder(sdh2().layout);
   builder.addAngles(900'000, std::move(anglesDeg));
@@ -21,7 +19,7 @@ Profile threeFrames(std::vector<double> anglesDeg = kStraight) {
   builder.addFrame(1'000'000, frame.values);
   frame.matrix(0)(5, 2) = 16.0F;
   builder.addFrame(1'031'000, frame.values);
-  frame.matrix(0)(0, 0) = std::numeric_limits<float>::quiet_NaN();
+  frame.matrix(0)(0, 0) = 8.0F;
   builder.addFrame(1'062'000, frame.values);
   return builder.finish({});
 }
@@ -52,9 +50,7 @@ TEST(ContactRows, areOneForEachFrame) {
   ASSERT_TRUE(table->next(cells));
   EXPECT_FALSE(table->next(cells));
   EXPECT_TRUE(table->notes().empty());
-  ASSERT_EQ(table->problems().size(), 1u);
-  EXPECT_EQ(table->problems()[0],
-            "1 of 3 frames have values that are not numbers; these were left out");
+  EXPECT_TRUE(table->problems().empty());
 }
 
 TEST(ContactRows, canBeOneForEachMatrix) {
@@ -87,12 +83,6 @@ TEST(ContactRows, haveTheSphereAroundCentroidsWhereWanted) {
 }
 
 TEST(ContactRows, sayWhichAnglesAreWrong) {
-  std::vector<double> unknown = kStraight;
-  unknown[3] = std::numeric_limits<double>::quiet_NaN();
-  const auto unusable = contactTable(threeFrames(unknown), sdh2Geometry());
-  csvOf(*unusable);
-  ASSERT_EQ(unusable->problems().size(), 2u);
-  EXPECT_EQ(unusable->problems()[1].find("3 of 3 frames have no usable joint angles"), 0u);
   std::vector<double> far = kStraight;
   far[1] = 300.0;
   const auto outside = contactTable(threeFrames(far), sdh2Geometry());
@@ -100,9 +90,9 @@ TEST(ContactRows, sayWhichAnglesAreWrong) {
   ASSERT_EQ(outside->notes().size(), 1u);
   EXPECT_EQ(outside->notes()[0].find("3 of 3 frames have joint angles that the hand can't take"),
             0u);
-  const auto given = contactTable(threeFrames(unknown), sdh2Geometry(), {.anglesDeg = kStraight});
+  const auto given = contactTable(threeFrames(far), sdh2Geometry(), {.anglesDeg = kStraight});
   csvOf(*given);
-  EXPECT_EQ(given->problems().size(), 1u);
+  EXPECT_TRUE(given->notes().empty());
 }
 
 TEST(ContactRows, haveTheForceThatIsGiven) {
@@ -116,7 +106,7 @@ TEST(ContactRows, haveTheForceThatIsGiven) {
   const std::string csv = csvOf(*table);
   EXPECT_NE(csv.find(",2.5\n"), std::string::npos);
   EXPECT_EQ(table->notes().size(), 1u);
-  EXPECT_EQ(table->problems().at(1), "1 of 3 frames have no force_n: too much");
+  EXPECT_EQ(table->problems().at(0), "1 of 3 frames have no force_n: too much");
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ TEST_F(RecordingCatalog, aBadCacheIsMadeAnew) {
   ASSERT_TRUE(fs::exists(file));
   const std::string good = readFile(file);
   std::string older = good;
-  older.replace(older.find("\"version\":1"), 11, "\"version\":0");
+  older.replace(older.find("\"version\":2"), 11, "\"version\":1");
   std::string absurd = good;
   absurd.replace(absurd.find("\"frames\":20"), 11, "\"frames\":{}");
   for (const std::string& bad : {std::string(),

@@ -92,7 +92,7 @@ TEST(Touch, WhatMovesIsNoRest) {
     RestMeter meter(fullScale);
     for (int i = 0; i < 20; ++i) {
       const float noise = i % 2 == 0 ? 1.0F : -1.0F;
-      meter.add(Values{noise, 10.0F + (i < 10 ? 0.0F : step)});
+      meter.add(Values{noise, 10.0F + noise + (i < 10 ? 0.0F : step)});
     }
     EXPECT_EQ(meter.numFrames(), 20u);
     return meter;

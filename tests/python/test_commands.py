@@ -43,8 +43,7 @@ def test_compare_says_why_not(tmp_path):
         palpate.compare(still, tmp_path / "none.dsa")
     with pytest.raises(TypeError):
         palpate.compare(still, 3)
-    (note,) = palpate.compare(still, still, offset=100).notes
-    assert "no moment in common" in note
+    assert any("no moment in common" in note for note in palpate.compare(still, still, offset=100).notes)
     still.save(tmp_path / "a.palpate")
     assert len(palpate.compare(still, tmp_path / "a.palpate", align="start")["time_s"]) == 20
 
@@ -76,9 +75,10 @@ def test_convert_writes_what_is_in_a_recording(tmp_path):
     with np.load(tmp_path / "a.npz") as arrays:
         np.testing.assert_array_equal(arrays["m0"], frames)
         np.testing.assert_array_equal(arrays["time_ms"], T_MS + 30 * np.arange(20))
-    palpate.convert(source, tmp_path / "filtered.palpate", "median", ["gaussian"])
-    np.testing.assert_array_equal(palpate.load(tmp_path / "filtered.palpate").frames(),
-                                  palpate.filter(palpate.load(source), "median", "gaussian").frames())
+    palpate.convert(source, tmp_path / "filtered.npz", "median", ["gaussian"])
+    with np.load(tmp_path / "filtered.npz") as arrays:
+        np.testing.assert_array_equal(arrays["m0"],
+                                      palpate.filter(palpate.load(source), "median", "gaussian").matrix(0))
     palpate.convert(source, tmp_path / "a.csv", units_row=True)
     with pytest.raises(OSError, match="force=True|exists"):
         palpate.convert(source, tmp_path / "a.npz")

@@ -176,14 +176,6 @@ def test_a_notebook_shows_the_ends_of_a_table():
     assert "0 rows" in palpate.Table()._repr_html_()
 
 
-def test_unusable_joint_angles_are_noted():
-    angles = np.zeros((12, 7))
-    angles[:, 3] = np.nan
-    profile = palpate.record(np.ones((12, 486)), "sdh2", rate=30, angles=angles)
-    (note,) = palpate.contact(profile).notes
-    assert note.startswith("12 of 12 frames have no usable joint angles")
-
-
 def test_what_is_no_table():
     with pytest.raises(ValueError, match="isn't a table"):
         palpate.to_pandas({"a": np.arange(3), "text": "report"})

@@ -64,9 +64,9 @@ Progress partOf(const Progress& whole, std::size_t part, std::size_t parts) {
 }
 
 std::vector<double> ghostNumbersOf(const CommandLine& given,
-                              const std::string& option,
-                              OptionRange range,
-                              std::span<const double> defaultValue) {
+                                   const std::string& option,
+                                   OptionRange range,
+                                   std::span<const double> defaultValue) {
   std::vector<double> numbers;
   for (const std::string& text : given.texts(option)) {
     const auto number = parseDouble(text);
@@ -84,7 +84,8 @@ int emulated(const CommandLine& given,
              const GhostingOptions& options,
              NoisyContactsOptions make) {
   const std::vector<double> temperatures = ghostNumbersOf(given, "deg", make.kDegC, kDefaultDegC);
-  const std::vector<double> belows = ghostNumbersOf(given, "below", make.kBelowCounts, kDefaultBelow);
+  const std::vector<double> belows =
+      ghostNumbersOf(given, "below", make.kBelowCounts, kDefaultBelow);
   GhostOutput rows(given, true);
   ProgressLine line("the emulated hand", given.quiet());
   const std::size_t parts = temperatures.size() * belows.size() * recipes.size();

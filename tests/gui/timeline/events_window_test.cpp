@@ -696,7 +696,7 @@ TEST_F(EventsWindowTest, ASelectionOfNothingIsSaid) {
   EXPECT_TRUE(find<QLabel>("selectionWords")->text().contains("no frame"));
   trigger("crop");
   EXPECT_TRUE(ask_.newFiles.asked.isEmpty());
-  EXPECT_TRUE(bannerText().contains("No frame")) << bannerText().toStdString();
+  EXPECT_TRUE(bannerText().contains("no frames")) << bannerText().toStdString();
 }
 
 TEST_F(EventsWindowTest, NothingIsCroppedOntoItself) {

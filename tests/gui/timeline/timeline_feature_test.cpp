@@ -232,7 +232,7 @@ TEST_F(TimelineFeatureTest, ARangeByHandWithoutAnyValueOfANewRecordingIsDropped)
   windowState_->displayed.show(recording("b"));
   EXPECT_TRUE(chart.axes().byHand().empty());
   EXPECT_LT(chart.yAxis->range().upper, 5000.0);
-  EXPECT_TRUE(windowState_->messages.flashed().contains("automatic again"))
+  EXPECT_TRUE(windowState_->messages.flashed().contains("reset to automatic"))
       << windowState_->messages.flashed().toStdString();
   EXPECT_TRUE(windowState_->messages.flashed().contains("5000 to 6000"));
   EXPECT_TRUE(windowState_->settings.value("plotted/axes").toStringList().isEmpty());
@@ -300,7 +300,7 @@ TEST_F(TimelineFeatureTest, ABeginAboveTheEndOfAnAxisIsSaidAndNotUsed) {
   EXPECT_TRUE(problem->isHidden());
   from->setValue(9000.0);
   ASSERT_FALSE(problem->isHidden());
-  EXPECT_TRUE(problem->text().contains("the begin 9000.00 isn't below the end"))
+  EXPECT_TRUE(problem->text().contains("the start 9000.00 isn't below the end"))
       << problem->text().toStdString();
   EXPECT_EQ(from->value(), 9000.0) << "what was typed stays";
   EXPECT_EQ(axis.range(), before);
@@ -411,7 +411,7 @@ TEST_F(TimelineFeatureTest, WithACalibrationThereAreForcesAndMatricesInTheirUnit
   ASSERT_TRUE(feature_.signalTree().setTicked("force of the whole hand", true));
   ASSERT_TRUE(feature_.signalTree().setTicked("matrices in kPa and N", true));
   ASSERT_EQ(chart.curves().size(), 2u);
-  EXPECT_EQ(chart.curves()[0].unit, "kPa");
+  EXPECT_EQ(chart.curves()[0].unit, "N") << "of the sum";
   EXPECT_EQ(chart.curves()[1].unit, "N");
   feature_.settle();
   for (const PlottedCurve& curve : chart.curves())

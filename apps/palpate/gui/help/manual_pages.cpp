@@ -83,9 +83,10 @@ bool ManualPages::has(const QString& name) const {
 
 QString ManualPages::target(const QString& path, const QString& from) const {
   const QString here = from.left(from.lastIndexOf('/') + 1);
-  for (const QString& start : {here, QString(kManual)})
-    if (const QString name = QDir::cleanPath(start + path); has(name)) return name;
-  return {};
+  if (const QString name = QDir::cleanPath(here + path); has(name)) return name;
+  // A tool tip names a page of the manual.
+  const QString name = QDir::cleanPath(kManual + path);
+  return path.startsWith("../") || !has(name) ? QString() : name;
 }
 
 QString ManualPages::markdown(const QString& name) const {

@@ -184,7 +184,7 @@ QWidget* ImportDialog::makeFile() {
 QWidget* ImportDialog::makeSeries() {
   series_ = named(new QTableWidget(0, 3),
                   "importSeries",
-                  "Other tables, each a series of the recording with the times of its own rows",
+                  "Other tables, each a series of the recording with the times of its rows",
                   "Files as series");
   series_->setHorizontalHeaderLabels({"name", "rate [Hz]", "file"});
   series_->horizontalHeader()->setStretchLastSection(true);

@@ -46,7 +46,7 @@ double largestDrawn(const TactileFrame& frame, TaxelView view) {
 }
 
 QPointF shearAt(const TactileFrame& frame, const TaxelPlace& place) {
-  if (frame.readings.empty() || !(frame.matrix(place.matrix)(place.y, place.x) > 0.0F)) return {};
+  if (frame.readings.empty() || !isTouched(frame.matrix(place.matrix)(place.y, place.x))) return {};
   const std::array<float, 3> force = forceAt(frame, place);
   return {static_cast<double>(force[0]), static_cast<double>(force[1])};
 }
