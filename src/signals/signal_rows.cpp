@@ -116,9 +116,8 @@ std::unique_ptr<ResultTable> signalTable(const Profile& profile,
       "signals",
       matrixRowColumns(
           signalColumns(profile.hand().unit, profile.givesReadings() && !options.ofHand)),
-      [run = std::make_shared<SignalRun>(profile, options, progress)](std::vector<SignalRow>& rows) {
-        return run->next(rows);
-      });
+      [run = std::make_shared<SignalRun>(profile, options, progress)](
+          std::vector<SignalRow>& rows) { return run->next(rows); });
 }
 
 }  // namespace palpate

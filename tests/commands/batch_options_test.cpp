@@ -142,7 +142,7 @@ TEST_F(BatchOptionsTest, UnitsStandInTheSecondRowOfEachTable) {
   for (const std::string command : {"signals", "features"}) {
     expectOneLineError(palpate({command, in(), "-o", out("{name}.json"), "--units-row"}),
                        2,
-                       {"--units-row is a row of CSV"});
+                       {"--units-row is for .csv"});
     expectOneLineError(
         palpate({command, in(), "-o", out("{name}.csv"), "--json"}), 2, {"end in .json"});
   }

@@ -55,9 +55,8 @@ TEST(TableCommands, TheSameMistakeHasTheSameExitCode) {
       expectOneLineError(palpate(withFile(command.words, file, command.noMatrix)), 1, {"matrix 9"});
     if (!command.noFrame.empty())
       expectOneLineError(palpate(withFile(command.words, file, command.noFrame)), 1, {"99999999"});
-    expectOneLineError(palpate(withFile(command.words, file, command.wrongValue)),
-                       2,
-                       {command.wrongValue.back()});
+    expectOneLineError(
+        palpate(withFile(command.words, file, command.wrongValue)), 2, {command.wrongValue.back()});
     if (command.words[1] != "RECORDING") continue;
     const auto missing = palpate(withFile(command.words, folder / "none.dsa"));
     EXPECT_EQ(missing.exitCode, 1) << missing.err;

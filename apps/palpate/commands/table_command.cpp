@@ -53,7 +53,8 @@ std::vector<OptionSpec> withOneTableOptions(std::vector<OptionSpec> options,
 }
 
 OptionSpec timeColumnOption() {
-  return {"time-column", "s|utc", "in addition to time_ms; s: seconds from the first frame; utc: date"};
+  return {
+      "time-column", "s|utc", "in addition to time_ms; s: seconds from the first frame; utc: date"};
 }
 
 std::unique_ptr<ResultTable> withTimeColumn(const CommandLine& given,

@@ -223,6 +223,10 @@ std::shared_ptr<const SensorLayout> handLostRules(SqliteDatabase& database, cons
     const HandDescription hand = parseHand(meta["hand_json"], meta["hand_urdf"], "hand.json");
     return hand.layout->decidesTouch() ? hand.layout : nullptr;
   } catch (const Error&) {
+    if (database.integerOf("SELECT count(*) FROM meta WHERE key='touch_rules'") != 0)
+      throw FormatError(database.path(),
+                        "how its frames tell what is touched (touch_rules) is damaged, and so is "
+                        "the description of its hand");
     return nullptr;
   }
 }
