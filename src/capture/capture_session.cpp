@@ -19,6 +19,8 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::size_t kMostRestFrames = 2'000;  // of a baseline: memory is bounded at any rate
+
 constexpr std::size_t kMostShown = 1000;
 
 std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
@@ -380,7 +382,8 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
     const std::lock_guard lock(baselineMutex_);
     recent_.push_back(shared);
     const auto keptUs = static_cast<std::int64_t>(options_.baselineS * kUsPerS);
-    while (recent_.front()->hostUs < shared->hostUs - keptUs) recent_.pop_front();
+    while (recent_.front()->hostUs < shared->hostUs - keptUs || recent_.size() > kMostRestFrames)
+      recent_.pop_front();
   }
   screenFrame_.put(shared);
   pass(CaptureItem(std::move(shared)));

@@ -133,7 +133,8 @@ TEST_F(SensorWindowTest, TheDialogShowsWhatArrives) {
   EXPECT_FALSE(add->isEnabled()) << "taken";
   name->setText("wrist");
   look->setChecked(true);
-  EXPECT_TRUE(rows->text().startsWith("no rows come")) << rows->text().toStdString();
+  EXPECT_TRUE(await([&] { return rows->text().startsWith("no rows come"); }))
+      << rows->text().toStdString();
   in(static_cast<QLineEdit*>(nullptr), "sensorColumns")->setText("fx [N]");
   EXPECT_FALSE(look->isChecked()) << "of other fields";
   look->setChecked(true);
