@@ -138,6 +138,10 @@ TEST_F(SensorWindowTest, TheDialogShowsWhatArrives) {
   in(static_cast<QLineEdit*>(nullptr), "sensorColumns")->setText("fx [N]");
   EXPECT_FALSE(look->isChecked()) << "of other fields";
   look->setChecked(true);
+  bool isAccepted = false;
+  QObject::connect(&dialog, &QDialog::accepted, [&] { isAccepted = true; });
+  add->click();
+  EXPECT_TRUE(isAccepted);
   EXPECT_NE(dialog.takePreview(), nullptr);
   EXPECT_EQ(dialog.takePreview(), nullptr);
 }

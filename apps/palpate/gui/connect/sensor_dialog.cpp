@@ -56,6 +56,7 @@ SensorDialog::SensorDialog(const Sensor& proposal,
                      Space::kNone));
 
   source_->setSource(proposal.source, proposal.baud);
+  connect(add_, &QPushButton::clicked, this, &QDialog::accept);
   connect(look_, &QPushButton::toggled, this, &SensorDialog::showRows);
   connect(source_, &SourceField::changed, this, &SensorDialog::refresh);
   for (QLineEdit* line : {name_, columns_})

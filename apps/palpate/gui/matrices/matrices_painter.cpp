@@ -367,6 +367,9 @@ void paintShear(QPainter& painter,
     }
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
+  // What lies around the matrix, such as the bar of colours, stays readable.
+  painter.setClipRect(QRectF(geometry.taxelRect(matrix, 0, 0))
+                          .united(geometry.taxelRect(matrix, layout.rows - 1, layout.columns - 1)));
   // White on black is visible on every colour of every map.
   painter.strokePath(arrows, QPen(Qt::black, 3.5));
   painter.strokePath(arrows, QPen(Qt::white, 1.5));
