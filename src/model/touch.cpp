@@ -207,8 +207,12 @@ std::vector<float> floatsOf(const Json& list) {
 
 Event baselineEvent(const Baseline& baseline, std::int64_t timeUs, const char* kind) {
   const bool isTaken = std::ranges::any_of(baseline.rest, [](float rest) { return rest != 0.0F; });
-  Event event{
-      timeUs, timeUs, kind, {}, isTaken ? "the readings at rest" : "none was taken: 0 everywhere", ""};
+  Event event{timeUs,
+              timeUs,
+              kind,
+              {},
+              isTaken ? "the readings at rest" : "none was taken: 0 everywhere",
+              ""};
   Json json = Json::object().set("rest", numbersOf(baseline.rest));
   if (!baseline.noise.empty()) json.set("noise", numbersOf(baseline.noise));
   event.json = json.text(-1);
