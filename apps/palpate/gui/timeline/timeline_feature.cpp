@@ -191,6 +191,8 @@ void TimelineFeature::renewComputed() {
   profile_.reset();
   reasons_.clear();
   if (!seen || !behind || displayed.isLive()) return;
+  // Results of another feature may change before this one has taken the new recording.
+  if (chart_->recording() != seen) return;
   if (seen->profile.numFrames() > 0) {
     ComputedOptions options;
     if (const auto forces = state().derivedResults.forcesOf(behind.get())) options = *forces;
