@@ -231,8 +231,8 @@ BatchTask tableTask(const RecordingTable& table) {
                           std::size_t threads) {
             const Recording recording = (table.readable ? readableRecording : readRecording)(
                 item.source, {.threads = threads}, partOf(progress, 0.0, 0.4));
-            const Progress reading = partOf(progress, 0.4, 1.0);  // outlives the table
-            const std::unique_ptr<ResultTable> rows = table.of(item.source, recording, reading);
+            const std::unique_ptr<ResultTable> rows =
+                table.of(item.source, recording, partOf(progress, 0.4, 1.0));
             const std::size_t count =
                 writeResult(*rows, item.target, overwrite, {.unitsRow = table.unitsRow});
             BatchAnswer answer{

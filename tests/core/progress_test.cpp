@@ -28,5 +28,19 @@ TEST(ProgressSteps, StopsWhereItIsAsked) {
 
 TEST(ProgressSteps, NobodyNeedsToListen) { EXPECT_NO_THROW(reportProgress({}, 0, 8)); }
 
+TEST(PartOf, OutlivesTheWhole) {
+  std::vector<double> said;
+  Progress part;
+  {
+    const Progress whole = [&](double fraction) {
+      said.push_back(fraction);
+      return true;
+    };
+    part = partOf(partOf(whole, 0.5, 1.0), 0.0, 0.5);
+  }
+  EXPECT_TRUE(part(1.0));
+  EXPECT_EQ(said, std::vector{0.75});
+}
+
 }  // namespace
 }  // namespace palpate::progress_test

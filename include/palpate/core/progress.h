@@ -12,10 +12,11 @@ namespace palpate {
 // Return false to cancel the work: it soon throws Cancelled and leaves no incomplete results.
 using Progress = std::function<bool(double fraction)>;
 
-// The progress of a part of some work, from..to of the whole. `progress` must outlive it.
+// The progress of a part of some work, from..to of the whole. It may be kept longer than
+// `progress`.
 inline Progress partOf(const Progress& progress, double from, double to) {
   if (!progress) return {};
-  return [&progress, from, to](double fraction) { return progress(from + (to - from) * fraction); };
+  return [progress, from, to](double fraction) { return progress(from + (to - from) * fraction); };
 }
 
 // Call before step `step` (from 0) of `count`; reports every `every`th step. Throws Cancelled when

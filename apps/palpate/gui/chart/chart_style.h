@@ -32,7 +32,7 @@ void arrangeChart(QCustomPlot& plot);
 int timeAxisLeft(const QWidget& plot);
 // Gives background and axes the colours of the theme that is shown.
 void styleChart(QCustomPlot& plot);
-// A pen for a line of `length` in a legend, which shows one whole period of its own dashes; other
+// A pen for a line of `length` in a legend, which shows one whole period of custom dashes; other
 // lines are as they are.
 QPen legendPen(QPen pen, double length);
 // The pen of a matrix; that of all matrices together (`whole`) is dashed.

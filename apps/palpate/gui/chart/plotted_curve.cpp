@@ -194,7 +194,7 @@ PlottedCurve computedCurve(const HandDescription& hand,
                                                         : "speed in ") +
               made.unit;
   made.pen.setColor(whole ? wholeColor() : matrixColor(series.matrix));
-  // Each kind and column has a dash of its own beside the solid line of the matrices.
+  // Each kind and column has a different dash; the line of the matrices is solid.
   const auto kind = static_cast<qreal>(series.kind), part = static_cast<qreal>(column);
   made.pen.setDashPattern({4 + 3 * kind, 2, 1 + part, 2});
   return made;

@@ -40,7 +40,7 @@ QPen overlaidPen(std::size_t recording) {
   return QPen(color, kOverlaidWidth);
 }
 
-// The samples before gaps, of a curve with times of its own.
+// The samples before gaps, of a curve whose samples have other times than the frames.
 std::vector<std::size_t> gapsOf(const Series& series, double longestS) {
   std::vector<std::size_t> gaps;
   for (std::size_t i = 0; i + 1 < series.timeS.size(); ++i)
