@@ -192,7 +192,11 @@ bool StreamLineParser::orderLists(std::size_t matrix,
   if (listLengths_.size() < 2) return true;
   const auto& matrices = shape_.layout().matrices();
   std::size_t numPlaces = 0;
-  for (std::size_t m = matrix; m < matrix + numMatrices; ++m) numPlaces += matrices[m].numCells();
+  for (std::size_t m = matrix; m < matrix + numMatrices; ++m) {
+    // A list may then be the components of a taxel.
+    if (matrices[m].touch.components != 1) return true;
+    numPlaces += matrices[m].numCells();
+  }
   // Only the taxels, or a list with the time.
   if (std::accumulate(listLengths_.begin(), listLengths_.end(), std::size_t{0}) != numPlaces)
     return true;

@@ -332,6 +332,24 @@ TEST(StreamLines, ThreeComponentsStandInThePlaceOfEachValue) {
     ASSERT_EQ(reading.items.size(), 1u) << text << reading.fault;
     EXPECT_EQ(reading.items[0].numbers, expected) << text;
   }
+  // A list per taxel is not one per column, even where their lengths fit: 3 x 2 places, of which
+  // two are taxels.
+  for (const std::size_t pads : {std::size_t{1}, std::size_t{2}}) {
+    HandDescription hand = skin(std::vector<std::pair<int, int>>(pads, {3, 2}));
+    std::vector<MatrixLayout> matrices = hand.layout->matrices();
+    for (MatrixLayout& matrix : matrices)
+      matrix.staticMask = matrix.dynamicMask = {1, 1, 0, 0, 0, 0};
+    hand.layout = std::make_shared<const SensorLayout>(std::move(matrices));
+    const std::string lists = "[[1,-2,3],[4,5,-6]]\n";
+    const Reading reading = readText(pads == 1 ? lists : "left:" + lists + "right:" + lists, hand);
+    ASSERT_EQ(reading.items.size(), 1u) << reading.fault;
+    std::vector<double> all;
+    for (std::size_t m = 0; m < pads; ++m) {
+      all.insert(all.end(), expected.begin(), expected.end());
+      all.resize((m + 1) * 18);
+    }
+    EXPECT_EQ(reading.items[0].numbers, all);
+  }
   // Three for a hand with one, and two of three, are refused with what is expected.
   EXPECT_NE(readText("1,2,3,4,5,6\n", padHand({{1, 2}})).fault.find("\"components\": 3"),
             std::string::npos);
