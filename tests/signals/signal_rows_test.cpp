@@ -81,6 +81,20 @@ TEST(SignalRows, AreSmoothedOverTime) {
   EXPECT_THROW(rowsOf(0, parseRecipe(median)), std::invalid_argument);
 }
 
+// Files of other forms store a column by its kind.
+TEST(SignalRows, HaveCellsOfTheKindOfTheirColumn) {
+  const std::vector<std::string> kalman = {"kalman"};
+  for (const Recipe& smooth : {Recipe(), parseRecipe(kalman)}) {
+    const auto table = signalTable(oneTaxel(), {.smooth = smooth});
+    const auto kindOf = [&](std::size_t c) { return table->columns()[c].kind; };
+    EXPECT_EQ(kindOf(8), smooth.empty() ? CellKind::kInteger : CellKind::kNumber);
+    for (std::vector<Cell> cells; table->next(cells);)
+      for (std::size_t c = 0; c < cells.size(); ++c)
+        EXPECT_EQ(std::holds_alternative<std::int64_t>(cells[c]), kindOf(c) == CellKind::kInteger)
+            << table->columns()[c].name;
+  }
+}
+
 TEST(SignalRows, CanBeCancelled) {
   const auto table = signalTable(oneTaxel(), {}, [](double) { return false; });
   std::vector<Cell> cells;

@@ -20,9 +20,10 @@
 namespace palpate {
 
 // The signals of a matrix, values in `unit`. With components: of a profile with readings
-// (Profile::givesReadings()).
+// (Profile::givesReadings()). Smoothed: filtered over time, where `active` may be a fraction.
 std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit,
-                                                  bool withComponents = false);
+                                                  bool withComponents = false,
+                                                  bool isSmoothed = false);
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
