@@ -1,5 +1,6 @@
 #include "palpate/signals/signal_rows.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "palpate/model/matrix_rows.h"
@@ -119,6 +120,11 @@ std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit,
 std::unique_ptr<ResultTable> signalTable(const Profile& profile,
                                          const SignalRowsOptions& options,
                                          const Progress& progress) {
+  const auto numMatrices = static_cast<std::int64_t>(profile.layout().numMatrices());
+  if (options.matrix && (*options.matrix < 0 || *options.matrix >= numMatrices))
+    throw std::invalid_argument("signalTable: there is no matrix " +
+                                std::to_string(*options.matrix) + ", only 0.." +
+                                std::to_string(numMatrices - 1));
   if (options.centres) return centreTable(profile, options.matrix, progress);
   if (options.smooth.dependsOnRate()) options.smooth.validateForRate(timingOf(profile).rateHz);
   return std::make_unique<RowTable<SignalRow>>(

@@ -54,6 +54,14 @@ TEST(SignalRows, AreOneForEachFrameAndMatrix) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2 * 6);
 }
 
+TEST(SignalRows, AreNotOfAMatrixThatIsNotThere) {
+  for (const std::int64_t matrix : {-1, 6}) {
+    EXPECT_THROW(signalTable(oneTaxel(), {.matrix = matrix}), std::invalid_argument);
+    EXPECT_THROW(signalTable(oneTaxel(), {.matrix = matrix, .centres = true}),
+                 std::invalid_argument);
+  }
+}
+
 TEST(SignalRows, CanBeOfTheWholeHand) {
   const std::vector<std::string> kalman = {"kalman"};
   for (const Recipe& smooth : {Recipe(), parseRecipe(kalman)}) {

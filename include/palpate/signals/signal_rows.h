@@ -34,9 +34,9 @@ struct SignalRowsOptions {
   bool unitsRow = false;  // of CSV: a second row with the units
   TimeChoice times = TimeChoice::kArrival;  // of the frames, before the filters
 };
-// The table "signals" of a profile that is filtered already. Throws std::invalid_argument (a filter
-// over space, or a frequency that is not below half of the rate, 1 / median interval); its rows
-// throw Cancelled and FileError.
+// The table "signals" of a profile that is filtered already. Throws std::invalid_argument (no such
+// matrix, a filter over space, or a frequency that is not below half of the rate, 1 / median
+// interval); its rows throw Cancelled and FileError.
 std::unique_ptr<ResultTable> signalTable(const Profile& profile,
                                          const SignalRowsOptions& options = {},
                                          const Progress& progress = {});
