@@ -35,9 +35,9 @@ std::unique_ptr<FrameFilter> makeFrameFilter(const FilterStep& step,
       throw std::invalid_argument(step.name + ": there is no matrix " + std::to_string(matrix) +
                                   ", only 0.." + std::to_string(layout->numMatrices() - 1));
   if (step.rest && step.rest->rest.size() != layout->numCells())
-    throw std::invalid_argument("baseline: its rest is of " +
-                                std::to_string(step.rest->rest.size()) + " taxels, the hand has " +
-                                std::to_string(layout->numCells()) + ": take it of this hand");
+    throw std::invalid_argument("baseline: the rest has " + std::to_string(step.rest->rest.size()) +
+                                " values, the hand " + std::to_string(layout->numCells()) +
+                                " places: take the rest with this hand");
   switch (step.kind().domain) {
     case FilterDomain::kSpatial:
       return std::make_unique<detail::SpatialFilter>(

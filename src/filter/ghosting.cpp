@@ -36,7 +36,9 @@ class Outcome final : public FrameSink {
 void checkGhosting(const Profile& profile,
                    std::span<const CellTruthMask> truth,
                    const GhostingOptions& options) {
-  if (options.minTaxels < 1 || !(options.activeAboveCounts >= 0.0) ||
+  OptionCheck{"GhostingOptions"}(
+      GhostingOptions::kActiveAboveCounts, "activeAboveCounts", options.activeAboveCounts);
+  if (options.minTaxels < 1 ||
       !(options.wholeMatrixFraction >= 0.0 && options.wholeMatrixFraction <= 1.0))
     throw std::invalid_argument("measureGhosting: an option is out of range");
   if (truth.empty()) return;

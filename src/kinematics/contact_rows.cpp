@@ -153,7 +153,10 @@ ContactRun::ContactRun(Profile profile,
       options_(options),
       next_(options.first),
       pose_(geometry_.pose(
-          options.anglesDeg.value_or(std::vector<double>(geometry_.description().numAxes, 0.0)))) {}
+          options.anglesDeg.value_or(std::vector<double>(geometry_.description().numAxes, 0.0)))) {
+  if (!options_.anglesDeg && profile_.numAngles() == 0)
+    angles_ = checkAngles({}, profile_.hand().axes);  // usable if the hand has no joints
+}
 
 // The pose is kept, because joint angles change less often than frames; where those of a frame are
 // unusable, it stays as it was.

@@ -5,19 +5,20 @@
 #include <memory>
 #include <utility>
 
+#include "palpate/model/profile_over.h"
+
 namespace palpate {
 namespace {
 
 constexpr std::size_t kFramesPerReport = 256;
 
 // A source with other times.
-class AtOtherTimes final : public ProfileStorage {
+class AtOtherTimes final : public ProfileOver {
  public:
   using Times = std::vector<std::int64_t>;
   AtOtherTimes(Profile source, Times frames, std::map<std::size_t, Times> series)
-      : source_(std::move(source)), frames_(std::move(frames)), series_(std::move(series)) {}
+      : ProfileOver(std::move(source)), frames_(std::move(frames)), series_(std::move(series)) {}
 
-  std::size_t numFrames() const override { return source_.numFrames(); }
   std::int64_t frameTimeUs(std::size_t frame) const override {
     return frames_.empty() ? source_.frameTimeUs(frame) : frames_[frame];
   }
@@ -26,7 +27,6 @@ class AtOtherTimes final : public ProfileStorage {
     source_.readFrame(frame, out);
     out.hostUs = frameTimeUs(frame);
   }
-  std::size_t numSamples(std::size_t series) const override { return source_.numSamples(series); }
   std::int64_t sampleTimeUs(std::size_t series, std::size_t sample) const override {
     const auto times = series_.find(series);
     return times == series_.end() ? source_.sampleTimeUs(series, sample) : times->second[sample];
@@ -36,9 +36,15 @@ class AtOtherTimes final : public ProfileStorage {
     read.hostUs = sampleTimeUs(series, sample);
     return read;
   }
+  // Searches over the times of this class, not over those of the source.
+  std::optional<std::size_t> frameAt(std::int64_t timeUs) const override {
+    return ProfileStorage::frameAt(timeUs);
+  }
+  std::optional<std::size_t> sampleAt(std::size_t series, std::int64_t timeUs) const override {
+    return ProfileStorage::sampleAt(series, timeUs);
+  }
 
  private:
-  const Profile source_;
   const Times frames_;  // empty: those of the source
   const std::map<std::size_t, Times> series_;
 };

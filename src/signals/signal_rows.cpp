@@ -1,5 +1,6 @@
 #include "palpate/signals/signal_rows.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "palpate/model/matrix_rows.h"
@@ -77,16 +78,25 @@ class SignalRun {
 };
 
 ColumnOf<SignalValues> signal(SignalKind kind, const std::string& unit, const char* meaning) {
-  return {{std::string(signalName(kind)),
-           kind == SignalKind::kActive ? CellKind::kInteger : CellKind::kNumber,
-           unit,
-           meaning},
+  return {{std::string(signalName(kind)), CellKind::kNumber, unit, meaning},
           [at = static_cast<std::size_t>(kind)](const SignalValues& row) { return Cell(row[at]); }};
+}
+
+// A whole number, until it is filtered over time.
+ColumnOf<SignalValues> activeColumn(bool isSmoothed) {
+  ColumnOf<SignalValues> column = signal(SignalKind::kActive, "taxels", "touched taxels");
+  if (isSmoothed) return column;
+  return columnOf<SignalValues>(
+      column.column.name, column.column.unit, column.column.meaning, [](const SignalValues& row) {
+        return static_cast<std::int64_t>(row[static_cast<std::size_t>(SignalKind::kActive)]);
+      });
 }
 
 }  // namespace
 
-std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit, bool withComponents) {
+std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit,
+                                                  bool withComponents,
+                                                  bool isSmoothed) {
   std::vector<ColumnOf<SignalValues>> columns = {
       signal(SignalKind::kMean, unit, "mean of the touched taxels"),
       signal(SignalKind::kFilteredMean,
@@ -95,7 +105,7 @@ std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit, bool 
       signal(SignalKind::kMinimum, unit, "minimum of the touched taxels"),
       signal(SignalKind::kMaximum, unit, "maximum"),
       signal(SignalKind::kSum, unit, "sum"),
-      signal(SignalKind::kActive, "taxels", "touched taxels"),
+      activeColumn(isSmoothed),
       signal(SignalKind::kArea, "mm^2", "their area")};
   if (!withComponents) return columns;
   const char* const meaning = "sum of the readings over the baseline, along the surface";
@@ -110,12 +120,18 @@ std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit, bool 
 std::unique_ptr<ResultTable> signalTable(const Profile& profile,
                                          const SignalRowsOptions& options,
                                          const Progress& progress) {
+  const auto numMatrices = static_cast<std::int64_t>(profile.layout().numMatrices());
+  if (options.matrix && (*options.matrix < 0 || *options.matrix >= numMatrices))
+    throw std::invalid_argument("signalTable: there is no matrix " +
+                                std::to_string(*options.matrix) + ", only 0.." +
+                                std::to_string(numMatrices - 1));
   if (options.centres) return centreTable(profile, options.matrix, progress);
   if (options.smooth.dependsOnRate()) options.smooth.validateForRate(timingOf(profile).rateHz);
   return std::make_unique<RowTable<SignalRow>>(
       "signals",
-      matrixRowColumns(
-          signalColumns(profile.hand().unit, profile.givesReadings() && !options.ofHand)),
+      matrixRowColumns(signalColumns(profile.hand().unit,
+                                     profile.givesReadings() && !options.ofHand,
+                                     !options.smooth.empty())),
       [run = std::make_shared<SignalRun>(profile, options, progress)](
           std::vector<SignalRow>& rows) { return run->next(rows); });
 }

@@ -271,6 +271,8 @@ TEST_F(GhostingTest, RefusesWhatMakesNoSense) {
                std::invalid_argument);
   EXPECT_THROW(measureGhosting(profile, {}, truth, {.activeAboveCounts = std::nan("")}),
                std::invalid_argument);
+  EXPECT_THROW(measureGhosting(profile, {}, truth, {.activeAboveCounts = 1e10}),
+               std::invalid_argument);
   EXPECT_THROW(measureGhosting(profile, {}, truth, {.wholeMatrixFraction = 1.5}),
                std::invalid_argument);
   EXPECT_THROW(measureGhosting(profile, recipe("median:matrices=2"), truth), std::invalid_argument);

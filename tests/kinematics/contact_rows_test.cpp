@@ -95,6 +95,19 @@ TEST(ContactRows, sayWhichAnglesAreWrong) {
   EXPECT_TRUE(given->notes().empty());
 }
 
+TEST(ContactRows, haveNoPlaceInSpaceWithoutAngles) {
+  ProfileBuilder builder(sdh2().layout);
+  TactileFrame frame(sdh2().layout);
+  frame.matrix(0)(5, 2) = 16.0F;
+  builder.addFrame(1'000'000, frame.values);
+  const auto table = contactTable(builder.finish({}), sdh2Geometry());
+  EXPECT_NE(csvOf(*table).find("\n0,1000,1,,,,,\n"), std::string::npos);
+  ASSERT_EQ(table->problems().size(), 1u);
+  EXPECT_EQ(table->problems()[0].find("1 of 1 frames have no usable joint angles, and no sphere: 0 "
+                                      "joint angles for 7 axes"),
+            0u);
+}
+
 TEST(ContactRows, haveTheForceThatIsGiven) {
   const auto force = [](const TactileFrame& frame) {
     return frame.hostUs == 1'000'000   ? ForceReading{std::nullopt, true}

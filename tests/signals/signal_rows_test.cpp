@@ -54,6 +54,14 @@ TEST(SignalRows, AreOneForEachFrameAndMatrix) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2 * 6);
 }
 
+TEST(SignalRows, AreNotOfAMatrixThatIsNotThere) {
+  for (const std::int64_t matrix : {-1, 6}) {
+    EXPECT_THROW(signalTable(oneTaxel(), {.matrix = matrix}), std::invalid_argument);
+    EXPECT_THROW(signalTable(oneTaxel(), {.matrix = matrix, .centres = true}),
+                 std::invalid_argument);
+  }
+}
+
 TEST(SignalRows, CanBeOfTheWholeHand) {
   const std::vector<std::string> kalman = {"kalman"};
   for (const Recipe& smooth : {Recipe(), parseRecipe(kalman)}) {
@@ -79,6 +87,20 @@ TEST(SignalRows, AreSmoothedOverTime) {
   EXPECT_NE(rows, rowsOf(0));
   const std::vector<std::string> median = {"median"};
   EXPECT_THROW(rowsOf(0, parseRecipe(median)), std::invalid_argument);
+}
+
+// Files of other forms store a column by its kind.
+TEST(SignalRows, HaveCellsOfTheKindOfTheirColumn) {
+  const std::vector<std::string> kalman = {"kalman"};
+  for (const Recipe& smooth : {Recipe(), parseRecipe(kalman)}) {
+    const auto table = signalTable(oneTaxel(), {.smooth = smooth});
+    const auto kindOf = [&](std::size_t c) { return table->columns()[c].kind; };
+    EXPECT_EQ(kindOf(8), smooth.empty() ? CellKind::kInteger : CellKind::kNumber);
+    for (std::vector<Cell> cells; table->next(cells);)
+      for (std::size_t c = 0; c < cells.size(); ++c)
+        EXPECT_EQ(std::holds_alternative<std::int64_t>(cells[c]), kindOf(c) == CellKind::kInteger)
+            << table->columns()[c].name;
+  }
 }
 
 TEST(SignalRows, CanBeCancelled) {

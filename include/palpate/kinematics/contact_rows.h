@@ -22,7 +22,7 @@ namespace palpate {
 
 // The force of the hand in a frame.
 struct ForceReading {
-  std::optional<double> forceN;  // nothing: not known
+  std::optional<double> forceN;  // empty: not known
   bool isTooLight = false;       // only because contacts are lighter than the calibration's
 };
 
@@ -33,7 +33,7 @@ struct ContactRowsOptions {
   bool matrices = false;                   // a row per matrix instead of one per frame
   std::size_t first = 0, last = SIZE_MAX;  // frames, both inclusive
   std::function<ForceReading(const TactileFrame&)> forceOf = {};  // fills force_n of frames
-  std::string noForceText = {};  // why it may be unknown, as problems() say it
+  std::string noForceText = {};  // why it may be unknown, for problems()
 };
 
 // Computes the contacts of the frames of a profile, one after the other.

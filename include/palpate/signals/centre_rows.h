@@ -1,4 +1,4 @@
-// The centre of force of a matrix over time as a result table. docs/commands.md explains the
+// The centre of force of a matrix over time as a result table. docs/manual/columns.md explains the
 // columns.
 #pragma once
 
@@ -19,7 +19,7 @@ struct ForceCentre {
   double x = 0.0, y = 0.0;      // column and row [taxels]
   double xMm = 0.0, yMm = 0.0;  // on the unrolled surface, from the centre of taxel (0, 0)
 };
-// Nothing where nothing touches the matrix.
+// Empty where the matrix is not touched.
 std::optional<ForceCentre> forceCentre(const TactileFrame& frame, std::size_t matrix);
 
 // The table "centres": a row for each frame and matrix that is touched. Its rows throw Cancelled

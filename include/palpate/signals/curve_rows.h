@@ -1,4 +1,4 @@
-// Curves over time as result tables. docs/analysis.md and docs/compare.md explain the columns.
+// Curves over time as result tables. docs/manual/columns.md explains the columns.
 #pragma once
 
 #include <cstddef>

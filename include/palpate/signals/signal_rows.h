@@ -20,9 +20,10 @@
 namespace palpate {
 
 // The signals of a matrix, values in `unit`. With components: of a profile with readings
-// (Profile::givesReadings()).
+// (Profile::givesReadings()). Smoothed: filtered over time, where `active` may be a fraction.
 std::vector<ColumnOf<SignalValues>> signalColumns(const std::string& unit,
-                                                  bool withComponents = false);
+                                                  bool withComponents = false,
+                                                  bool isSmoothed = false);
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
@@ -33,9 +34,9 @@ struct SignalRowsOptions {
   bool unitsRow = false;  // of CSV: a second row with the units
   TimeChoice times = TimeChoice::kArrival;  // of the frames, before the filters
 };
-// The table "signals" of a profile that is filtered already. Throws std::invalid_argument (a filter
-// over space, or a frequency that is not below half of the rate, 1 / median interval); its rows
-// throw Cancelled and FileError.
+// The table "signals" of a profile that is filtered already. Throws std::invalid_argument (no such
+// matrix, a filter over space, or a frequency that is not below half of the rate, 1 / median
+// interval); its rows throw Cancelled and FileError.
 std::unique_ptr<ResultTable> signalTable(const Profile& profile,
                                          const SignalRowsOptions& options = {},
                                          const Progress& progress = {});

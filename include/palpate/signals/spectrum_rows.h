@@ -1,4 +1,4 @@
-// Spectra as result tables. docs/spectra.md explains the columns.
+// Spectra as result tables. docs/manual/columns.md explains the columns.
 #pragma once
 
 #include <memory>
