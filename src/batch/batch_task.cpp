@@ -31,21 +31,12 @@ std::string timesText(TimeChoice times) {
 
 std::string unitsRowText(bool unitsRow) { return unitsRow ? "; units-row" : ""; }
 
-// The recording of an item, filtered; the first half of the progress.
-Recording openFiltered(const BatchItem& item,
-                       const Recipe& filters,
-                       const Progress& progress,
-                       std::size_t threads,
-                       TimeChoice times = TimeChoice::kArrival,
-                       std::string* said = nullptr) {
-  Recording recording =
-      readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, 0.5));
-  if (times == TimeChoice::kFitted && said)
-    *said = takeFittedTimes(recording, item.source);
-  else
-    recording.profile = atTimes(times, recording.profile, item.source);
-  recording.profile = filteredBy(filters, recording, item.source, partOf(progress, 0.5, 0.5));
-  return recording;
+// Takes the chosen times; returns what a batch says of them, "; frames: drift ..".
+std::string takeTimes(TimeChoice times,
+                      Recording& recording,
+                      const fs::path& file,
+                      const Progress& progress) {
+  return times == TimeChoice::kFitted ? "; " + takeFittedTimes(recording, file, progress) : "";
 }
 
 // Why the result of an item has only a part of its recording; else empty.
@@ -98,17 +89,18 @@ BatchTask convertTask(const ConvertOptions& options) {
                         const Progress& progress,
                         std::size_t threads) {
         formatOf(item.target);
-        std::string said;
-        const Recording recording =
-            openFiltered(item, options.filters, progress, threads, options.times, &said);
+        Recording recording =
+            readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, 0.5));
+        const Progress prepared = partOf(progress, 0.5, 0.5);
+        const std::string times = takeTimes(options.times, recording, item.source, prepared);
+        recording.profile = filteredBy(options.filters, recording, item.source, prepared);
         recording.requireEvents();
         const Profile& profile = recording.profile;
         const SaveExtras extras = exportExtras(
             options.choices, {item.source, recording.meta}, item.target, profile, options.filters);
         const SaveReport saved = saveRecording(
             profile, recording.events, item.target, overwrite, partOf(progress, 0.5, 1.0), extras);
-        BatchAnswer answer{.said = counted(profile.numFrames(), "frame")};
-        if (!said.empty()) answer.said += "; " + said;
+        BatchAnswer answer{.said = counted(profile.numFrames(), "frame") + times};
         if (const std::string leftOut = leftOutText(profile, item.target); !leftOut.empty())
           answer.said += "; " + leftOut;
         if (saved.movedStamps > 0)
@@ -133,16 +125,18 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
                                const Progress& progress,
                                std::size_t threads) {
                 formatOf(item.target);
-                const Recording whole =
+                Recording whole =
                     readRecording(item.source, {.threads = threads}, partOf(progress, 0.0, 0.3));
                 whole.requireEvents();
                 const std::vector<GraspFrames> grasps = graspFrames(whole.profile, whole.events);
                 if (grasps.empty()) throw FileError(item.source, "has no grasp");
-                const Profile profile = filteredBy(
-                    options.filters, whole, item.source, partOf(progress, 0.3, 0.5), options.times);
                 BatchNameFields fields = nameFieldsOf(item);
                 fields.timeUs = whole.profile.frameTimeUs(0);
-                BatchAnswer answer{.said = counted(grasps.size(), "grasp")};
+                const std::string times =
+                    takeTimes(options.times, whole, item.source, partOf(progress, 0.3, 0.3));
+                const Profile profile =
+                    filteredBy(options.filters, whole, item.source, partOf(progress, 0.3, 0.5));
+                BatchAnswer answer{.said = counted(grasps.size(), "grasp") + times};
                 for (std::size_t i = 0; i < grasps.size(); ++i)
                   answer.results.push_back(names.pathFor(fields, i + 1, grasps.size()));
                 if (const std::string leftOut = leftOutText(profile, answer.results.front());

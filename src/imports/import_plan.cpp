@@ -335,7 +335,7 @@ std::vector<SeriesFile> exportedBeside(const fs::path& list,
       if (exportedTimeOf(openTable(at->path(), options)->columns()))
         beside.push_back({name, at->path(), std::nullopt});
     } catch (const Error&) {
-      // No table: nothing that was exported.
+      // Not a table, so not an export.
     }
   }
   std::ranges::sort(beside, {}, &SeriesFile::name);

@@ -74,7 +74,7 @@ std::optional<PlannedSeries> chooseSamples(Planning& p, PlannedSeries::Kind kind
 void chooseFurther(Planning& p, std::span<const SeriesFile> files, std::uint64_t mostRows);
 
 // The column of time_us in a table of samples that `palpate convert` writes beside a .csv
-// ("sample,time_ms,fz_N,..,time_us", then perhaps "device_time_us"); empty: it is none.
+// ("sample,time_ms,fz_N,..,time_us", then perhaps "device_time_us"); empty: another table.
 std::optional<std::size_t> exportedTimeOf(const std::vector<TableColumn>& columns);
 
 // The series of another file, and its notes and doubts in `plan`. Throws FormatError, FileError.

@@ -86,12 +86,13 @@ std::string featureMeaning(FeatureSet set, std::string_view name) {
       {"ln_active", "ln(active taxels + 1)"},
       {"ln_sum", "ln(sum of the values)"},
       {"closing_mm", "how far the pads close while the load rises"}};
-  static constexpr Meaning kOfSession[] = {{"row", "row of the centroid"},
-                                           {"column", "column of the centroid"},
-                                           {"ln_sum", "ln(sum of the values)"},
-                                           {"ln_peak", "ln(largest value)"},
-                                           {"ln_major", "larger principal second moment, as above"},
-                                           {"ln_minor", "the smaller one"}};
+  static constexpr Meaning kOfSession[] = {
+      {"row", "row of the centroid"},
+      {"column", "column of the centroid"},
+      {"ln_sum", "ln(sum of the values)"},
+      {"ln_peak", "ln(largest value)"},
+      {"ln_major", "ln(l + 0.15), l: larger principal second moment"},
+      {"ln_minor", "the same of the smaller moment"}};
   static constexpr Meaning kOfHand[] = {
       {"ln_sum", "ln(s + 0.001), s: sum of all taxels as a part of full scale"},
       {"ln_peak", "ln(p + 0.001), p: largest value as a part of full scale"},

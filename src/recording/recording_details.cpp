@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -56,50 +57,56 @@ void addEvents(RecordingDetails& details, const EventsReport& report) {
   }
 }
 
-// The first and the last block of frames are found without a look at the others: by the index over
-// the blocks, or, where an unfinished recording has none, because blocks lie in the order of their
-// writing.
-void readSpan(RecordingDetails& details, PalpateConnection& access) {
+struct StreamSpan {
+  std::int64_t items = 0;
+  std::int64_t startUs = 0;  // host time of the first item, since 1970
+  std::int64_t endUs = 0;    // of the last item
+};
+
+// Of a stream with items. Its first and last block are found without a look at the others: by the
+// index over the blocks, or, where an unfinished recording has none, because blocks lie in the
+// order of their writing. Throws FormatError.
+std::optional<StreamSpan> spanOf(Stream stream, const fs::path& path, PalpateConnection& access) {
   SqliteDatabase& database = access.database();
   const bool indexed = !access.unfinished() && !access.beingWritten();
-  SqliteStatement first = database.prepare(
-      indexed ? "SELECT t0_us FROM block WHERE stream=0 ORDER BY first LIMIT 1"
-              : "SELECT t0_us FROM block NOT INDEXED WHERE stream=0 ORDER BY id LIMIT 1");
-  if (!first.next()) {
-    details.numFrames = 0;
-    return;
-  }
-  details.startUs = first.integer(0);
-  SqliteStatement last = database.prepare(
-      indexed ? "SELECT first, n, t1_us FROM block WHERE stream=0 ORDER BY first DESC LIMIT 1"
-              : "SELECT first, n, t1_us FROM block NOT INDEXED WHERE stream=0 ORDER BY id DESC "
-                "LIMIT 1");
-  if (!last.next()) return;
+  const auto at = [&](const char* end) {
+    return database.prepare(std::string("SELECT first, n, t0_us, t1_us FROM block ") +
+                            (indexed ? "" : "NOT INDEXED ") +
+                            "WHERE stream=" + std::to_string(static_cast<int>(stream)) +
+                            " ORDER BY " + (indexed ? "first" : "id") + end + " LIMIT 1");
+  };
+  SqliteStatement first = at("");
+  if (!first.next()) return std::nullopt;
+  const std::int64_t startUs = first.integer(2);
+  SqliteStatement last = at(" DESC");
+  if (!last.next()) return std::nullopt;
   constexpr std::int64_t kMost = std::int64_t{1} << 60;
   const auto sensible = [](std::int64_t value) { return value >= 0 && value < kMost; };
-  const std::int64_t end = last.integer(2);
-  if (!sensible(last.integer(0)) || !sensible(last.integer(1)) || *details.startUs < -kMost ||
-      end > kMost || end < *details.startUs)
-    throw FormatError(details.path, "its blocks are invalid; try 'palpate recover'");
-  details.numFrames = last.integer(0) + last.integer(1);
-  details.durationUs = end - *details.startUs;
+  const std::int64_t endUs = last.integer(3);
+  if (!sensible(last.integer(0)) || !sensible(last.integer(1)) || startUs < -kMost ||
+      endUs > kMost || endUs < startUs)
+    throw FormatError(path, "its blocks are invalid; try 'palpate recover'");
+  return StreamSpan{last.integer(0) + last.integer(1), startUs, endUs};
 }
 
-void readSeriesSpans(RecordingDetails& details, PalpateConnection& access) {
-  SqliteDatabase& database = access.database();
-  for (auto& [index, series] : readSeries(database).sound) {
+void readSpans(RecordingDetails& details, PalpateConnection& access) {
+  const auto frames = spanOf(Stream::kTactile, details.path, access);
+  details.numFrames = frames ? frames->items : 0;
+  if (frames) {
+    details.startUs = frames->startUs;
+    details.durationUs = frames->endUs - frames->startUs;
+  }
+  for (auto& [index, series] : readSeries(access.database()).sound) {
     if (index < kHandSeries) continue;
-    SqliteStatement span =
-        database.prepare("SELECT sum(n), min(t0_us), max(t1_us) FROM block WHERE stream=" +
-                         std::to_string(static_cast<int>(streamOfSeries(index))));
     SeriesDetails& found = details.series.emplace_back();
     found.name = std::move(series.name);
     found.columns = std::move(series.columns);
-    if (!span.next()) continue;
-    found.samples = std::max<std::int64_t>(span.integer(0), 0);
-    const double us = static_cast<double>(span.integer(2)) - static_cast<double>(span.integer(1));
-    if (found.samples > 1 && us > 0.0)
-      found.rateHz = static_cast<double>(found.samples - 1) * kUsPerS / us;
+    const auto samples = spanOf(streamOfSeries(index), details.path, access);
+    if (!samples) continue;
+    found.samples = samples->items;
+    if (samples->items > 1 && samples->endUs > samples->startUs)
+      found.rateHz = static_cast<double>(samples->items - 1) * kUsPerS /
+                     static_cast<double>(samples->endUs - samples->startUs);
   }
 }
 
@@ -163,8 +170,7 @@ void addPalpateDetails(RecordingDetails& details) {
     details.message = "its writer stopped before the end; it can be recovered";
   }
   addEvents(details, readEventRows(access.database()));
-  readSpan(details, access);
-  readSeriesSpans(details, access);
+  readSpans(details, access);
 }
 
 std::string SeriesDetails::text() const {

@@ -7,6 +7,7 @@
 
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/recording/crop.h"
 
 #include "testing/testing.h"
 
@@ -83,6 +84,12 @@ TEST(TakeFittedTimes, LeavesANote) {
   EXPECT_EQ(recording.events[1].kind, "note");
   EXPECT_EQ(recording.events[1].text, "times fitted to the sender's clock: " + said);
   EXPECT_EQ(recording.profile.frameTimeUs(0), 1'000'004);
+  // A part of it keeps the note.
+  const Profile part = cropped(recording.profile, 100, 150);
+  const std::vector<Event> within = eventsWithin(recording.events, part);
+  ASSERT_EQ(within.size(), 1u);
+  EXPECT_EQ(within[0].text, recording.events[1].text);
+  EXPECT_EQ(within[0].tUs, part.frameTimeUs(0));
 }
 
 }  // namespace

@@ -95,6 +95,26 @@ TEST(RecordingDetails, namesFurtherSeries) {
   }
 }
 
+TEST(RecordingDetails, namesFurtherSeriesOfOneThatIsBeingRecorded) {
+  const TemporaryFolder folder;
+  PalpateWriter writer(folder / "r.palpate", sdh2().layout);
+  const std::size_t wrist = writer.addSeries({"wrist", "", {{"fx", "N"}}, ""});
+  for (int i = 0; i < 2001; ++i) {
+    Sample sample;
+    sample.series = wrist;
+    sample.hostUs = kSampleStartUs + i * 1000;
+    sample.values = {1.0 * i};
+    writer.addSample(sample);
+  }
+  writer.commit();
+  const RecordingDetails details = readDetails(folder / "r.palpate");
+  EXPECT_EQ(details.state, State::kRecording);
+  EXPECT_EQ(details.numFrames, 0);
+  ASSERT_EQ(details.series.size(), 1u);
+  EXPECT_EQ(details.series[0].samples, 2001);
+  EXPECT_NEAR(details.series[0].rateHz, 1000.0, 1e-6);
+}
+
 TEST(RecordingDetails, framesArentRead) {
   const TemporaryFolder folder;
   const fs::path path = writeRecording(folder / "r.palpate", 2000);

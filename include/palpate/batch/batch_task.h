@@ -42,7 +42,7 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options =
 
 // A result table of a recording, as a command prints it and a batch writes it.
 struct RecordingTable {
-  // Everything that the rows depend on beside the recording, as in BatchTask.
+  // Everything besides the recording that the rows depend on, as in BatchTask.
   std::string options;
   // Makes the table; `file` is for messages. Throws Error, std::invalid_argument.
   std::function<std::unique_ptr<ResultTable>(

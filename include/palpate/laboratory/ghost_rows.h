@@ -1,5 +1,5 @@
 // How well filters remove ghosts, as a result table: a row for each recipe and source of frames.
-// docs/ghosting.md explains the columns.
+// docs/manual/tables.md explains the columns.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// What a model answers, and how often that is right, as result tables. docs/recognition.md explains
-// the columns.
+// What a model answers, and how often that is right, as result tables. docs/manual/tables.md
+// explains the columns.
 #pragma once
 
 #include <memory>

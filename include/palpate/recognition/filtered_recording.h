@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -13,8 +15,8 @@
 
 namespace palpate {
 
-// The profile at the chosen times. Throws Error where the frames have no times of a sender to fit;
-// with `said`, which is set to what is known of each clock, only where no series has any, either.
+// The profile at the chosen times. `said` is set to what is known of each clock. Throws Error where
+// the frames have no times of a sender to fit; with `said` only where no series has any, either.
 inline Profile atTimes(TimeChoice times,
                        const Profile& profile,
                        const std::filesystem::path& file,
@@ -35,18 +37,22 @@ inline Profile atTimes(TimeChoice times,
   return fitted.profile;
 }
 
-// The same of a recording that is saved afterwards: a note tells of it.
+// The same of a recording that is saved afterwards: a note from its first frame to its last one
+// tells of it, so that each part that is cut out keeps the note. Returns what is known of each
+// clock.
 inline std::string takeFittedTimes(Recording& recording,
                                    const std::filesystem::path& file,
                                    const Progress& progress = {}) {
   std::string said;
   recording.profile = atTimes(TimeChoice::kFitted, recording.profile, file, progress, &said);
-  const std::int64_t us = recording.profile.numFrames() > 0 ? recording.profile.frameTimeUs(0) : 0;
+  const std::size_t count = recording.profile.numFrames();
+  const std::int64_t us = count > 0 ? recording.profile.frameTimeUs(0) : 0;
+  const std::int64_t endUs = count > 0 ? recording.profile.frameTimeUs(count - 1) : us;
   const auto after = std::find_if(recording.events.begin(),
                                   recording.events.end(),
                                   [&](const Event& event) { return event.tUs > us; });
-  recording.events.insert(after,
-                          {us, us, "note", {}, "times fitted to the sender's clock: " + said, ""});
+  recording.events.insert(
+      after, {us, endUs, "note", {}, "times fitted to the sender's clock: " + said, ""});
   return said;
 }
 

@@ -1,4 +1,4 @@
-// Sizes of grasped objects as a result table. docs/contact.md explains the columns.
+// Sizes of grasped objects as a result table. docs/manual/tables.md explains the columns.
 #pragma once
 
 #include <memory>

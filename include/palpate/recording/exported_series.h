@@ -42,7 +42,7 @@ class ExportedSeries {
   }
   // The group it belongs to: "signals", "slip".
   const std::string& name() const noexcept { return table_->name(); }
-  const std::vector<Column>& columns() const noexcept { return columns_; }  // behind `time_us`
+  const std::vector<Column>& columns() const noexcept { return columns_; }  // after `time_us`
   std::size_t numRows() const noexcept { return numRows_; }
   // Reads the next row: its time [us since 1970] and a value per column; a value that is not known
   // is NaN. Returns false after the last row. Throws FileError where the frames can't be read.

@@ -23,7 +23,7 @@ constexpr std::int32_t kPalpateApplicationId = 0x50414C50;  // "PALP"
 constexpr std::int32_t kPalpateVersion = 1;                 // user_version
 // The user_version of a file that has blocks with device times in microseconds.
 constexpr std::int32_t kPalpateVersionWithDeviceUs = 2;
-// The user_version of a file with series beside those of the hand (table `series`), with taxels
+// The user_version of a file with series besides those of the hand (table `series`), with taxels
 // whose touch is decided when they are read (key `touch_rules` of the table `meta`), or with taxels
 // that aren't square (`pitch_y_mm`).
 constexpr std::int32_t kPalpateVersionWithSeries = 3;

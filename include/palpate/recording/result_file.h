@@ -1,5 +1,5 @@
-// Result tables (core/result_table.h) as files, in the form of the file's ending; docs/bridges.md,
-// "Tables of results", has their layouts.
+// Result tables (core/result_table.h) as files, in the form of the file's ending;
+// docs/notes/exchange_formats.md, "Tables of results", has their layouts.
 //
 //   .csv, .json  as text (writeTableFile())
 //   .npz         an array per column, and `meta`: the head of the JSON form

@@ -87,7 +87,7 @@ void matWriteElement(const MatSink& sink, std::uint32_t type, const std::string&
   matWritePadding(sink, data.size());
 }
 
-// UTF-8 as units of UTF-16; what is no UTF-8, or above U+FFFF, becomes U+FFFD: readers count
+// UTF-8 as units of UTF-16; what is not UTF-8, or above U+FFFF, becomes U+FFFD: readers count
 // letters in units (MATLAB) or in code points (SciPy), which are the same below U+10000 only.
 std::u16string utf16(std::string_view text) {
   std::u16string units;

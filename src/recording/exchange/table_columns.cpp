@@ -19,7 +19,7 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kTextRoomBytes = 256;  // what a text takes beside its characters
+constexpr std::size_t kTextRoomBytes = 256;  // of a text, besides its characters
 
 // The cells of a column. What isn't known: of numbers NaN, of texts the empty one. A column of
 // whole numbers or flags with such cells becomes one of numbers.

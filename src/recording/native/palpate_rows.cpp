@@ -419,11 +419,10 @@ MetaRows readMeta(SqliteDatabase& database) {
   while (rows.next()) {
     std::string key = rows.text(0);
     std::string value = rows.text(1);
-    if (rows.integer(2) != static_cast<std::int64_t>(metaCrc(key, value))) {
+    if (rows.integer(2) != static_cast<std::int64_t>(metaCrc(key, value)))
       ++meta.damaged;
-    } else {
+    else
       meta.values.insert_or_assign(std::move(key), std::move(value));
-    }
     if (meta.damaged + meta.values.size() > kMostRows)
       throw FormatError(database.path(), "has too many rows of meta data");
   }

@@ -42,11 +42,10 @@ std::string maskText(const Mask& mask);
 void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view value);
 void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 
-// Reads the layout back, with the rules of touch of a recording of readings; where these are
-// damaged, with those of its hand. Throws FormatError where it is damaged or makes no sense.
 struct MetaRows;
-// Where the rules of touch are damaged, those of the hand are taken with `rulesOfHand`; else that
-// throws FormatError.
+// Reads the layout back, with the rules of touch of a recording of readings; where these are
+// damaged, with those of its hand if `rulesOfHand`. Throws FormatError where it is damaged or makes
+// no sense.
 SensorLayout readLayout(SqliteDatabase& database, const MetaRows& meta, bool rulesOfHand = false);
 
 // The description of a series beside those of the hand. The first one makes the table.
