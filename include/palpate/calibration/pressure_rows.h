@@ -1,4 +1,4 @@
-// Pressures and forces as result tables. docs/calibration.md explains the columns.
+// Pressures and forces as result tables. docs/manual/forces.md explains the columns.
 #pragma once
 
 #include <vector>
