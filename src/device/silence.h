@@ -20,8 +20,8 @@ struct Silence {
 // `withoutLast`: one came at its end.
 std::uint64_t missingIn(std::int64_t us, double periodUs, bool withoutLast);
 
-// `what`: the items that did not come ("frames", "rows of the series wrist"); `noun`: one of them, as
-// it is counted ("frame", "sample"). `stream`: the name of the series; empty: frames.
+// `what`: the items that did not come ("frames", "rows of the series wrist"); `noun`: one of them,
+// as it is counted ("frame", "sample"). `stream`: the name of the series; empty: frames.
 Event gapEventOf(const Silence& silence,
                  const std::string& what,
                  const std::string& noun,
