@@ -97,6 +97,9 @@ BoundedQueue<CaptureItem>& CaptureQueue::queueOf(CaptureStream stream) {
 
 void CaptureQueue::nameSeries(std::vector<std::string> names) {
   const std::lock_guard lock(lossMutex_);
+  // What was lost of a series that is removed is still to be told.
+  for (std::size_t i = 0; i < std::min(names.size(), options_.series.size()); ++i)
+    if (names[i].empty()) names[i] = options_.series[i];
   options_.series = std::move(names);
 }
 

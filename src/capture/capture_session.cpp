@@ -20,7 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostRestFrames = 2'000;  // of a baseline: memory is bounded at any rate
-
 constexpr std::size_t kMostShown = 1000;
 
 std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
@@ -88,6 +87,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
       meter_(options_.health),
       scansItself_(device_->isFreeRunning()),
       hand_(device_->hand()) {
+  OptionCheck{"CaptureOptions"}(CaptureOptions::kBaselineS, "baselineS", options_.baselineS);
   recorder_.nameSeries(seriesNames());
 }
 
@@ -296,8 +296,8 @@ std::string CaptureSession::takeBaseline() {
         "for others there is the filter baseline");
   Rest rest = restNow();
   Event event = baselineEvent(rest.baseline, nowUs());
-  event.text += ", " + baselineText(rest.baseline, rest.numFrames);
   std::string text = baselineText(rest.baseline, rest.numFrames);
+  event.text += ", " + text;
   {
     const std::lock_guard lock(baselineMutex_);
     // A replay has its own.

@@ -1,8 +1,5 @@
 #include "palpate/capture/contact_trigger.h"
 
-#include <stdexcept>
-#include <string>
-
 namespace palpate {
 void ContactTriggerOptions::validate() const {
   constexpr OptionCheck check{"ContactTriggerOptions"};

@@ -5,20 +5,12 @@
 #include <utility>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/stream_device.h"
 
 #include "device/series_link.h"
 #include "device/stream_source.h"
 
 namespace palpate {
-namespace {
-
-void requireBaud(std::int64_t baud) {
-  if (baud < 50 || baud > 10'000'000)
-    throw std::invalid_argument("baud " + std::to_string(baud) + " is not in 50..10000000");
-}
-
-}  // namespace
-
 SeriesPlace seriesPlaceOf(std::string_view text) {
   constexpr std::string_view kSerial = "serial:";
   const bool isSerial = text.starts_with(kSerial);
@@ -28,7 +20,7 @@ SeriesPlace seriesPlaceOf(std::string_view text) {
   if ((!isSerial && !text.starts_with('/')) || at == std::string_view::npos) return place;
   const auto baud = parseInteger(text.substr(at + 1));
   if (!baud) return place;
-  requireBaud(*baud);
+  OptionCheck{"series"}(StreamDeviceOptions::kBaud, "baud", static_cast<double>(*baud));
   place.source.resize(at);
   place.baud = static_cast<int>(*baud);
   return place;
@@ -37,7 +29,7 @@ SeriesPlace seriesPlaceOf(std::string_view text) {
 void SeriesSourceOptions::validate() const {
   palpate::validate(SeriesDescription{name, "", {{"1", ""}}, ""});
   if (source.empty()) throw std::invalid_argument("series " + name + ": no source is named");
-  requireBaud(baud);
+  OptionCheck{("series " + name).c_str()}(StreamDeviceOptions::kBaud, "baud", baud);
   if (!columns.empty()) requireColumns(columns);
   if (!open) StreamSource{source, baud};
 }

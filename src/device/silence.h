@@ -16,11 +16,12 @@ struct Silence {
   bool estimated = true;
 };
 
-// How many items of a period are missing in a time; `withoutLast`: one came at its end.
+// How many items are missing in a time of `us`, when one is due every `periodUs` [us];
+// `withoutLast`: one came at its end.
 std::uint64_t missingIn(std::int64_t us, double periodUs, bool withoutLast);
 
-// `what` is absent ("frames", "rows of the series wrist"), an item of which is a `noun`. `stream`:
-// the name of the series; empty: frames.
+// `what`: the items that did not come ("frames", "rows of the series wrist"); `noun`: one of them,
+// as it is counted ("frame", "sample"). `stream`: the name of the series; empty: frames.
 Event gapEventOf(const Silence& silence,
                  const std::string& what,
                  const std::string& noun,

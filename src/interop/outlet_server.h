@@ -1,7 +1,7 @@
-// What the servers for other programs have in common: clients are accepted and served on a thread
-// of its own, and are told when it ends. Each server has one, so that the clients of one outlet
-// never delay those of another. `Session` is one client: its close() says goodbye and ends with
-// ended(), at once or later.
+// What the servers for other programs have in common: one thread per server accepts and serves its
+// clients, so that those of one outlet never delay those of another, and closes their sessions when
+// the server ends. `Session` is one client: its close() says goodbye and calls ended(), at once or
+// later.
 #pragma once
 
 #include <cerrno>
@@ -24,7 +24,7 @@ namespace palpate {
 namespace asio = boost::asio;
 using BoostError = boost::system::error_code;
 
-// Declared behind everything that sessions use: they end with it at the latest.
+// Declare it after everything that sessions use: they end with it at the latest.
 template <typename Session>
 class OutletServer {
  public:

@@ -216,8 +216,7 @@ std::optional<double> LiveSeries::valueAt(const SeriesChoice& choice, double tim
   const auto index = times.indexAt(timeS);
   if (!index || timeS > std::max(newestS(), times.timeS.back())) return std::nullopt;
   if (timeS > times.timeS[*index] && times.breaksAt(*index)) return std::nullopt;
-  // Behind the newest sample of a column.
-  if (timeS > times.timeS.back() && timeS > times.timeS.back() + entry->gapS) return std::nullopt;
+  if (timeS > times.timeS.back() + entry->gapS) return std::nullopt;  // only of a column
   const double value = entry->values[*index];
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }

@@ -346,6 +346,14 @@ TEST(CaptureSession, aStopEndsTheRecordingWhole) {
 
 TEST(CaptureSession, needsADevice) { EXPECT_THROW(CaptureSession(nullptr), std::invalid_argument); }
 
+TEST(CaptureSession, RefusesABaselineOfNoTime) {
+  for (const double seconds : {-1.0, 0.0, 61.0}) {
+    CaptureOptions options;
+    options.baselineS = seconds;
+    EXPECT_THROW(ScriptedSession{options}, std::invalid_argument) << seconds;
+  }
+}
+
 // Marks during a replay have the recording's time, not the present one.
 TEST(CaptureSession, marksAreInTheTimeOfTheStamps) {
   ScriptedSession scripted;
