@@ -5,7 +5,7 @@ import sys
 
 import palpate
 
-HEAD = '''# Types of the module palpate, made with it; help() and docs/python.md explain it.
+HEAD = '''# Types of the module palpate, made with it; help() and docs/manual/python.md explain it.
 import os
 from collections.abc import Iterator, Sequence
 from typing import Any, Union, overload
