@@ -93,6 +93,7 @@ TEST_F(LabelsCommandTest, NamesBadRowsByTheirLine) {
   expectOneLineError(palpate({"labels", path_, "--import", table}), 1, {"labels.csv", "begin_s"});
   expectOneLineError(palpate({"labels", path_, path_, "--import", table}), 2, {"one FILE"});
   expectOneLineError(palpate({"labels", path_, "--import", folder_ / "none.csv"}), 1, {"none.csv"});
+  expectOneLineError(palpate({"labels", path_, "--import", table, "--json"}), 2, {"--import"});
 }
 
 }  // namespace

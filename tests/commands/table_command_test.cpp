@@ -90,6 +90,23 @@ TEST(TableCommands, WriteFilesByTheirEnding) {
   }
 }
 
+TEST(TableCommands, RefuseAnOutputBeforeTheWork) {
+  const testing::TemporaryFolder folder;
+  const std::string out = folder / "out.json";
+  testing::writeFile(out, "kept");
+  // The recording doesn't exist: the output is looked at first.
+  const std::string none = folder / "none.dsa";
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"derive", none, "m1_mean"}, {"evaluate", none}, {"calibrate", "tare", none, "--apply"}})
+    expectOneLineError(palpate(withFile(words, none, {"-o", out})), 1, {"out.json", "--force"});
+  expectOneLineError(
+      palpate({"classify", out, none, "-o", out, "--force"}), 1, {"out.json", "the input itself"});
+  expectOneLineError(palpate({"evaluate", none, "--model", out, "-o", out, "--force"}),
+                     1,
+                     {"out.json", "the input itself"});
+  EXPECT_EQ(testing::readFile(out), "kept");
+}
+
 TEST(TableCommands, AddTimesInSecondsAndAsDates) {
   const std::string file = testing::dataFolder() / "demo_grasps.dsa";
   const auto headOf = [&](const std::vector<std::string>& words) {

@@ -23,12 +23,10 @@ int calibrateNoise(const Arguments& words) {
                   "temperature of the nearest motor. Prints JSON: slope [counts/deg C], intercept "
                   "[counts], rmse [counts] (as the study defines it) and rmse_true (of this line). "
                   "A threshold of intercept + slope T + 3 rmse hides the noise.",
-       .options =
-           {bound("bins", "N", "equal bins over the temperatures", options.bins, options.kBins),
-            {"output,o",
-             "OUT",
-             "write the lines to this file: .xml for the prior program, else JSON"},
-            {"force", "", "replace OUT"}},
+       .options = withOutputOptions(
+           {bound("bins", "N", "equal bins over the temperatures", options.bins, options.kBins)},
+           "OUT",
+           "write the lines to this file: .xml for the prior program, else JSON"),
        .example = "palpate calibrate noise temperature-noise.dsa -o noise.xml",
        .minArguments = 1,
        .maxArguments = 1},

@@ -42,7 +42,7 @@ int calibratePressure(const Arguments& words) {
            "improves with them; T is that of the motor nearest to the matrix. --choices study "
            "keeps all terms and takes the study's T. Prints the calibration as JSON, or writes it "
            "to P.json for `calibrate apply` and `contact --calibration`.",
-       .options =
+       .options = withOutputOptions(
            {bound("matrix",
                   "M",
                   "the matrix that was loaded",
@@ -72,9 +72,8 @@ int calibratePressure(const Arguments& words) {
                   "COUNTS",
                   "offset of K over sensitivity (`calibrate sensitivity`)",
                   sensitivityOffset,
-                  {-kLargestFullScale, kLargestFullScale}),
-            {"output,o", "P.json", "write the result to this file"},
-            {"force", "", "replace P.json"}},
+                  {-kLargestFullScale, kLargestFullScale})},
+           "P.json"),
        .example = "palpate calibrate pressure weights.csv --area 110.25 -o hand.json",
        .minArguments = 1,
        .maxArguments = 1},

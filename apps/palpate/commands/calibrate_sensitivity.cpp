@@ -45,18 +45,16 @@ int calibrateSensitivity(const Arguments& words) {
            "sensitivities in one recording. Prints JSON: the points, slope, offset and r2 of K = "
            "slope s + offset, and how the threshold explains the offset. Without --sensitivities "
            "the N steps are taken as 1/N, 2/N, .., 1 (a .dsa stores no sensitivity).",
-       .options = {matrixSpec(),
-                   {"sensitivities", "S1,S2,..", "sensitivities of the steps, in order"},
-                   bound("threshold",
-                         "N",
-                         "threshold while it was recorded, for the explanation",
-                         threshold,
-                         SensorSettings::kThresholdCounts),
-                   boundChoice("signal", "NAME", "", options.steps.signal, signalWords()),
-                   boundChoice(
-                       "loss", "NAME", "of the step fits", options.fit.loss, kStepLossWords),
-                   {"output,o", "OUT.json", "write the result to this file"},
-                   {"force", "", "replace OUT.json"}},
+       .options = withOutputOptions(
+           {matrixSpec(),
+            {"sensitivities", "S1,S2,..", "sensitivities of the steps, in order"},
+            bound("threshold",
+                  "N",
+                  "threshold while it was recorded, for the explanation",
+                  threshold,
+                  SensorSettings::kThresholdCounts),
+            boundChoice("signal", "NAME", "", options.steps.signal, signalWords()),
+            boundChoice("loss", "NAME", "of the step fits", options.fit.loss, kStepLossWords)}),
        .example = "palpate calibrate sensitivity sensitivity_0.1-1.0.dsa --matrix 1",
        .minArguments = 1,
        .maxArguments = 1},

@@ -20,7 +20,7 @@ int calibrateStep(const Arguments& words) {
                   "t. Prints JSON: per step the frames, K [counts], m [counts/s], T1, T2 [s], "
                   "covariance (in the order K, m, T1, T2), properties of the curve (dead time, "
                   "inflection, t_k), temperatures, and in `notes` the reasons to doubt the fit.",
-       .options =
+       .options = withOutputOptions(
            {matrixSpec(),
             boundChoice("signal", "NAME", "", options.steps.signal, signalWords()),
             boundChoice(
@@ -39,9 +39,7 @@ int calibrateStep(const Arguments& words) {
                   "S",
                   "shorter contacts are not steps",
                   options.steps.minDurationS,
-                  options.steps.kMinDurationS),
-            {"output,o", "OUT.json", "write the result to this file"},
-            {"force", "", "replace OUT.json"}},
+                  options.steps.kMinDurationS)}),
        .example = "palpate calibrate step A1.dsa --matrix 1",
        .minArguments = 1,
        .maxArguments = 1},

@@ -46,9 +46,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   formatOf(out);
   requireOther(in, out);
   requireWritable(out, overwrite);
-  const auto from = given.integer("from", kFrameOption);
-  const auto to = given.integer("to", kFrameOption);
-  if (from && to && *from > *to) throw UsageError("--from is after --to");
+  const FrameChoice frames = frameChoiceOf(given);
   const Recipe recipe = recipeOf(given);
   const ExportChoices choices = exportChoicesOf(given, recipe, out);
   Recording recording = [&] {
@@ -58,19 +56,15 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   recording.requireEvents();
   takeTimes(given, recording, in);
   Profile& profile = recording.profile;
-  if (from || to) {
-    if (profile.numFrames() == 0) throw Error(in + ": has no frames");
-    const std::size_t first = static_cast<std::size_t>(from.value_or(0));
-    const std::size_t last = to ? static_cast<std::size_t>(*to) : profile.numFrames() - 1;
-    if (first > last || last >= profile.numFrames())
-      throw Error(in + ": has no frames " + std::to_string(first) + ".." + std::to_string(last) +
-                  ", only 0.." + std::to_string(profile.numFrames() - 1));
+  if (frames.from || frames.to) {
+    const auto [first, last] = framesOf(frames, in, profile);
     profile = cropped(profile, first, last);
     recording.events = eventsWithin(recording.events, profile);
   }
   profile = filteredBy(recipe, recording, in);
   SaveExtras extras = exportExtras(choices, {in, recording.meta}, out, profile, recipe);
-  if (from || to) extras.meta.erase("settings");  // those at the start of the whole recording
+  if (frames.from || frames.to)
+    extras.meta.erase("settings");  // those at the start of the whole recording
   reportLeftOut(profile, out);
   const SaveReport saved = [&] {
     ProgressLine progress("writing " + out, given.quiet());
@@ -161,13 +155,11 @@ int convertCommand(const Arguments& words) {
                   "schunk_sdh/TactileSensor). Of a FOLDER it converts every recording below it, "
                   "into OUTFOLDER under the same names with the ending of FORM, and prints a line "
                   "per file. If one fails, the others are still converted: exit code 3.",
-       .options = withBatchOptions(withExportOptions(withFilterOptions(
-           {rangedWhole("from", "N", "first frame", kFrameOption, "0"),
-            rangedWhole("to", "M", "last frame (inclusive)", kFrameOption, "the last one"),
-            {"each-grasp", "", "a file for each grasp, as -o out/{name}_{n}.palpate"},
+       .options = withBatchOptions(withExportOptions(withFilterOptions(withFrameOptions(
+           {{"each-grasp", "", "a file for each grasp, as -o out/{name}_{n}.palpate"},
             worded("to-form", "FORM", "of a folder", formWords()),
             timeOption(),
-            topicOption()}))),
+            topicOption()})))),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
        .minArguments = 1},
       words);

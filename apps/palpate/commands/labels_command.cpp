@@ -79,6 +79,8 @@ int labelsCommand(const Arguments& words) {
   if (given.helpShown()) return kDone;
   if (const auto from = given.text("import")) {
     if (given.words().size() != 1) throw UsageError("--import takes one FILE");
+    if (given.options().size() > 1U + given.quiet())
+      throw UsageError("--import doesn't print a table: leave out its options");
     return importLabels(given, given.words()[0], *from);
   }
   return runTableCommand(

@@ -10,6 +10,7 @@
 #include "palpate/core/file_name.h"
 #include "palpate/model/time_base.h"
 #include "palpate/model/time_columns.h"
+#include "palpate/recording/recording.h"
 #include "palpate/recording/result_file.h"
 
 #include "commands/batch_options.h"
@@ -30,6 +31,21 @@ void sayOfTable(const std::string& line) {
   std::fprintf(stderr, "palpate: %s\n", escapedLine(line).c_str());
 }
 
+Overwrite overwriteOf(const CommandLine& given) {
+  return given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+}
+
+// A value of another option can be a file, too: a model, a calibration.
+void checkOutput(const CommandLine& given) {
+  const auto out = given.text("output");
+  if (!out) return;
+  for (const std::string& word : given.words()) requireOther(word, *out);
+  for (const auto& [name, values] : given.options())
+    if (name != "output")
+      for (const std::string& value : values) requireOther(value, *out);
+  requireWritable(*out, overwriteOf(given));
+}
+
 }  // namespace
 
 std::vector<OptionSpec> withTableOptions(std::vector<OptionSpec> options) {
@@ -39,8 +55,9 @@ std::vector<OptionSpec> withTableOptions(std::vector<OptionSpec> options) {
 }
 
 std::vector<OptionSpec> withOutputOptions(std::vector<OptionSpec> options,
-                                          const std::string& file) {
-  options.push_back({"output,o", file, "write the result to this file"});
+                                          const std::string& file,
+                                          const std::string& help) {
+  options.push_back({"output,o", file, help, &checkOutput});
   options.push_back({"force", "", "replace a file that exists"});
   return options;
 }
@@ -113,7 +130,7 @@ BatchTemplate tableTemplateOf(const CommandLine& given) {
 
 ResultOutput::ResultOutput(const CommandLine& given, bool outputTaken) : quiet_(given.quiet()) {
   if (const auto out = given.text("output"); out && !outputTaken)
-    file_.emplace(*out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
+    file_.emplace(*out, overwriteOf(given));
 }
 
 void ResultOutput::write(const std::string& text) {

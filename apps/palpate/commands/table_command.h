@@ -17,9 +17,13 @@ namespace palpate::commands {
 
 // `options` followed by --units-row, --json and those of batch_options.h.
 std::vector<OptionSpec> withTableOptions(std::vector<OptionSpec> options);
-// `options` followed by -o FILE and --force: of a command with one result.
-std::vector<OptionSpec> withOutputOptions(std::vector<OptionSpec> options,
-                                          const std::string& file = "OUT.json");
+// `options` followed by -o FILE and --force: of a command with one result. CommandLine then throws
+// FileError, before the work, for a file that the command reads, and for one that exists where
+// --force is missing.
+std::vector<OptionSpec> withOutputOptions(
+    std::vector<OptionSpec> options,
+    const std::string& file = "OUT.json",
+    const std::string& help = "write the result to this file");
 // The same with --units-row and --json: of a command with one table.
 std::vector<OptionSpec> withOneTableOptions(
     std::vector<OptionSpec> options, const std::string& json = "one object of JSON instead of CSV");

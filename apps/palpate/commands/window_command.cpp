@@ -1,6 +1,5 @@
 // The command without a name, `palpate [FILE...]`, also with --demo or --screenshot, starts the
 // window.
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -29,9 +28,6 @@ std::optional<Recipe> filtersOf(const CommandLine& given) {
   return recipe.steps.empty() ? std::nullopt : std::optional(std::move(recipe));
 }
 
-// As ScreenshotOptions::theme has them.
-constexpr std::array<OptionWord<const char*>, 2> kScreenshotThemes{
-    {{"dark", "dark"}, {"light", "light"}}};
 constexpr OptionRange kAfterS{0.0, 3600.0, "s"};
 constexpr QSize kSmallestWindow{800, 500};
 
@@ -118,7 +114,7 @@ int windowCommand(const Arguments& words) {
 
             },
             {"settings", "INI", "with --screenshot: settings file of the window; it isn't changed"},
-            worded("theme", "NAME", "with --screenshot", kScreenshotThemes, "dark"),
+            worded("theme", "NAME", "with --screenshot", gui::kThemeWords, "dark"),
             {"gl", "", "draw the hand in 3-D with OpenGL, even by the processor"},
             {"no-gl", "", "draw the hand in 3-D without OpenGL"},
             {"angles", "A0,A1,..", "joint angles [deg; mm] assumed for recordings without any"},
