@@ -117,6 +117,24 @@ TEST(ReadingsPainter, TheMagnitudeHasASequentialMap) {
             QColor::fromRgb(table[static_cast<std::size_t>(colorIndex(120.0, 0.0, 130.0))]));
 }
 
+// The pressed taxel reads 120 into the surface; its magnitude is 130.
+TEST(ReadingsPainter, TheNormalComponentSaturatesInEveryView) {
+  const auto isFramed = [](float saturation, TaxelView view) {
+    HandDescription hand = threeAxes();
+    hand.saturationCounts = saturation;
+    MatricesPictureOptions with = options();
+    with.taxels = view;
+    with.rangeMax = 500.0;  // no colour is white
+    const MatricesGeometry geometry(QRectF(QPointF(), QSizeF(kSize)), hand, with);
+    const QImage image = paint(pressedAndPulled(), with, hand);
+    return image.pixelColor(geometry.taxelRect(0, 0, 0).topLeft().toPoint()) == QColor(Qt::white);
+  };
+  for (const TaxelView view : kAllTaxelViews) {
+    EXPECT_TRUE(isFramed(120.0F, view));
+    EXPECT_FALSE(isFramed(125.0F, view));
+  }
+}
+
 TEST(ReadingsPainter, RangesOfSignedValuesLieAroundZero) {
   MatricesPictureOptions with = options();
   with.isSigned = true;

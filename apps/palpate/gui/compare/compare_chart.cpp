@@ -79,6 +79,11 @@ void CompareChart::setCurves(const CompareCurves& curves) {
   const bool otherPair = !curves_.a != !curves.a || !curves_.b != !curves.b ||
                          curves.overlaid.span != curves_.overlaid.span;
   curves_ = curves;
+  const auto longestOf = [&curves](const std::shared_ptr<const Series>& series) {
+    return curves.column && series ? gapOfTimesS(series->timeS) : 0.0;
+  };
+  longestA_ = longestOf(curves.curveA);
+  longestB_ = longestOf(curves.curveB);
   rebuild();
   if (otherPair) fit();
 }
@@ -254,12 +259,12 @@ void CompareChart::refill() {
     graph(index)->data()->set(samples, true);
   };
   const auto gaps = [this](const std::shared_ptr<const Series>& series,
-                           const std::shared_ptr<const TimedProfile>& timed) {
-    return curves_.column && series ? gapsOf(*series, gapOfTimesS(series->timeS))
-                                    : gapFramesOf(timed);
+                           const std::shared_ptr<const TimedProfile>& timed,
+                           double longestS) {
+    return curves_.column && series ? gapsOf(*series, longestS) : gapFramesOf(timed);
   };
-  fill(0, curves_.curveA, gaps(curves_.curveA, curves_.a), 0.0);
-  fill(1, curves_.curveB, gaps(curves_.curveB, curves_.b), curves_.offsetS);
+  fill(0, curves_.curveA, gaps(curves_.curveA, curves_.a, longestA_), 0.0);
+  fill(1, curves_.curveB, gaps(curves_.curveB, curves_.b, longestB_), curves_.offsetS);
   fillOverlaid();
   replot(QCustomPlot::rpQueuedReplot);
 }
@@ -355,10 +360,11 @@ QString CompareChart::valuesAt(double seconds) const {
   const auto line = [&](const char* name,
                         const TimedProfile& timed,
                         const std::shared_ptr<const Series>& series,
+                        double longestS,
                         double at) {
     text += "\n" + QString(name) + "  ";
     if (curves_.column) {
-      const auto sample = series ? sampleAt(*series, at, gapOfTimesS(series->timeS)) : std::nullopt;
+      const auto sample = series ? sampleAt(*series, at, longestS) : std::nullopt;
       const bool isKnown = sample && std::isfinite(series->values[*sample]);
       return text += isKnown ? unit.text(series->values[*sample], 1) : QString("–"), void();
     }
@@ -368,8 +374,8 @@ QString CompareChart::valuesAt(double seconds) const {
     text += (std::isfinite(value) ? unit.text(value, 1) : QString("damaged")) + " · frame " +
             QString::number(*frame);
   };
-  line("A", *curves_.a, curves_.curveA, seconds);
-  line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);
+  line("A", *curves_.a, curves_.curveA, longestA_, seconds);
+  line("B", *curves_.b, curves_.curveB, longestB_, seconds - curves_.offsetS);
   const ComparedCurves& overlaid = curves_.overlaid;
   const std::vector<double> now = {seconds - overlaid.zeroS};
   for (std::size_t i = 0; i < std::min(overlaidGraphs_.size(), kMostInTip); ++i) {

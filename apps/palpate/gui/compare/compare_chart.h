@@ -96,6 +96,9 @@ class CompareChart : public Chart {
   QString axisName() const;
 
   CompareCurves curves_;
+  // Of columns, the longest interval between two samples that isn't a gap [s].
+  double longestA_ = 0.0;
+  double longestB_ = 0.0;
   QCPItemStraightLine* contact_ = nullptr;
   // The graphs of the overlaid curves that are drawn, and of the average: its low and high end, and
   // its middle.

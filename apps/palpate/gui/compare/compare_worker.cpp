@@ -45,7 +45,7 @@ SeriesChoice choiceFor(const CompareQuestion& question, const OpenedRecording& r
   return choice;
 }
 
-// The longest interval of a curve that is no gap: of the frames, or of the samples of a column.
+// The longest interval of a curve that isn't a gap: of the frames, or of the samples of a column.
 double longestOf(const CompareQuestion& question, const Series& series, const TimedProfile& timed) {
   return question.choice.kind == SeriesChoice::Kind::kColumn ? gapOfTimesS(series.timeS)
                                                              : gapFromS(timed.timing);

@@ -232,7 +232,7 @@ void ConnectFeature::connectActions() {
 void ConnectFeature::connectSensors() {
   WindowState& windowState = state();
   LiveController& live = windowState.live;
-  // A replay has times of its own, to which no sensor fits.
+  // The times of a replay are not those of a sensor.
   const auto takesSensors = [&live] {
     return live.source() && live.connection().kind != Connection::Kind::kReplay;
   };

@@ -92,7 +92,7 @@ void SensorDialog::refresh() {
   QString wrong = source_->problem();
   if (wrong.isEmpty()) wrong = problemOf(sensor());
   if (wrong.isEmpty() && taken_.contains(sensor().name))
-    wrong = "Another sensor has the name " + sensor().name + ": give it a different one.";
+    wrong = "The name " + sensor().name + " is taken: give the sensor a different one.";
   problem_->setText(wrong);
   add_->setEnabled(wrong.isEmpty());
   // What is read belongs to the fields as they were.

@@ -1,4 +1,4 @@
-// The dialog that adds a sensor beside the hand: its name, where its lines come from, what their
+// The dialog that adds a sensor to the hand: its name, where its lines come from, what their
 // numbers are; and, when asked, what arrives.
 #pragma once
 

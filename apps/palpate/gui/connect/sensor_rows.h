@@ -1,4 +1,4 @@
-// The rows that arrive from a sensor before it is added: read by a source of its own.
+// The rows that arrive from a sensor before it is added, read by a separate source.
 #pragma once
 
 #include <QString>

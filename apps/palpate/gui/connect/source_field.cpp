@@ -191,7 +191,7 @@ QString SourceField::problem() const {
     for (const char* prefix : {kTcp, kListenAt, kUdpAt})
       if (source.startsWith(prefix)) return "This is a network name: choose TCP or UDP as source.";
     if (baud() < kLeastBaud || baud() > kMostBaud)
-      return "The baud rate must be between 50 and 10000000.";
+      return QString("The baud rate must be between %1 and %2.").arg(kLeastBaud).arg(kMostBaud);
     return {};
   }
   try {

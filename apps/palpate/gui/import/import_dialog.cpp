@@ -180,7 +180,7 @@ QWidget* ImportDialog::makeFile() {
   return side;
 }
 
-// Other tables that come along, each with the times of its own rows.
+// Other tables to import with the data, each with the times of its rows.
 QWidget* ImportDialog::makeSeries() {
   series_ = named(new QTableWidget(0, 3),
                   "importSeries",

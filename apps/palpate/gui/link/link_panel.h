@@ -26,7 +26,7 @@ std::vector<Fact> factsOf(const LinkHealth& health);
 // Where senders of a stream are awaited and from which machines, who sends, and what was refused
 // last.
 std::vector<Fact> factsOf(const StreamDevice& stream);
-// Of a sensor beside the hand: its state, source and rate, and what of it can't be read.
+// Of an added sensor: its state, rate and senders, and what it sends that can't be read.
 std::vector<Fact> factsOf(const SeriesSource& sensor);
 
 class LinkPanel : public QWidget {
@@ -35,7 +35,7 @@ class LinkPanel : public QWidget {
   explicit LinkPanel(QWidget* parent = nullptr);
   // Shows that nothing is connected; the log is kept.
   void clear();
-  // `stream`: what factsOf() tells of the stream that is received and of sensors beside the hand.
+  // `stream`: what factsOf() tells of the stream that is received and of added sensors.
   void showHealth(const LinkHealth& health,
                   const std::optional<PreflightCheck>& check,
                   const std::vector<Fact>& stream = {});

@@ -290,9 +290,9 @@ void paintMatrixValues(QPainter& painter,
       !options.difference && (options.isSigned || options.taxels == TaxelView::kMagnitude);
   const MatrixValues drawn =
       ofReadings ? drawnValues(frame, matrix, options.taxels) : MatrixValues();
-  const ConstMatrixMap values = drawn.size() > 0
-                                    ? ConstMatrixMap(drawn.data(), drawn.rows(), drawn.cols())
-                                    : frame.allValues(matrix);
+  const ConstMatrixMap all = frame.allValues(matrix);
+  const ConstMatrixMap values =
+      drawn.size() > 0 ? ConstMatrixMap(drawn.data(), drawn.rows(), drawn.cols()) : all;
   const ConstMatrixMap contact = frame.matrix(matrix);
   const ColorTable& table = tableOf(options);
   const double side = geometry.taxelSide(matrix);
@@ -323,7 +323,8 @@ void paintMatrixValues(QPainter& painter,
       const QColor color = QColor::fromRgb(table[static_cast<std::size_t>(index)]);
       const QRectF square = squareOf(geometry.taxelRect(matrix, y, x));
       if (!asImage) painter.fillRect(square, color);
-      if (size >= saturation && !options.difference) paintSaturated(painter, square);
+      // As numSaturated(): a magnitude may be larger than the full scale of its components.
+      if (all(y, x) >= saturation && !options.difference) paintSaturated(painter, square);
       if (!withText) continue;
       painter.setPen(contrasting(color));
       painter.drawText(square,

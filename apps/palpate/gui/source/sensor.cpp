@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include <palpate/device/stream_device.h>
+
 #include "gui/appearance/settings_table.h"
 
 namespace palpate::gui {
@@ -11,7 +13,8 @@ constexpr const char* kSensors = "sensors";
 
 void sensorFields(SettingsTable& table, Sensor& sensor) {
   table.text("source", sensor.source);
-  table.number("baud", sensor.baud, 50, 10'000'000);
+  constexpr OptionRange kBaud = StreamDeviceOptions::kBaud;
+  table.number("baud", sensor.baud, kBaud.minimum, kBaud.maximum);
   table.text("columns", sensor.columns);
 }
 

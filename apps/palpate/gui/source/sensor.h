@@ -1,5 +1,5 @@
-// A sensor beside the hand, whose rows come along as a further series: what the dialog asks for and
-// the settings remember.
+// A sensor added to the hand, whose rows become a further series: what the dialog asks for and the
+// settings remember.
 #pragma once
 
 #include <QSettings>

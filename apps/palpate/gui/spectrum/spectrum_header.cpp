@@ -18,9 +18,8 @@ namespace {
 constexpr int kShortest = static_cast<int>(SpectrumOptions::kWindow.minimum);  // [samples]
 constexpr int kLongest = static_cast<int>(SpectrumOptions::kWindow.maximum);
 constexpr const char* kTimesTip =
-    "Takes the times of the sender's clock, fitted to the times of arrival: for senders whose "
-    "frames "
-    "arrive in bursts.";
+    "Use the times of the sender's clock, fitted to the times of arrival: for senders whose "
+    "frames arrive in bursts";
 
 }  // namespace
 

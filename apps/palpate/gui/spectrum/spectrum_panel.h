@@ -34,7 +34,7 @@ class SpectrumPanel : public QWidget {
   void setSource(const OpenedRecordingPtr& recording, bool live);
   // Sets the chosen taxels; empty when none is chosen.
   void setTaxels(const TaxelSelection& taxels);
-  // The curves by formulas, which can be chosen as signals, beside the columns of further series.
+  // The curves by formulas, which can be chosen as signals, as can columns of further series.
   void setFormulas(const std::vector<FormulaCurve>& formulas);
   void setVisibleRange(double fromS, double toS);
   // The selected range, which the mean and the coherence are of; nothing: the visible part.

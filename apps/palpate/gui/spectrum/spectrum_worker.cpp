@@ -54,7 +54,8 @@ struct SpectrumKept {
   // What is kept of the whole recording.
   SeriesChoice choice = {};
   std::shared_ptr<const Series> series = {};
-  // The recording at fitted times; empty until it was asked for.
+  // The recording at fitted times, which keeps it open until the next question; empty until asked
+  // for.
   std::optional<Profile> fitted = {};
   QString clock = {};
 };

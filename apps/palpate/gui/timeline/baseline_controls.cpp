@@ -113,11 +113,10 @@ void BaselineControls::takeOfSelection() {
   const auto rest = std::make_shared<Rest>();
   reading_.start(
       {},
-      [rest, profile = recording->profile, span = *span](const Progress&) {
-        *rest = restIn(profile,
-                       std::max(span.fromS, 0.0),
-                       std::min(span.toS, static_cast<double>(profile.durationUs()) / 1e6),
-                       RestOf::kReadings);
+      [rest, profile = recording->profile, durationS = recording->durationS(), span = *span](
+          const Progress&) {
+        *rest = restIn(
+            profile, std::max(span.fromS, 0.0), std::min(span.toS, durationS), RestOf::kReadings);
       },
       [this, rest, recording, span = *span] {
         if (windowState_.displayed.recorded() != recording) return;

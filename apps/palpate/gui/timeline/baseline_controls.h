@@ -26,7 +26,7 @@ class BaselineControls : public QObject {
   bool canUndo() const;
   void takeOfSelection();
   void tell(const QString& taken);
-  // Puts the filter in the place of the one that is there, else before all.
+  // Replaces the filter "baseline" of the chain; without one, it becomes the first filter.
   void putFilter(FilterStep step);
 
   WindowState& windowState_;

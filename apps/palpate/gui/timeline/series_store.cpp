@@ -124,7 +124,8 @@ void SeriesStore::dropIf(const Which& which) {
   });
 }
 
-// Of reading a curve in a worker; tells how far series are that must be computed for it.
+// The progress of reading a curve in a worker; computing() tells how far the series that it needs
+// are.
 Progress SeriesStore::progressOf(const Entry& entry) {
   const bool computes = !isReady(*profile_, entry.choice);
   if (computes) news_.start();

@@ -232,8 +232,7 @@ void TimelineChart::dropRangeOfOther(const QString& unit, const ValueExtent& sho
 }
 
 void TimelineChart::refill() {
-  // The store may have news of curves whose graphs are not there yet; they are filled when they
-  // are.
+  // The store may have news of curves whose graphs don't exist yet: rebuilding fills those.
   if (static_cast<std::size_t>(graphCount()) < curves_.size() * (hasBefore_ ? 2 : 1)) return;
   const QCPRange range = xAxis->range();
   const DecimationOptions options{.from = range.lower,

@@ -170,10 +170,7 @@ TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidge
 
 void TimelineHeader::setSignal(PlottedSignal signal) { signal_->setCurrentText(nameOf(signal)); }
 
-void TimelineHeader::setComponents(bool offered) {
-  if (signal_->count() != static_cast<int>(signalKinds(offered).size()))
-    offerSignals(*signal_, offered);
-}
+void TimelineHeader::setComponents(bool offered) { offerSignals(*signal_, offered); }
 
 void TimelineHeader::setCurves(const std::vector<PlottedCurve>& curves) {
   std::vector<Legend::Entry> entries;

@@ -73,8 +73,8 @@ class ActiveFilters : public QObject {
   void apply();
   // The filters that are on.
   Recipe recipeOn() const { return on_ ? recipe() : Recipe{}; }
-  // The baselines among the events of the recording, where they are others than it was read with;
-  // nothing: the same.
+  // The baselines among the events of the recording where they differ from those that it was read
+  // with; nothing: they are the same.
   std::optional<std::vector<Event>> newBaselines(const OpenedRecordingPtr& recording) const;
   void takeKeptRecipe();
   void noteInLiveRecording();
@@ -103,7 +103,7 @@ class ActiveFilters : public QObject {
   OpenedRecordingPtr madeOf_;
   Recipe madeBy_;
   std::optional<std::vector<Event>> madeOver_;
-  // Over what the displayed recording is to be seen.
+  // The edited baselines over which the displayed recording is shown; nothing: those in its file.
   std::optional<std::vector<Event>> over_;
   // The recording whose stored recipe was taken last.
   OpenedRecordingPtr keptTaken_;

@@ -38,9 +38,10 @@ class DerivedResults : public QObject {
     return recording == forcesOf_ ? forces_ : nullptr;
   }
   void setForces(std::shared_ptr<const ComputedOptions> forces, const void* recording) {
+    const bool none = !forces_ && !forces;
     forces_ = std::move(forces);
     forcesOf_ = recording;
-    emit forcesChanged();
+    if (!none) emit forcesChanged();
   }
   const std::vector<HandSlip>& slips() const noexcept { return slips_; }
   void setSlips(std::vector<HandSlip> slips) {

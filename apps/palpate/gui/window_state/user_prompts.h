@@ -17,8 +17,8 @@ namespace palpate::gui {
 struct UserPrompts {
   // Asks what to connect to; nothing: cancelled.
   std::function<std::optional<Connection>(const Connection& last)> connection;
-  // Asks for a sensor beside the hand; nothing: cancelled. The second one still reads its source:
-  // whoever opens that releases it first, in another thread.
+  // Asks for a sensor to add to the hand; nothing: cancelled. The second one still reads its
+  // source: whoever opens that releases it first, in another thread.
   std::function<std::optional<std::pair<Sensor, std::shared_ptr<void>>>()> sensor;
   // Asks for name and settings of recordings, before one begins or in between; nothing: cancelled.
   std::function<std::optional<RecordingSettings>(const RecordingSettings&, const QString& button)>
