@@ -120,7 +120,6 @@ struct Replay::Impl {
   void end() {
     {
       const std::lock_guard lock(mutex);
-      ended = true;
       const auto silence = [](PortStatus& port) {
         port.state = PortState::kSilent;
         if (port.message.empty()) port.message = "the recording has ended";
@@ -129,6 +128,8 @@ struct Replay::Impl {
       if (status.motion) silence(*status.motion);
     }
     sink->onEvent({lastUs, lastUs, "link", {}, "the recording has ended", ""});
+    const std::lock_guard lock(mutex);
+    ended = true;  // after the last item: whoever sees it may read everything delivered
   }
 
   // Delivers all items up to and including `untilUs`; returns false at the end.

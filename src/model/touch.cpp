@@ -206,7 +206,7 @@ std::vector<float> floatsOf(const Json& list) {
 }  // namespace
 
 Event baselineEvent(const Baseline& baseline, std::int64_t timeUs, const char* kind) {
-  const bool isTaken = std::ranges::any_of(baseline.rest, [](float rest) { return rest != 0.0F; });
+  const bool isTaken = std::ranges::count(baseline.rest, 0.0F) < std::ssize(baseline.rest);
   Event event{timeUs,
               timeUs,
               kind,
