@@ -26,7 +26,8 @@ std::size_t countFrom(const char* variable, std::size_t usual) {
 }
 
 // A hand with two ports and a thread for each: delivers frames and angles as fast as they are
-// accepted.
+// accepted. As at a real hand, neither port is more than a second ahead of the other: the recorder
+// keeps the last seconds, and would keep all of a port that lags behind.
 class EagerDevice : public ScriptedDevice {
  public:
   explicit EagerDevice(std::size_t frames) : frames_(frames) {}
@@ -51,19 +52,27 @@ class EagerDevice : public ScriptedDevice {
   std::atomic<bool> done = false;
 
  private:
+  static constexpr std::size_t kFrameUs = 31'500;
+  static constexpr std::size_t kAngleUs = 9'000;
+  static constexpr std::size_t kAheadUs = 1'000'000;
+
   void deliverFrames(const std::stop_token& stop) {
     for (std::size_t n = 0; n < frames_ && !stop.stop_requested(); ++n) {
-      sink_->onFrame(numberedFrame(n, kWallStartUs + static_cast<std::int64_t>(n) * 31'500));
+      while (n * kFrameUs > (sentAngles + 1) * kAngleUs + kAheadUs && sentAngles < 3 * frames_ &&
+             !stop.stop_requested())
+        std::this_thread::yield();
+      sink_->onFrame(numberedFrame(n, kWallStartUs + static_cast<std::int64_t>(n * kFrameUs)));
       sentFrames = n + 1;
     }
     done = true;
   }
   void deliverAngles(const std::stop_token& stop) {
-    // A recording begins with its first frame; of the angles before it, only the last minute is
-    // kept.
-    while (sentFrames == 0 && !stop.stop_requested()) std::this_thread::yield();
     for (std::size_t n = 0; n < 3 * frames_ && !stop.stop_requested(); ++n) {
-      const std::int64_t atUs = kWallStartUs + static_cast<std::int64_t>(n) * 9'000;
+      // A recording begins with its first frame.
+      while ((sentFrames == 0 || n * kAngleUs > sentFrames * kFrameUs + kAheadUs) && !done &&
+             !stop.stop_requested())
+        std::this_thread::yield();
+      const std::int64_t atUs = kWallStartUs + static_cast<std::int64_t>(n * kAngleUs);
       sink_->onSample(numberedAngles(n, atUs));
       if (n % 111 == 0) sink_->onSample({atUs, std::vector<double>(9, 30.0), kTemperatureSeries});
       if (n % 1000 == 0) sink_->onEvent({atUs, atUs, "motion", {}, "moved", ""});
@@ -107,7 +116,7 @@ TEST(CaptureStress, everyFrameOfALongRunIsRecordedAndNothingGrows) {
   const TemporaryFolder folder;
   CaptureOptions options;
   options.recorder.queue.blockWhenFull = true;  // as fast as the disk takes it
-  options.recorder.queue.tactileItems = 256;  // a queue that fills late is not memory that grows
+  options.recorder.queue.tactileItems = 256;    // a queue that fills late is not memory that grows
   options.recorder.queue.motionItems = 256;
   auto owned = std::make_unique<EagerDevice>(frames);
   EagerDevice& device = *owned;
