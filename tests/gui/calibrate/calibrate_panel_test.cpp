@@ -109,9 +109,11 @@ TEST_F(CalibratePanelTest, SaysWhatIsMissing) {
   EXPECT_TRUE(why().contains("Open a recording"));
   panel_->setSource(nullptr, true);
   EXPECT_TRUE(why().contains("Record the connected hand"));
+  EXPECT_FALSE(find<QComboBox>("stepMatrix")->isEnabled()) << "it is empty";
   show("Steps", makeOpenedRecording("e.dsa", profileWithStamps({})));
   EXPECT_TRUE(why().contains("no frame"));
   show("Steps", opened(loads(3, {0.0})));
+  EXPECT_TRUE(find<QComboBox>("stepMatrix")->isEnabled());
   EXPECT_TRUE(why().contains("stays for at least one second")) << why().toStdString();
   EXPECT_TRUE(panel_->page().tables().empty());
   show("Noise", opened(loads(3, {0.0})));
