@@ -265,6 +265,16 @@ TEST_F(CalibratePanelTest, TheTareIsProposed) {
   EXPECT_TRUE(find<QLabel>("tareState")->text().contains("has a tare"));
 }
 
+TEST_F(CalibratePanelTest, OpensWithWhatAConnectedHandCanDo) {
+  panel_->showPage("Steps");
+  panel_->setSource(nullptr, true);
+  EXPECT_EQ(panel_->pageName(), "Noise");
+  panel_->show();
+  panel_->showPage("Steps");
+  panel_->setSource(nullptr, true);
+  EXPECT_EQ(panel_->pageName(), "Steps") << "it is being looked at";
+}
+
 TEST_F(CalibratePanelTest, ComputesOnlyWhileItIsSeenAndCanBeGivenUp) {
   panel_->showPage("Steps");
   panel_->setSource(opened(loads(3, {900.0})), false);
