@@ -208,7 +208,7 @@ void TimelineChart::scaleAxes() {
     if (extent) dropRangeOfOther(unit, *extent);
     const UnitConversion shown = axes_->conversionOf(unit);
     if (extent) extent = ValueExtent{shown.back(extent->low), shown.back(extent->high)};
-    const AxisRange range = fittedRange(extent, axes_->fromZero(unit));
+    const AxisRange range = fittedRange(extent, axes_->fromZero(unit), axes_->minExtent(unit));
     axes_->setAutomatic(unit, {shown.of(range.from), shown.of(range.to)});
   }
 }
