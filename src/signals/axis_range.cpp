@@ -62,8 +62,8 @@ AxisRange RollingRange::update(const std::optional<ValueExtent>& values,
   const bool fits = range_ && seen.low >= range_->from && seen.high <= range_->to &&
                     seen.high - seen.low >= kShrinkBelow * (range_->to - range_->from);
   if (fits) return *range_;
-  const AxisRange wanted =
-      options.fromZero ? steppedFromZero(seen, options.ceiling) : steppedAround(seen, options.minExtent);
+  const AxisRange wanted = options.fromZero ? steppedFromZero(seen, options.ceiling)
+                                            : steppedAround(seen, options.minExtent);
   // A constant would otherwise move its own axis with each small change.
   const bool holds = range_ && seen.low >= range_->from && seen.high <= range_->to;
   if (holds && wanted.to - wanted.from >= kShrinkBelow * (range_->to - range_->from) &&

@@ -84,8 +84,7 @@ TEST(LinkPanel, OneLineBeforeARun) {
   EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).accent.name()));
   // Blind matrices don't hinder a recording, but whoever grasps must know.
   panel.setUnmeasurable({"", "0 distal can't measure it: no taxel of it is scanned"});
-  EXPECT_EQ(line->text(),
-            "ready: 31.7 frames/s; 1 matrix can't measure the limit of a grasp");
+  EXPECT_EQ(line->text(), "ready: 31.7 frames/s; 1 matrix can't measure the limit of a grasp");
   EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).warning.name()));
   panel.setUnmeasurable({"a", "b"});
   EXPECT_TRUE(line->text().contains("; 2 matrices can't"));

@@ -310,13 +310,13 @@ TEST_F(LiveChartTest, JointAnglesHaveAnAxisOfTheirOwn) {
   EXPECT_NE(chart_.graph(0)->valueAxis(), chart_.graph(1)->valueAxis());
   EXPECT_LE(chart_.graph(1)->valueAxis()->range().lower, 20.0);
   EXPECT_GT(chart_.graph(1)->valueAxis()->range().lower, 10.0) << "angles don't begin at 0";
+  EXPECT_EQ(chart_.axes().minExtent("°"), 1.0) << "the noise of a resting joint doesn't fill it";
+  EXPECT_EQ(chart_.axes().minExtent("counts"), 0.0);
 }
 
 TEST_F(LiveChartTest, TellsTheValuesUnderTheMouse) {
   framesTo(10.0);
   chart_.setCurves({matrixCurve(sdh2(), 2, SignalKind::kMean), angleCurve(sdh2(), 1)});
-  EXPECT_EQ(chart_.axes().minExtent("°"), 1.0) << "the noise of a resting joint doesn't fill it";
-  EXPECT_EQ(chart_.axes().minExtent("counts"), 0.0);
   const QString text = chart_.valuesAt(4.04);
   EXPECT_TRUE(text.startsWith("4.00 s · 6.0 s before the newest frame")) << text.toStdString();
   EXPECT_TRUE(text.contains("finger 1 proximal  4 counts")) << text.toStdString();

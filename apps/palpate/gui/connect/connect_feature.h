@@ -52,8 +52,8 @@ class ConnectFeature : public Feature {
   ConnectActions actions_;
 };
 
-// What is asked before a recording that can be written ends with its connection: what becomes of it,
-// and of the hand. `hand`: while it moves or holds.
+// What is asked before a recording that can be written ends with its connection: what becomes of
+// it, and of the hand. `hand`: while it moves or holds.
 QString endRecordingText(const RecorderStatus& recorder,
                          const std::optional<GraspStatus>& hand,
                          UserPrompts::Ending ending);

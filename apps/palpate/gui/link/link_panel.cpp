@@ -251,9 +251,9 @@ void LinkPanel::showCheck() {
       text += "; " + QString::number(numUnmeasurable_) +
               (numUnmeasurable_ == 1 ? " matrix" : " matrices") +
               " can't measure the limit of a grasp";
-    color = !lastCheck_->ready                      ? colors.danger
+    color = !lastCheck_->ready                     ? colors.danger
             : lastCheck_->doubtful || unmeasurable ? colors.warning
-                                                    : colors.accent;
+                                                   : colors.accent;
   } else if (connected_) {
     text = "checking …";
   }
@@ -263,8 +263,8 @@ void LinkPanel::showCheck() {
 }
 
 void LinkPanel::setUnmeasurable(const std::vector<QString>& why) {
-  numUnmeasurable_ = static_cast<std::size_t>(std::count_if(
-      why.begin(), why.end(), [](const QString& each) { return !each.isEmpty(); }));
+  numUnmeasurable_ = static_cast<std::size_t>(
+      std::count_if(why.begin(), why.end(), [](const QString& each) { return !each.isEmpty(); }));
   showCheck();
 }
 
