@@ -1,5 +1,6 @@
 #include "gui/timeline/timeline_chart.h"
 
+#include <QApplication>
 #include <QContextMenuEvent>
 #include <QLabel>
 #include <QMouseEvent>
