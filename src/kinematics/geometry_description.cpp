@@ -281,7 +281,9 @@ bool hasGeometry(const HandDescription& hand) {
 }
 
 GeometryDescription describeGeometry(const HandDescription& hand, BendRadius radius) {
-  if (!hasGeometry(hand)) throw Error(hand.name + ": its description contains no geometry");
+  if (!hasGeometry(hand))
+    throw Error(hand.name +
+                ": its description contains no geometry: give each matrix a surface in hand.json");
   return GeometryBuilder(hand, radius).build();
 }
 

@@ -21,10 +21,11 @@ AxisRange steppedFromZero(const ValueExtent& values, std::optional<double> ceili
   return range;
 }
 
-AxisRange steppedAround(const ValueExtent& values) {
-  // A constant still has an axis: one unit, or a thousandth of a large value.
-  const double extent =
-      std::max({values.high - values.low, 1.0, 1e-3 * std::max(-values.low, values.high)});
+AxisRange steppedAround(const ValueExtent& values, double minExtent) {
+  // A constant still has an axis: a thousandth of a large value, or one unit.
+  double extent =
+      std::max({values.high - values.low, minExtent, 1e-3 * std::max(-values.low, values.high)});
+  if (!(extent > 0.0)) extent = 1.0;
   const double step = niceAbove(extent / kStepsPerExtent);
   AxisRange range{std::floor(values.low / step) * step, std::ceil(values.high / step) * step};
   if (values.low - range.from < 0.1 * step) range.from -= step;
@@ -41,9 +42,13 @@ double niceAbove(double value) {
   return 10.0 * power;
 }
 
-AxisRange fittedRange(const std::optional<ValueExtent>& values, bool fromZero) {
+AxisRange fittedRange(const std::optional<ValueExtent>& values, bool fromZero, double minExtent) {
   auto [low, high] = values.value_or(ValueExtent{});
   if (fromZero) low = std::min(low, 0.0);
+  if (const double more = minExtent - (high - low); !fromZero && values && more > 0.0) {
+    low -= more / 2.0;
+    high += more / 2.0;
+  }
   if (!(high > low)) high = low + 1.0;
   const double air = (high - low) * (kHeadroom - 1.0);
   return {fromZero && low == 0.0 ? 0.0 : low - air, high + air};
@@ -57,8 +62,8 @@ AxisRange RollingRange::update(const std::optional<ValueExtent>& values,
   const bool fits = range_ && seen.low >= range_->from && seen.high <= range_->to &&
                     seen.high - seen.low >= kShrinkBelow * (range_->to - range_->from);
   if (fits) return *range_;
-  const AxisRange wanted =
-      options.fromZero ? steppedFromZero(seen, options.ceiling) : steppedAround(seen);
+  const AxisRange wanted = options.fromZero ? steppedFromZero(seen, options.ceiling)
+                                            : steppedAround(seen, options.minExtent);
   // A constant would otherwise move its own axis with each small change.
   const bool holds = range_ && seen.low >= range_->from && seen.high <= range_->to;
   if (holds && wanted.to - wanted.from >= kShrinkBelow * (range_->to - range_->from) &&

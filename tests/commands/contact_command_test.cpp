@@ -221,7 +221,7 @@ TEST(ContactCommand, ASensorOfAnotherHandIsRefused) {
   for (const std::string option : {"--matrices", "--size"})
     expectOneLineError(palpate({"contact", folder / "pad.palpate", option}),
                        1,
-                       {"pad.palpate", "contains no geometry"});
+                       {"pad.palpate", "contains no geometry", "a surface in hand.json"});
 }
 
 // A hockey ball on another day: every grasp that `grasps` finds has a size.

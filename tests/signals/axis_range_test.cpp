@@ -51,6 +51,33 @@ TEST(AxisRange, NegativeValuesAreShown) {
   EXPECT_EQ(both, (AxisRange{-50.0, 100.0}));
 }
 
+// The noise of a resting sensor, 41.2 .. 41.3, in one unit with 6 % of room: 40.75 - .06 .. 41.75 +
+// .06.
+TEST(AxisRange, FittedItSpansTheLeastExtent) {
+  const AxisRange resting = fittedRange(ValueExtent{41.2, 41.3}, false, 1.0);
+  EXPECT_NEAR(resting.from, 40.69, 1e-9);
+  EXPECT_NEAR(resting.to, 41.81, 1e-9);
+  EXPECT_EQ(fittedRange(ValueExtent{20.0, 120.0}, false, 1.0),
+            fittedRange(ValueExtent{20.0, 120.0}, false));
+  EXPECT_EQ(fittedRange(ValueExtent{0.0, 0.1}, true, 1.0),
+            fittedRange(ValueExtent{0.0, 0.1}, true));
+}
+
+// An accelerometer in g is no flat line.
+TEST(AxisRange, RollingItFollowsSmallValuesOfOtherSensors) {
+  RollingRange range;
+  const AxisRangeOptions any{.fromZero = false, .minExtent = 0.0};
+  const AxisRange small = range.update(ValueExtent{-0.02, 0.03}, any);
+  EXPECT_LE(small.from, -0.02);
+  EXPECT_GE(small.to, 0.03);
+  EXPECT_LE(small.to - small.from, 0.1);
+  range.reset();
+  const AxisRange constant = range.update(ValueExtent{0.0, 0.0}, any);
+  EXPECT_LT(constant.from, 0.0);
+  EXPECT_GT(constant.to, 0.0);
+  EXPECT_EQ(range.update(ValueExtent{-0.02, 0.03}, any), small) << "it doesn't stay flat";
+}
+
 TEST(AxisRange, AnglesBeginNearTheirLowestValue) {
   RollingRange range;
   const AxisRangeOptions angles{.fromZero = false};

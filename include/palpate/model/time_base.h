@@ -35,7 +35,7 @@ struct ClockReport {
   std::size_t items = 0;
   // Items without a time of the sender, or with a wrong one; their times of arrival are used.
   std::size_t unusable = 0;
-  std::size_t restarts = 0;  // the clock started anew, or jumped
+  std::size_t restarts = 0;  // the clock restarted, or jumped
   // How much faster than ours it runs [1e-6]; empty below ten windows of a second.
   std::optional<double> driftPpm = {};
   // By how much delays vary within a window, as a rule [ms].

@@ -22,6 +22,9 @@ struct AxisRangeOptions {
   // The axis begins at 0 unless values are below (counts, forces); otherwise it begins near the
   // lowest value (angles, temperatures).
   bool fromZero = true;
+  // An axis that doesn't begin at 0 spans this at least [unit of the values], so that the noise of
+  // something constant doesn't fill the chart; 0: it follows values of any size.
+  double minExtent = 1.0;
   // Values can't exceed this (saturation): the axis doesn't go further than needed to show it.
   std::optional<double> ceiling = std::nullopt;
 };
@@ -30,7 +33,10 @@ struct AxisRangeOptions {
 double niceAbove(double value);
 
 // Range for a chart that stands still: all values, with 6 % of room. No values: 0..1.06.
-AxisRange fittedRange(const std::optional<ValueExtent>& values, bool fromZero);
+// `minExtent`: as in AxisRangeOptions.
+AxisRange fittedRange(const std::optional<ValueExtent>& values,
+                      bool fromZero,
+                      double minExtent = 0.0);
 
 // Range for a rolling chart. It changes only in steps, and becomes smaller only when the values
 // take less than 35 % of it, so that the axis stays still most of the time.

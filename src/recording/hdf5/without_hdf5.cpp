@@ -8,7 +8,9 @@ namespace palpate {
 namespace {
 
 [[noreturn]] void throwWithoutHdf5(const std::filesystem::path& path) {
-  throw FileError(path, "HDF5 can't be written here: name a file that ends in .h5 or .hdf5");
+  throw FileError(path,
+                  "this program is built without HDF5: give a name that ends in .h5 or .hdf5, so "
+                  "that palpate_window writes it");
 }
 
 }  // namespace

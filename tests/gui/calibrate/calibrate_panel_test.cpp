@@ -109,9 +109,11 @@ TEST_F(CalibratePanelTest, SaysWhatIsMissing) {
   EXPECT_TRUE(why().contains("Open a recording"));
   panel_->setSource(nullptr, true);
   EXPECT_TRUE(why().contains("Record the connected hand"));
+  EXPECT_FALSE(find<QComboBox>("stepMatrix")->isEnabled()) << "it is empty";
   show("Steps", makeOpenedRecording("e.dsa", profileWithStamps({})));
   EXPECT_TRUE(why().contains("no frame"));
   show("Steps", opened(loads(3, {0.0})));
+  EXPECT_TRUE(find<QComboBox>("stepMatrix")->isEnabled());
   EXPECT_TRUE(why().contains("stays for at least one second")) << why().toStdString();
   EXPECT_TRUE(panel_->page().tables().empty());
   show("Noise", opened(loads(3, {0.0})));
@@ -261,6 +263,16 @@ TEST_F(CalibratePanelTest, TheTareIsProposed) {
   panel_->tare().setKept(true);
   EXPECT_TRUE(find<QPushButton>("tareRemove")->isVisible());
   EXPECT_TRUE(find<QLabel>("tareState")->text().contains("has a tare"));
+}
+
+TEST_F(CalibratePanelTest, OpensWithWhatAConnectedHandCanDo) {
+  panel_->showPage("Steps");
+  panel_->setSource(nullptr, true);
+  EXPECT_EQ(panel_->pageName(), "Noise");
+  panel_->show();
+  panel_->showPage("Steps");
+  panel_->setSource(nullptr, true);
+  EXPECT_EQ(panel_->pageName(), "Steps") << "it is being looked at";
 }
 
 TEST_F(CalibratePanelTest, ComputesOnlyWhileItIsSeenAndCanBeGivenUp) {

@@ -176,6 +176,20 @@ TEST_F(PortsPageTest, TwoNamesOfOnePortAreOnePort) {
   EXPECT_TRUE(text("connectProblem").contains("same port"));
 }
 
+TEST_F(PortsPageTest, AFileIsNotConnectedTo) {
+  plugIn();
+  openPorts(kTactileLink, kMotionLink);
+  ASSERT_TRUE(awaitAnswers());
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "notes.txt", "no port");
+  type("motionPort", (folder / "notes.txt").c_str());
+  EXPECT_FALSE(canConnect());
+  EXPECT_TRUE(text("connectProblem").contains("is a file, not a port"));
+  // A port that is plugged in later can be waited for.
+  type("motionPort", (folder / "none").c_str());
+  EXPECT_TRUE(canConnect()) << text("connectProblem").toStdString();
+}
+
 TEST_F(PortsPageTest, ASilentPortIsSaidButMayBeTried) {
   plugIn();
   fake_.answer(kTactile, answering(PortAnswer::kNothing, "nothing answers; is the hand on?"));

@@ -121,7 +121,7 @@ TEST(DialogStop, ADialogueThatIsNotModalLeavesTheWindowsButtonUsable) {
   EXPECT_EQ(stopOf(keys), nullptr);
 }
 
-TEST(DialogStop, SaysWhetherAStopReachesTheHand) {
+TEST(DialogStop, SaysWhetherAStopReachesTheHandAndWhetherItMoves) {
   QAction stop("Stop");
   DialogStop dialogs(stop, nullptr);
   QMessageBox question(QMessageBox::Question, "Palpate", "Go on?", QMessageBox::Yes);
@@ -133,6 +133,8 @@ TEST(DialogStop, SaysWhetherAStopReachesTheHand) {
   QCoreApplication::processEvents();
   EXPECT_EQ(shown(), "A hand is connected.");
   const QSize size = question.size();
+  dialogs.setMoving(true);
+  EXPECT_EQ(shown(), "The hand is moving.");
   dialogs.setReached(false);
   EXPECT_EQ(shown(), "The hand can't be stopped from here.");
   QCoreApplication::processEvents();
@@ -146,6 +148,8 @@ TEST(DialogStop, SaysWhetherAStopReachesTheHand) {
   EXPECT_EQ(name.findChild<QLabel*>("dialogStopState")->text(),
             "The hand can't be stopped from here.");
   dialogs.setReached(true);
+  EXPECT_EQ(name.findChild<QLabel*>("dialogStopState")->text(), "The hand is moving.");
+  dialogs.setMoving(false);
   EXPECT_EQ(name.findChild<QLabel*>("dialogStopState")->text(), "A hand is connected.");
   name.close();
 }

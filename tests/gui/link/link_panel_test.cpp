@@ -82,6 +82,14 @@ TEST(LinkPanel, OneLineBeforeARun) {
   panel.showHealth(goodHealth(), check);
   EXPECT_EQ(line->text(), "ready: 31.7 frames/s");
   EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).accent.name()));
+  // Blind matrices don't hinder a recording, but whoever grasps must know.
+  panel.setUnmeasurable({"", "0 distal can't measure it: no taxel of it is scanned"});
+  EXPECT_EQ(line->text(), "ready: 31.7 frames/s; 1 matrix can't measure the limit of a grasp");
+  EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).warning.name()));
+  panel.setUnmeasurable({"a", "b"});
+  EXPECT_TRUE(line->text().contains("; 2 matrices can't"));
+  panel.setUnmeasurable({});
+  EXPECT_EQ(line->text(), "ready: 31.7 frames/s");
   check.doubtful = true;
   panel.showHealth(goodHealth(), check);
   EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).warning.name()));

@@ -310,6 +310,8 @@ TEST_F(LiveChartTest, JointAnglesHaveAnAxisOfTheirOwn) {
   EXPECT_NE(chart_.graph(0)->valueAxis(), chart_.graph(1)->valueAxis());
   EXPECT_LE(chart_.graph(1)->valueAxis()->range().lower, 20.0);
   EXPECT_GT(chart_.graph(1)->valueAxis()->range().lower, 10.0) << "angles don't begin at 0";
+  EXPECT_EQ(chart_.axes().minExtent("°"), 1.0) << "the noise of a resting joint doesn't fill it";
+  EXPECT_EQ(chart_.axes().minExtent("counts"), 0.0);
 }
 
 TEST_F(LiveChartTest, TellsTheValuesUnderTheMouse) {

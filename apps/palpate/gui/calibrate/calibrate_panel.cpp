@@ -41,6 +41,8 @@ void CalibratePanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   for (int i = 0; i < pages().count(); ++i)
     static_cast<ComputedPage*>(pages().widget(i))->setSource(recording, live);
   for (MeasureRow* row : {&noise_->measureRow(), &tare_->measureRow()}) row->setLive(live);
+  // A connected hand has no steps. A page that is being looked at stays.
+  if (live && !isVisible() && pageName() == "Steps") showPage("Noise");
 }
 
 void CalibratePanel::setSession(CaptureSession* session) {

@@ -160,6 +160,7 @@ TextTable sampleTable(const std::shared_ptr<const FoundSteps>& found, std::size_
 
 StepPage::StepPage(QWidget* parent) : ComputedPage("steps", parent) {
   matrices_ = named(new QComboBox(this), "stepMatrix", "The matrix that was loaded", "Matrix");
+  matrices_->setEnabled(false);
   signal_ = named(new QComboBox(this),
                   "stepSignal",
                   "Signal of the matrix; a calibration uses the filtered mean",
@@ -202,6 +203,7 @@ void StepPage::forget() {
   found_.reset();
   matrix_.reset();
   matrices_->clear();
+  matrices_->setEnabled(recording() != nullptr);  // a connected hand has no steps
   emit foundChanged();
   if (!recording()) return;
   for (std::size_t m = 0; m < recording()->numMatrices(); ++m) matrices_->addItem(matrixName(m));

@@ -23,15 +23,17 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves) {
   plot_.yAxis2->setVisible(false);
   axes_.clear();
   for (const PlottedCurve& curve : curves) {
-    const bool fromZero = curve.choice.kind != SeriesChoice::Kind::kAngle &&
-                          curve.choice.kind != SeriesChoice::Kind::kTemperature &&
-                          curve.choice.kind != SeriesChoice::Kind::kColumn;
+    const bool isNoisy = curve.choice.kind == SeriesChoice::Kind::kAngle ||
+                         curve.choice.kind == SeriesChoice::Kind::kTemperature;
+    const bool fromZero = !isNoisy && curve.choice.kind != SeriesChoice::Kind::kColumn;
+    const double minExtent = isNoisy ? 1.0 : 0.0;
     const auto known = std::find_if(
         axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.unit == curve.unit; });
     if (known != axes_.end()) {
       // Several quantities share the unit.
       if (known->name != curve.axis) known->name = curve.unit;
       known->fromZero = known->fromZero && fromZero;
+      known->minExtent = std::min(known->minExtent, minExtent);
       continue;
     }
     QCPAxis* axis = axes_.empty()       ? plot_.yAxis
@@ -40,7 +42,7 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves) {
     axis->setVisible(true);
     axis->setTickLabels(true);
     if (axis != plot_.yAxis) styleExtraAxis(*axis, plot_);
-    axes_.push_back({curve.unit, curve.axis, fromZero, axis, curve.conversion});
+    axes_.push_back({curve.unit, curve.axis, fromZero, axis, curve.conversion, minExtent});
     // The axis may have been that of another unit.
     scale(axes_.back(), {axis->range().lower, axis->range().upper});
   }
@@ -97,6 +99,11 @@ UnitConversion UnitAxes::conversionOf(const QString& unit) const {
 bool UnitAxes::fromZero(const QString& unit) const {
   const Axis* found = find(unit);
   return !found || found->fromZero;
+}
+
+double UnitAxes::minExtent(const QString& unit) const {
+  const Axis* found = find(unit);
+  return found ? found->minExtent : 0.0;
 }
 
 void UnitAxes::setAutomatic(const QString& unit, const AxisRange& range) {

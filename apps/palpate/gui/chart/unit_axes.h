@@ -49,6 +49,9 @@ class UnitAxes : public QObject {
   // Whether all curves of the unit count from 0: signals, taxels and forces do, angles and
   // temperatures don't.
   bool fromZero(const QString& unit) const;
+  // AxisRangeOptions::minExtent in the base unit: that of angles and temperatures, whose sensors
+  // are noisy; other series may have values of any size.
+  double minExtent(const QString& unit) const;
 
   // The curves of this unit are in lanes: its axis is left to chart/lanes.h, and the mouse doesn't
   // change it. Nothing: none are.
@@ -87,6 +90,7 @@ class UnitAxes : public QObject {
     bool fromZero = true;
     QCPAxis* axis = nullptr;
     UnitConversion conversion = {};
+    double minExtent = 0.0;
   };
   const Axis* find(const QString& unit) const;
   // Sets the kind of scale and the range.

@@ -51,7 +51,27 @@ QString endingText(UserPrompts::Ending ending) {
              : "Before the hand is disconnected";
 }
 
+QString handEndText(const std::optional<GraspStatus>& hand) {
+  if (!hand) return {};
+  return hand->phase == GraspPhase::kHolding
+             ? " The hand keeps holding, but no longer answers slips."
+             : " The hand is moving: it will be stopped.";
+}
+
 }  // namespace
+
+QString endRecordingText(const RecorderStatus& recorder,
+                         const std::optional<GraspStatus>& hand,
+                         UserPrompts::Ending ending) {
+  const bool contact = recorder.state == RecorderStatus::State::kArmed;
+  const QString what =
+      contact || recorder.state == RecorderStatus::State::kWaiting
+          ? QString("A recording waits for ") + (contact ? "contact. " : "the first frame. ") +
+                endingText(ending) + ", it is cancelled: there is nothing to keep yet."
+          : "A recording is running. " + endingText(ending) +
+                ", the recording is finished; all that was recorded is kept.";
+  return what + handEndText(hand);
+}
 
 ConnectFeature::ConnectFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window), actions_(windowState.actions) {
@@ -132,18 +152,13 @@ std::optional<GraspStatus> ConnectFeature::movingHand() const {
 
 bool ConnectFeature::mayEndRecording(UserPrompts::Ending ending) {
   WindowState& windowState = state();
-  const bool moves = movingHand().has_value();
+  const auto moving = ending == UserPrompts::Ending::kStop ? std::nullopt : movingHand();
   const RecorderStatus& recorder = windowState.live.health().recorder;
-  const QString ended = endingText(ending);
-  const QString stopped = moves && ending != UserPrompts::Ending::kStop
-                              ? " The hand is moving: it will be stopped."
-                              : "";
   QMessageBox question(
       QMessageBox::NoIcon, "Finish the recording", {}, QMessageBox::NoButton, window());
   const QPushButton* elsewhere = nullptr;
   if (recorder.writeError.empty()) {
-    question.setText("A recording is running. " + ended +
-                     ", the recording is finished; all that was recorded is kept." + stopped);
+    question.setText(endRecordingText(recorder, moving, ending));
   } else {
     const std::int64_t waiting = recorder.frames - recorder.framesOnDisk;
     question.setText("The recording can't be written: " +
@@ -151,7 +166,7 @@ bool ConnectFeature::mayEndRecording(UserPrompts::Ending ending) {
                          static_cast<std::uint64_t>(std::max<std::int64_t>(0, waiting)), "frame")) +
                      (waiting == 1 ? " waits" : " wait") +
                      " in memory. Finishing it here loses them; in another folder they are kept." +
-                     stopped);
+                     handEndText(moving));
     question.setInformativeText(QString::fromStdString(recorder.writeError));
     elsewhere = question.addButton("Another folder…", QMessageBox::AcceptRole);
   }

@@ -7,6 +7,7 @@
 #include <QList>
 #include <optional>
 
+#include <palpate/capture/recorder.h>
 #include <palpate/control/grasp_control.h>
 
 #include "gui/window_state/action_registry.h"
@@ -50,6 +51,12 @@ class ConnectFeature : public Feature {
 
   ConnectActions actions_;
 };
+
+// What is asked before a recording that can be written ends with its connection: what becomes of
+// it, and of the hand. `hand`: while it moves or holds.
+QString endRecordingText(const RecorderStatus& recorder,
+                         const std::optional<GraspStatus>& hand,
+                         UserPrompts::Ending ending);
 
 // A connection to an emulated hand that grasps a ball by itself.
 Connection emulatedBallConnection();

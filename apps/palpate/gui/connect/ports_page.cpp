@@ -4,6 +4,8 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <filesystem>
+#include <system_error>
 
 #include "gui/widgets/make.h"
 #include "gui/widgets/state_mark.h"
@@ -97,6 +99,12 @@ void PortsPage::setPorts(const QString& tactile, const QString& motion) {
 }
 
 QString PortsPage::problem() const {
+  // An absent or held port may come or be let go: the window waits for it. A file stays a file.
+  for (const PortField* field : {tactile_, motion_}) {
+    std::error_code none;
+    if (std::filesystem::is_regular_file(field->port().toStdString(), none))
+      return field->port() + " is a file, not a port: choose a port of the list.";
+  }
   const QString tactile = keyOf(tactile_->port());
   if (!swapText().isEmpty()) return "Swap the ports, or choose others.";
   if (tactile.isEmpty() || tactile != keyOf(motion_->port())) return {};

@@ -9,6 +9,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <algorithm>
+#include <utility>
 
 #include "gui/widgets/dialog_properties.h"
 #include "gui/widgets/make.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr const char* kDialogStopName = "dialogStop";
 constexpr const char* kDialogStopStateName = "dialogStopState";
 constexpr const char* kDialogStopReached = "A hand is connected.";
+constexpr const char* kDialogStopMoving = "The hand is moving.";
 constexpr const char* kDialogStopNotReached = "The hand can't be stopped from here.";
 constexpr const char* kDialogStopNotReachedTip =
     "Its motion controller does not answer: use the emergency stop, or switch its power off";
@@ -38,20 +40,28 @@ DialogStop::DialogStop(QAction& stop, QObject* parent) : QObject(parent), stop_(
   qApp->installEventFilter(this);
 }
 
-void DialogStop::showReached(QLabel& state) const {
-  state.setText(reached_ ? kDialogStopReached : kDialogStopNotReached);
+void DialogStop::showState(QLabel& state) const {
+  state.setText(!reached_ ? kDialogStopNotReached
+                : moving_ ? kDialogStopMoving
+                          : kDialogStopReached);
   state.setToolTip(reached_ ? "" : kDialogStopNotReachedTip);
 }
 
 void DialogStop::setReached(bool reached) {
-  if (reached == reached_) return;
-  reached_ = reached;
+  if (std::exchange(reached_, reached) != reached) showStates();
+}
+
+void DialogStop::setMoving(bool moving) {
+  if (std::exchange(moving_, moving) != moving) showStates();
+}
+
+void DialogStop::showStates() const {
   for (QWidget* top : QApplication::topLevelWidgets()) {
     auto* dialog = qobject_cast<QDialog*>(top);
     if (!dialog) continue;
     auto* bar = dialog->findChild<QWidget*>(kDialogStopName, Qt::FindDirectChildrenOnly);
     if (!bar) continue;
-    showReached(*bar->findChild<QLabel*>(kDialogStopStateName));
+    showState(*bar->findChild<QLabel*>(kDialogStopStateName));
   }
 }
 
@@ -94,15 +104,15 @@ void DialogStop::showIn(QDialog& dialog) {
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(12, 8, 12, 0);
   auto* state = makeLabel(bar, kDialogStopStateName);
-  // Either text has room: a dialogue doesn't change its size while it is read.
+  // Every text has room: a dialogue doesn't change its size while it is read.
   state->ensurePolished();
   int width = 0;
-  for (const char* text : {kDialogStopReached, kDialogStopNotReached}) {
+  for (const char* text : {kDialogStopReached, kDialogStopMoving, kDialogStopNotReached}) {
     state->setText(text);
     width = std::max(width, state->sizeHint().width());
   }
   state->setMinimumWidth(width);
-  showReached(*state);
+  showState(*state);
   row->addWidget(state);
   row->addStretch(1);
   row->addWidget(button);

@@ -19,6 +19,8 @@ class DialogStop : public QObject {
   DialogStop(QAction& stop, QObject* parent);
   // Whether the hand answers; false: its motion port is disconnected, for example.
   void setReached(bool reached);
+  // Whether its fingers move, so that a stop is urgent.
+  void setMoving(bool moving);
 
  protected:
   // Filters the events of the whole application.
@@ -29,10 +31,12 @@ class DialogStop : public QObject {
   // A dialogue that isn't modal stays open while a hand is connected or disconnected.
   void follow(QDialog& dialog);
 
-  void showReached(QLabel& state) const;
+  void showState(QLabel& state) const;
+  void showStates() const;
 
   QAction& stop_;
   bool reached_ = true;
+  bool moving_ = false;
 };
 
 }  // namespace palpate::gui

@@ -43,6 +43,13 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   dock_ = new Dock("Hand", panel_, nullptr, window);
   auto* dialogs = new DialogStop(*actions_.stopHand, this);
   connect(panel_, &HandDock::reachedChanged, dialogs, &DialogStop::setReached);
+  connect(panel_,
+          &HandDock::conditionShown,
+          dialogs,
+          [dialogs](const std::optional<ExplainedCondition>& now) {
+            dialogs->setMoving(now && (now->condition == HandCondition::kMoving ||
+                                       now->condition == HandCondition::kEasing));
+          });
   windowState.handCommands.stop = actions_.stopHand;
   windowState.handCommands.motions = {actions_.graspHand,
                                       actions_.reactiveGrasp,

@@ -47,6 +47,11 @@ LinkFeature::LinkFeature(WindowState& windowState, QWidget* window)
   connectAlarms();
   connectOthers();
   connect(&windowState.live, &LiveController::refreshed, this, &LinkFeature::look);
+  connect(
+      &windowState.derivedResults,
+      &DerivedResults::unmeasurableChanged,
+      panel_,
+      [this, &windowState] { panel_->setUnmeasurable(windowState.derivedResults.unmeasurable()); });
   connect(&windowState.live,
           &LiveController::eventsReceived,
           this,

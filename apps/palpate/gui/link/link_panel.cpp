@@ -6,6 +6,7 @@
 #include <QTextCursor>
 #include <QTextDocument>
 #include <QTime>
+#include <algorithm>
 
 #include <palpate/core/escaped_line.h>
 #include <palpate/core/number_text.h>
@@ -245,15 +246,26 @@ void LinkPanel::showCheck() {
   QColor color = colors.muted;
   if (connected_ && lastCheck_) {
     text = QString::fromStdString(lastCheck_->text);
-    color = !lastCheck_->ready     ? colors.danger
-            : lastCheck_->doubtful ? colors.warning
-                                   : colors.accent;
+    const bool unmeasurable = lastCheck_->ready && numUnmeasurable_ > 0;
+    if (unmeasurable)
+      text += "; " + QString::number(numUnmeasurable_) +
+              (numUnmeasurable_ == 1 ? " matrix" : " matrices") +
+              " can't measure the limit of a grasp";
+    color = !lastCheck_->ready                     ? colors.danger
+            : lastCheck_->doubtful || unmeasurable ? colors.warning
+                                                   : colors.accent;
   } else if (connected_) {
     text = "checking …";
   }
   if (check_->text() != text) check_->setText(text);
   const QString style = "color: " + color.name() + "; font-weight: bold;";
   if (check_->styleSheet() != style) check_->setStyleSheet(style);
+}
+
+void LinkPanel::setUnmeasurable(const std::vector<QString>& why) {
+  numUnmeasurable_ = static_cast<std::size_t>(
+      std::count_if(why.begin(), why.end(), [](const QString& each) { return !each.isEmpty(); }));
+  showCheck();
 }
 
 void LinkPanel::showAlarms(const QStringList& alarms) {

@@ -39,6 +39,9 @@ class LinkPanel : public QWidget {
   void showHealth(const LinkHealth& health,
                   const std::optional<PreflightCheck>& check,
                   const std::vector<Fact>& stream = {});
+  // `why`: as DerivedResults::unmeasurable(). A link that is ready is doubtful then: it can be
+  // recorded, but these matrices stop no grasp.
+  void setUnmeasurable(const std::vector<QString>& why);
   void showAlarms(const QStringList& alarms);
   // Shows which interfaces are open to other programs; an empty list hides this part.
   void showOtherPrograms(std::vector<Fact> facts);
@@ -63,6 +66,7 @@ class LinkPanel : public QWidget {
   FactsView* others_;
   QPlainTextEdit* log_;
   std::optional<PreflightCheck> lastCheck_;
+  std::size_t numUnmeasurable_ = 0;
   bool recording_ = false;
   bool connected_ = false;
 };

@@ -255,7 +255,9 @@ void LiveChart::refill() {
 void LiveChart::scaleAxes() {
   for (const QString& unit : axes_->units()) {
     std::optional<ValueExtent> extent;
-    AxisRangeOptions options{.fromZero = axes_->fromZero(unit), .ceiling = saturation_};
+    AxisRangeOptions options{.fromZero = axes_->fromZero(unit),
+                             .minExtent = axes_->minExtent(unit),
+                             .ceiling = saturation_};
     for (const PlottedCurve& curve : curves_) {
       if (curve.unit != unit) continue;
       if (!endsAtSaturation(curve.choice)) options.ceiling.reset();

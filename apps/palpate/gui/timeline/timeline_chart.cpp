@@ -1,5 +1,6 @@
 #include "gui/timeline/timeline_chart.h"
 
+#include <QApplication>
 #include <QContextMenuEvent>
 #include <QLabel>
 #include <QMouseEvent>
@@ -208,7 +209,7 @@ void TimelineChart::scaleAxes() {
     if (extent) dropRangeOfOther(unit, *extent);
     const UnitConversion shown = axes_->conversionOf(unit);
     if (extent) extent = ValueExtent{shown.back(extent->low), shown.back(extent->high)};
-    const AxisRange range = fittedRange(extent, axes_->fromZero(unit));
+    const AxisRange range = fittedRange(extent, axes_->fromZero(unit), axes_->minExtent(unit));
     axes_->setAutomatic(unit, {shown.of(range.from), shown.of(range.to)});
   }
 }

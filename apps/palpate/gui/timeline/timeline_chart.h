@@ -18,6 +18,8 @@
 #include "gui/source/opened_recording.h"
 #include "gui/timeline/series_store.h"
 
+class QLabel;
+
 namespace palpate::gui {
 
 class TimelineChart : public Chart {
