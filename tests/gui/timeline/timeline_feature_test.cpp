@@ -416,7 +416,23 @@ TEST_F(TimelineFeatureTest, WithACalibrationThereAreForcesAndMatricesInTheirUnit
   feature_.settle();
   for (const PlottedCurve& curve : chart.curves())
     EXPECT_NE(chart.store().samples(curve.choice), nullptr) << curve.name.toStdString();
+  const auto* notes = chart.findChild<QLabel*>("chartNotes");
+  EXPECT_TRUE(notes->isHidden()) << notes->text().toStdString();
+  // The pressures alone: forces on an unknown area are not known.
+  calibration.pressure = fitPressureModel(calibration.samples, {});
+  windowState_->derivedResults.setForces(
+      std::make_shared<const ComputedOptions>(ComputedOptions{.calibration = calibration}),
+      shown.get());
+  EXPECT_FALSE(notes->isHidden());
+  EXPECT_TRUE(notes->text().contains("no area of its indenter")) << notes->text().toStdString();
+  EXPECT_TRUE(feature_.signalTree().setTicked("force of the whole hand", false));
+  EXPECT_TRUE(feature_.signalTree().setTicked("matrices in kPa and N", false));
+  EXPECT_TRUE(notes->isHidden()) << "no force is plotted";
+  EXPECT_TRUE(feature_.signalTree().setTicked("force of the whole hand", true));
+  EXPECT_TRUE(feature_.signalTree().setTicked("matrices in kPa and N", true));
+  EXPECT_FALSE(notes->isHidden());
   windowState_->derivedResults.setForces(nullptr, shown.get());
+  EXPECT_TRUE(notes->isHidden()) << "no calibration is applied";
   ASSERT_EQ(chart.curves().size(), 1u);
   EXPECT_EQ(chart.curves()[0].unit, "counts") << "the calibration is gone";
 }
