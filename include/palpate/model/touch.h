@@ -88,6 +88,11 @@ std::vector<Event> baselineEvents(const Baselines& baselines);
 // The layout of frames whose touch is decided: the same without rules.
 SensorLayout withoutTouchRules(const SensorLayout& layout);
 
+// What the readings are, for people: "3 components, signed"; of hands with several kinds of
+// matrices each kind once, "3 components, signed; signed". Empty where all are one component
+// without a sign.
+std::string readingsText(const SensorLayout& layout);
+
 // The rules of all matrices as one JSON text, as the meta data of a recording with readings have
 // it (kTouchRulesKey): [{"components": 3, "signed": true, "threshold": 5, "sigmas": 0}, ..].
 constexpr const char* kTouchRulesKey = "touch_rules";
