@@ -71,6 +71,8 @@ Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames)
 // by a person, who can remove it. Throws Error when it would be longer than an event may be.
 inline constexpr const char* kBaselineKind = "baseline";
 inline constexpr const char* kNewBaselineKind = "new_baseline";
+// Text of the event of a baseline that came back.
+inline constexpr const char* kPreviousBaselineText = "the previous baseline";
 Event baselineEvent(const Baseline& baseline,
                     std::int64_t timeUs,
                     const char* kind = kBaselineKind);
