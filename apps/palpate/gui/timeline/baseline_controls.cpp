@@ -42,20 +42,19 @@ BaselineControls::BaselineControls(WindowState& windowState, const TimelineActio
   connect(
       actions.baselineOfSelection, &QAction::triggered, this, &BaselineControls::takeOfSelection);
   connect(&reading_, &BackgroundJob::failed, this, [this](const QString& why) { refuse(why); });
-  connect(&windowState.displayed, &DisplayedSource::changed, this, [this] {
+  connect(&windowState.live, &LiveController::leaving, this, [this] {
     live_.clear();
     liveByEvent_ = false;
-    seen_.reset();
   });
   connect(&windowState.displayed, &DisplayedSource::shown, this, &BaselineControls::showInForce);
   connect(&windowState.live,
           &LiveController::eventsReceived,
           this,
           [this](const std::vector<Event>& events) {
-            const HandDescription* hand = windowState_.displayed.hand();
+            const LiveSource* source = windowState_.live.source();
             for (const Event& event : events) {
-              if (event.kind != kBaselineKind || !hand) continue;
-              live_ = takenText(event, *hand->layout);
+              if (event.kind != kBaselineKind || !source) continue;
+              live_ = takenText(event, *source->session->device().hand().layout);
               liveByEvent_ = true;
             }
             showInForce();
