@@ -18,9 +18,7 @@ constexpr const char* kRefusedTopic = "baseline";
 
 // Whether readings are seen as they are.
 bool isNone(const std::shared_ptr<const Baseline>& baseline) {
-  return !baseline ||
-         (baseline->noise.empty() &&
-          std::ranges::all_of(baseline->rest, [](float rest) { return rest == 0.0F; }));
+  return !baseline || *baseline == Baseline{std::vector<float>(baseline->rest.size()), {}};
 }
 
 // "taken 14:03:12", "the previous one, since 14:05:40", "none".
@@ -54,6 +52,10 @@ BaselineControls::BaselineControls(WindowState& windowState, const TimelineActio
             const LiveSource* source = windowState_.live.source();
             for (const Event& event : events) {
               if (event.kind != kBaselineKind || !source) continue;
+              // A replay also passes on the events of its recording.
+              if (source->connection.kind == Connection::Kind::kReplay &&
+                  !source->session->canUndoBaseline())
+                continue;
               live_ = takenText(event, *source->session->device().hand().layout);
               liveByEvent_ = true;
             }
