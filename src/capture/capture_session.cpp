@@ -323,7 +323,7 @@ void CaptureSession::undoBaseline() {
     baseline_ = before;
   }
   Event event = baselineEvent(*before, nowUs());
-  event.text = "the previous baseline";
+  event.text = kPreviousBaselineText;
   note(event);
 }
 

@@ -272,6 +272,21 @@ SensorLayout withoutTouchRules(const SensorLayout& layout) {
   return SensorLayout(std::move(matrices));
 }
 
+std::string readingsText(const SensorLayout& layout) {
+  std::vector<std::string> kinds;
+  for (const MatrixLayout& matrix : layout.matrices()) {
+    const TouchRule& rule = matrix.touch;
+    std::string kind = rule.components == 1
+                           ? std::string()
+                           : counted(static_cast<std::uint64_t>(rule.components), "component");
+    if (rule.isSigned) kind += kind.empty() ? "signed" : ", signed";
+    if (!kind.empty() && std::ranges::find(kinds, kind) == kinds.end()) kinds.push_back(kind);
+  }
+  std::string text;
+  for (const std::string& kind : kinds) text += (text.empty() ? "" : "; ") + kind;
+  return text;
+}
+
 std::string touchRulesText(const SensorLayout& layout) {
   return jsonList(layout.matrices(),
                   [](const MatrixLayout& matrix) {

@@ -52,6 +52,18 @@ TEST(HandsCommand, ChecksAFolder) {
   }
 }
 
+TEST(HandsCommand, CheckSaysWhatTheReadingsAre) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "hand.json")
+      << R"({"format":"palpate-hand","version":1,"name":"x","full_scale":100,"matrices":)"
+      << R"([{"name":"a","rows":4,"columns":4,"pitch_mm":2,"components":3}]})";
+  const auto result = run({"check", folder.path().string()});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out,
+            folder.path().string() +
+                ": x: 4x4, 16 taxels, 3 components, signed, 0 axes, without geometry\n");
+}
+
 TEST(HandsCommand, SaysWhatDoesNotFit) {
   const TemporaryFolder folder;
   const auto write = [&](const char* name, const std::string& text) {

@@ -47,6 +47,17 @@ TEST(Touch, OfASignTheMagnitudePresses) {
   EXPECT_EQ(forceAt(frame, {0, 0, 0})[2], -5.0F);
 }
 
+TEST(Touch, TheKindOfReadingsIsText) {
+  EXPECT_EQ(readingsText(*layoutOf({})), "");
+  EXPECT_EQ(readingsText(*layoutOf({.threshold = 5.0F, .sigmas = 3.0F})), "");
+  EXPECT_EQ(readingsText(*layoutOf({.isSigned = true})), "signed");
+  EXPECT_EQ(readingsText(*layoutOf({.components = 3})), "3 components");
+  const MatrixLayout three = layoutOf({.components = 3, .isSigned = true})->matrix(0);
+  const MatrixLayout one = layoutOf({.isSigned = true})->matrix(0), plain = layoutOf({})->matrix(0);
+  EXPECT_EQ(readingsText(SensorLayout({three, plain, three})), "3 components, signed");
+  EXPECT_EQ(readingsText(SensorLayout({three, one})), "3 components, signed; signed");
+}
+
 TEST(Touch, AReadingWithoutASignMustBeAboveItsRest) {
   const TactileFrame frame =
       frameOf({.threshold = 3.0F}, {10.0F, 13.0F, 14.0F}, restAt({20.0F, 10.0F, 10.0F}));

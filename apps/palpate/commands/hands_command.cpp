@@ -12,6 +12,7 @@
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/kinematics/stl_mesh.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/model/touch.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -92,11 +93,13 @@ int checkFolders(const std::vector<std::string>& folders) {
         std::fprintf(stderr, "palpate: %s\n", escapedLine(folder + ": " + fault).c_str());
         inPart = true;
       }
-      std::printf("%s: %s: %s, %zu taxels, %zu axes, %s\n",
+      const std::string readings = readingsText(*hand.layout);
+      std::printf("%s: %s: %s, %zu taxels, %s%zu axes, %s\n",
                   escapedLine(folder).c_str(),
                   escapedLine(hand.name).c_str(),
                   sizesText(*hand.layout).c_str(),
                   hand.layout->numTaxels(),
+                  readings.empty() ? "" : (readings + ", ").c_str(),
                   hand.axes.size(),
                   hasGeometry(hand) ? "with geometry" : "without geometry");
     } catch (const std::exception& error) {

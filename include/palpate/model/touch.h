@@ -71,6 +71,8 @@ Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames)
 // by a person, who can remove it. Throws Error when it would be longer than an event may be.
 inline constexpr const char* kBaselineKind = "baseline";
 inline constexpr const char* kNewBaselineKind = "new_baseline";
+// Text of the event of a baseline that came back.
+inline constexpr const char* kPreviousBaselineText = "the previous baseline";
 Event baselineEvent(const Baseline& baseline,
                     std::int64_t timeUs,
                     const char* kind = kBaselineKind);
@@ -87,6 +89,11 @@ std::vector<Event> baselineEvents(const Baselines& baselines);
 
 // The layout of frames whose touch is decided: the same without rules.
 SensorLayout withoutTouchRules(const SensorLayout& layout);
+
+// What the readings are, for people: "3 components, signed"; of hands with several kinds of
+// matrices each kind once, "3 components, signed; signed". Empty where all are one component
+// without a sign.
+std::string readingsText(const SensorLayout& layout);
 
 // The rules of all matrices as one JSON text, as the meta data of a recording with readings have
 // it (kTouchRulesKey): [{"components": 3, "signed": true, "threshold": 5, "sigmas": 0}, ..].

@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QClipboard>
+#include <QComboBox>
 #include <QImage>
 #include <QLabel>
 #include <QLineEdit>
@@ -17,6 +18,7 @@
 
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/result_file.h"
 
 #include "gui/batch/batch_fields.h"
 #include "gui/batch/batch_results.h"
@@ -227,15 +229,48 @@ TEST_F(BatchDialogTest, OnlyFieldsWithAnEffectAreSeen) {
   choices.work = BatchWork::kSlip;
   choose(choices);
   EXPECT_TRUE(seen("batchMethod") && seen("batchSegments") && !seen("batchForm"));
+  EXPECT_TRUE(seen("batchTableForm") && seen("batchUnitsRow"));
+  choices.table = "mat";
+  choose(choices);
+  EXPECT_FALSE(seen("batchUnitsRow")) << "its columns have their units";
   choices.work = BatchWork::kFeatures;
   choose(choices);
   EXPECT_TRUE(seen("batchSet") && !seen("batchUnitsRow") && !seen("batchMatrix"));
+  EXPECT_TRUE(seen("batchTableForm"));
+  choices.table = "mcap";
+  choose(choices);
+  EXPECT_TRUE(dialog_->problem().contains("has no time")) << dialog_->problem().toStdString();
+}
+
+TEST_F(BatchDialogTest, TablesAreWrittenInEveryForm) {
+  const auto* forms = find<QComboBox>("batchTableForm");
+  std::vector<std::string> offered = {".hdf5"};  // the same as .h5
+  BatchChoices choices = both();
+  choices.work = BatchWork::kSignals;
+  for (int i = 0; i < forms->count(); ++i) {
+    choices.table = forms->itemData(i).toString();
+    offered.push_back("." + choices.table.toStdString());
+    EXPECT_TRUE(forms->itemText(i).startsWith("." + choices.table + ": "));
+    if (choices.table == "h5") continue;  // a build may have none
+    choose(choices);
+    EXPECT_EQ(dialog_->choices(), choices);
+    run();
+    EXPECT_EQ(controller_.outcome()->report.status.done, 2u) << offered.back();
+    EXPECT_TRUE(fs::exists(folder_ / ("out/a" + offered.back())));
+  }
+  std::vector<std::string> all = resultEndings();
+  std::ranges::sort(offered);
+  std::ranges::sort(all);
+  EXPECT_EQ(offered, all);
+  EXPECT_EQ(testing::readFile(folder_ / "out/a.npz").substr(0, 2), "PK") << "a zip file";
+  EXPECT_EQ(testing::readFile(folder_ / "out/a.json").front(), '{');
 }
 
 TEST_F(BatchDialogTest, TheChoicesAreRemembered) {
   BatchChoices choices = both();
   choices.work = BatchWork::kSlip;
   choices.method = "register";
+  choices.table = "json";
   choices.reference = "17";
   choices.segments = true;
   choices.stepTaxels = 0.25;
@@ -252,8 +287,10 @@ TEST_F(BatchDialogTest, TheChoicesAreRemembered) {
   start();
   EXPECT_EQ(dialog_->choices(), choices);
   settings_.setValue("batch/form", "mp3");
+  settings_.setValue("batch/table", "mp3");
   settings_.setValue("batch/work", 99);
   EXPECT_EQ(loadBatchChoices(settings_).form, "npz");
+  EXPECT_EQ(loadBatchChoices(settings_).table, "csv");
   EXPECT_EQ(loadBatchChoices(settings_).work, BatchWork::kConvert);
 }
 

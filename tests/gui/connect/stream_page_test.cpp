@@ -66,6 +66,18 @@ TEST_F(StreamPageTest, HandsOfTheUsersFolderAreListed) {
   EXPECT_TRUE(canConnect());
 }
 
+TEST_F(StreamPageTest, AHandSaysWhatItsReadingsAre) {
+  std::string skin = kPad;
+  skin.replace(skin.find("\"pitch_mm\": 5.0"), 15, "\"pitch_mm\": 5.0, \"components\": 3");
+  addFolder("hands/my_skin", skin);
+  handFolders_ = {folder_ / "hands"};
+  openStream({.source = "udp:9871"});
+  auto* hands = find<QComboBox>("streamHand");
+  hands->setCurrentIndex(hands->findText("my_skin"));
+  EXPECT_EQ(text("streamHandText"),
+            "matrix 4x5, 20 taxels; no joints; 3 components, signed; -1023 to 1023 N");
+}
+
 TEST_F(StreamPageTest, AFolderThatCannotBeUsedSaysWhyInOneLine) {
   openStream({.source = "udp:9871", .hand = "sole"});
   std::string wrong = kPad;

@@ -292,6 +292,28 @@ TEST_F(HandViewTest, SaysWhenThereAreNoAnglesOrOnesOutOfRange) {
   EXPECT_TRUE(poseNotice(view_.drawing(), false).contains("its range is"));
 }
 
+TEST_F(HandViewTest, TheNoticeOfAnUnknownGeometryCoversNoTaxel) {
+  const HandDescription pads =
+      describeHand(SensorLayout(std::vector(4, MatrixLayout::full(16, 16, 2.0))), 0, 0);
+  for (const QSize& size : {QSize(640, 480), QSize(300, 260), QSize(900, 180)}) {
+    HandView view;
+    view.resize(size);
+    view.setLook(look_);
+    view.setHand(pads);
+    const QString notice = poseNotice(view.drawing(), false);
+    EXPECT_TRUE(notice.contains("geometry of this sensor isn't known")) << notice.toStdString();
+    const double below = noticeHeight(view.font(), view.width(), notice);
+    EXPECT_GT(below, view.fontMetrics().height());
+    for (const Eigen::Vector3d& point : view.drawing().extent(view.drawing().effective(look_))) {
+      const auto at = view.camera().project(point, view.size());
+      ASSERT_TRUE(at);
+      EXPECT_GE(at->at.y(), below) << size.width();
+      EXPECT_TRUE(QRectF(view.rect()).contains(at->at)) << size.width();
+    }
+  }
+  EXPECT_EQ(noticeHeight(view_.font(), 800.0, ""), 0.0);
+}
+
 TEST_F(HandViewTest, FlatMatricesAreLookedAtFromTheFront) {
   look_.taxels = TaxelShape::kFlatCells;
   view_.setLook(look_);

@@ -53,10 +53,18 @@ TEST_F(MatricesFeatureTest, ReadingsHaveChoicesOfTheirOwn) {
   feature_.panel().show(windowState_->displayed.recorded()->profile.frame(0));
   EXPECT_TRUE(view().look().isSigned);
   EXPECT_EQ(view().look().range, (ValueRange{-120.0, 120.0}));
+  const auto* map = feature_.panel().findChild<QComboBox*>("mapBox");
+  EXPECT_FALSE(map->isEnabled());
+  EXPECT_TRUE(map->toolTip().contains("diverging")) << map->toolTip().toStdString();
+  windowState_->actions.group("maps")->actions().at(1)->trigger();
+  EXPECT_TRUE(windowState_->messages.flashed().contains("diverging"))
+      << windowState_->messages.flashed().toStdString();
   arrows->setValue(4.0);
   EXPECT_EQ(view().look().arrows, 4.0);
   emit view3->activated(1);
   EXPECT_FALSE(view().look().isSigned);
+  EXPECT_TRUE(map->isEnabled());
+  EXPECT_EQ(map->toolTip(), "Colour map");
   EXPECT_EQ(view().look().range, (ValueRange{0.0, 130.0})) << "30, 40, 120";
 }
 

@@ -7,6 +7,9 @@
 #include <QSpinBox>
 #include <set>
 
+#include <palpate/model/profile_builder.h>
+#include <palpate/model/touch.h>
+
 #include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
 #include "gui/help/help_feature.h"
@@ -308,6 +311,24 @@ TEST_F(MainWindowTest, StatusNamesFrameTimeAndFigures) {
   playback().seekFrame(7);
   EXPECT_EQ(status().right, "frame 7, last 19   0.35 s");
   EXPECT_EQ(status().figures, (QStringList{"active 1", "max 80", "saturated 0"}));
+}
+
+TEST_F(MainWindowTest, StatusNamesTheBaselineOfReadings) {
+  MatrixLayout matrix = MatrixLayout::full(1, 2, 2.0);
+  matrix.touch = {.isSigned = true};
+  const auto padWith = [&](const std::vector<Event>& events) {
+    ProfileBuilder builder(std::make_shared<const SensorLayout>(std::vector{matrix}));
+    const std::vector<float> readings = {30, -40};
+    builder.addReadings(1'000'000, readings);
+    Recording pad{.profile = builder.finish({})};
+    pad.events = events;
+    return makeOpenedRecording("pad", std::move(pad));
+  };
+  window().state().displayed.show(padWith({}));
+  EXPECT_EQ(status().figures.last(), "no baseline");
+  const Baseline rest{{10.0F, 10.0F}, {1.0F, 1.0F}};
+  window().state().displayed.show(padWith({baselineEvent(rest, 1'000'000)}));
+  EXPECT_EQ(status().figures.last(), "baseline of the recording");
 }
 
 // O-A19: the cursor can stand between two frames.

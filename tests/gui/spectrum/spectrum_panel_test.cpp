@@ -509,6 +509,9 @@ TEST_F(SpectrumPanelTest, AFormulaHasSpectraToo) {
   emit signal->activated(2);
   panel_->settle();
   EXPECT_TRUE(panel_->emptyText().contains("\"foreign\" can't be computed"));
+  EXPECT_TRUE(signal->toolTip().startsWith("Choose the signal: "));
+  EXPECT_TRUE(signal->toolTip().endsWith("\nNow: " + signal->currentText()))
+      << "the box may be narrower than the name: " << signal->toolTip().toStdString();
   panel_->setFormulas({});
   panel_->settle();
   EXPECT_EQ(panel_->emptyText(), "");

@@ -126,6 +126,23 @@ TEST_F(TaxelGroupsTest, AClickAnywhereOnALineTicksIt) {
   EXPECT_EQ(heading->data(0, Qt::CheckStateRole), QVariant()) << "a heading has no box";
 }
 
+TEST_F(TaxelGroupsTest, TheListStaysOnTheScreen) {
+  TaxelGroups groups(settings());
+  FormulaCurves formulas(settings());
+  SignalTree tree(groups, formulas);
+  tree.setSource(sdh2(), {.hasAngles = true, .hasTemperatures = true});
+  QWidget button(nullptr, Qt::FramelessWindowHint);
+  const QRect screen = button.screen()->availableGeometry();
+  for (const double share : {0.0, 0.3, 0.5, 0.7, 1.0}) {
+    const int top = screen.top() + static_cast<int>(share * (screen.height() - 20));
+    button.setGeometry(screen.right() - 80, top, 80, 20);
+    tree.openBelow(button);
+    EXPECT_TRUE(screen.contains(tree.geometry())) << share;
+    EXPECT_FALSE(tree.geometry().intersects(button.geometry())) << share;
+    tree.hide();
+  }
+}
+
 TEST_F(TaxelGroupsTest, WhatIsTickedIsRemembered) {
   const PlottedExtras extras{.chosenTaxels = false,
                              .groups = {"a", "b, c"},

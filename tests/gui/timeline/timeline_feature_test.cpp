@@ -4,6 +4,7 @@
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QSignalSpy>
 
 #include <palpate/core/error.h>
 #include <palpate/model/profile_builder.h>
@@ -111,7 +112,11 @@ TEST_F(TimelineFeatureTest, TheBaselineOfTheSelectionIsSeenAtOnceAndUndone) {
   QAction* action = windowState_->actions.at("baselineOfSelection");
   windowState_->actionEnabler.refresh();
   EXPECT_FALSE(action->isEnabled()) << "nothing is selected";
-  EXPECT_FALSE(windowState_->actions.at("takeBaseline")->isEnabled()) << "no hand";
+  QAction* take = windowState_->actions.at("takeBaseline");
+  EXPECT_FALSE(take->isEnabled()) << "no hand";
+  EXPECT_EQ(windowState_->derivedResults.baseline(), "none");
+  EXPECT_TRUE(take->toolTip().startsWith("Take the baseline")) << take->toolTip().toStdString();
+  EXPECT_TRUE(take->toolTip().endsWith("\nBaseline in force: none"));
   windowState_->selection.setSpan(TimeSpan{0.0, 0.45});
   windowState_->actionEnabler.refresh();
   ASSERT_TRUE(action->isEnabled());
@@ -132,16 +137,31 @@ TEST_F(TimelineFeatureTest, TheBaselineOfTheSelectionIsSeenAtOnceAndUndone) {
   EXPECT_EQ(seen(0), 0.0F);
   EXPECT_EQ(seen(15), 10.0F);
   EXPECT_FALSE(windowState_->activeFilters.applied()) << "that is no filter";
+  EXPECT_EQ(windowState_->derivedResults.baseline(), "taken from a selection");
+  EXPECT_TRUE(take->toolTip().endsWith("\nBaseline in force: taken from a selection"));
   windowState_->actions.at("undo")->trigger();
   windowState_->activeFilters.wait();
   QCoreApplication::processEvents();
   EXPECT_EQ(seen(15), 30.0F);
+  EXPECT_EQ(windowState_->derivedResults.baseline(), "none");
   windowState_->selection.setSpan(TimeSpan{0.0, 0.95});
+  QSignalSpy failed(&windowState_->messages, &Messages::failed);
+  QSignalSpy withdrawn(&windowState_->messages, &Messages::withdrawn);
   action->trigger();
   feature_.baselines().wait();
   EXPECT_TRUE(windowState_->events.editor()->events().empty()) << "it moved";
-  EXPECT_TRUE(windowState_->messages.flashed().contains("1 reading moved"))
-      << windowState_->messages.flashed().toStdString();
+  ASSERT_EQ(failed.size(), 1) << "the banner has room for the whole text";
+  EXPECT_TRUE(failed[0][1].toString().contains("1 reading moved"))
+      << failed[0][1].toString().toStdString();
+  withdrawn.clear();
+  windowState_->selection.setSpan(TimeSpan{0.0, 0.45});
+  action->trigger();
+  feature_.baselines().wait();
+  ASSERT_EQ(withdrawn.size(), 1) << "one was taken";
+  EXPECT_EQ(withdrawn[0][0], failed[0][0]);
+  windowState_->displayed.show(recording("a"));
+  EXPECT_EQ(windowState_->derivedResults.baseline(), "") << "it has no readings";
+  EXPECT_FALSE(take->toolTip().contains("in force"));
 }
 
 TEST_F(TimelineFeatureTest, OfAHandThatIsTouchedAbove0TheBaselineIsAFilter) {
@@ -416,7 +436,23 @@ TEST_F(TimelineFeatureTest, WithACalibrationThereAreForcesAndMatricesInTheirUnit
   feature_.settle();
   for (const PlottedCurve& curve : chart.curves())
     EXPECT_NE(chart.store().samples(curve.choice), nullptr) << curve.name.toStdString();
+  const auto* notes = chart.findChild<QLabel*>("chartNotes");
+  EXPECT_TRUE(notes->isHidden()) << notes->text().toStdString();
+  // The pressures alone: forces on an unknown area are not known.
+  calibration.pressure = fitPressureModel(calibration.samples, {});
+  windowState_->derivedResults.setForces(
+      std::make_shared<const ComputedOptions>(ComputedOptions{.calibration = calibration}),
+      shown.get());
+  EXPECT_FALSE(notes->isHidden());
+  EXPECT_TRUE(notes->text().contains("no area of its indenter")) << notes->text().toStdString();
+  EXPECT_TRUE(feature_.signalTree().setTicked("force of the whole hand", false));
+  EXPECT_TRUE(feature_.signalTree().setTicked("matrices in kPa and N", false));
+  EXPECT_TRUE(notes->isHidden()) << "no force is plotted";
+  EXPECT_TRUE(feature_.signalTree().setTicked("force of the whole hand", true));
+  EXPECT_TRUE(feature_.signalTree().setTicked("matrices in kPa and N", true));
+  EXPECT_FALSE(notes->isHidden());
   windowState_->derivedResults.setForces(nullptr, shown.get());
+  EXPECT_TRUE(notes->isHidden()) << "no calibration is applied";
   ASSERT_EQ(chart.curves().size(), 1u);
   EXPECT_EQ(chart.curves()[0].unit, "counts") << "the calibration is gone";
 }

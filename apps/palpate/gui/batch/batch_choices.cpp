@@ -10,6 +10,7 @@
 #include <palpate/core/error.h>
 #include <palpate/core/escaped_line.h>
 #include <palpate/filter/recipe.h>
+#include <palpate/recording/result_file.h>
 
 #include "gui/appearance/settings_table.h"
 #include "gui/batch/batch_pictures.h"
@@ -62,11 +63,15 @@ bool usesSeries(const BatchChoices& choices) {
 
 bool usesUnitsRow(const BatchChoices& choices) {
   if (choices.work == BatchWork::kConvert) return choices.form == "csv";
-  return choices.work == BatchWork::kSignals || choices.work == BatchWork::kSlip;
+  return usesMatrix(choices) && choices.table == "csv";
 }
 
 bool usesMatrix(const BatchChoices& choices) {
   return choices.work == BatchWork::kSignals || choices.work == BatchWork::kSlip;
+}
+
+bool makesTables(const BatchChoices& choices) {
+  return usesMatrix(choices) || choices.work == BatchWork::kFeatures;
 }
 
 bool usesEachGrasp(const BatchChoices& choices) {
@@ -75,7 +80,7 @@ bool usesEachGrasp(const BatchChoices& choices) {
 
 QString endingOf(const BatchChoices& choices) {
   if (choices.work == BatchWork::kRender) return "." + choices.picture;
-  return choices.work == BatchWork::kConvert ? "." + choices.form : QString(".csv");
+  return "." + (makesTables(choices) ? choices.table : choices.form);
 }
 
 namespace {
@@ -156,6 +161,9 @@ BatchTask taskOf(const BatchChoices& choices) {
            .speed = choices.speed},
           choices.picture);
     case BatchWork::kFeatures:
+      if (choices.table == "mcap")
+        throw std::invalid_argument(
+            "a table of grasps has no time: choose a format other than .mcap");
       break;
   }
   return featuresTask(featureSetNamed(choices.featureSet.toStdString()));
@@ -225,6 +233,10 @@ void batchFields(SettingsTable& table, BatchChoices& choices) {
   table.text("form", choices.form, [](const QString& text) {
     const auto endings = recordingEndings();
     return std::find(endings.begin(), endings.end(), "." + text.toStdString()) != endings.end();
+  });
+  table.text("table", choices.table, [](const QString& text) {
+    const auto endings = resultEndings();
+    return std::ranges::find(endings, "." + text.toStdString()) != endings.end();
   });
   table.flag("eachGrasp", choices.eachGrasp);
   table.text("picture", choices.picture, [](const QString& text) {

@@ -28,6 +28,8 @@ struct BatchChoices {
   QString filters = {};
   // Ending of the results of kConvert, without its dot.
   QString form = "npz";
+  // Ending of the tables of kSignals, kSlip and kFeatures, without its dot.
+  QString table = "csv";
   // Of kConvert: a file for each grasp; `names` then contains {n}.
   bool eachGrasp = false;
   // Of kConvert to .h5 and .mat.
@@ -69,6 +71,7 @@ bool usesFilters(const BatchChoices& choices);
 bool usesSeries(const BatchChoices& choices);  // withSignals, withSlip
 bool usesUnitsRow(const BatchChoices& choices);
 bool usesMatrix(const BatchChoices& choices);
+bool makesTables(const BatchChoices& choices);
 bool usesEachGrasp(const BatchChoices& choices);
 // Ending of the results, with its dot.
 QString endingOf(const BatchChoices& choices);

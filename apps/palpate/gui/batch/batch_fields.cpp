@@ -90,6 +90,13 @@ BatchFields::BatchFields(QWidget* parent)
       "batchSpeed", kMinBatchSpeed, kMaxBatchSpeed, "Speed of the movie; 1: as it was recorded");
   speed_->setDecimals(2);
   ending_ = batchComboBox("batchForm", formItems());
+  table_ = batchComboBox("batchTableForm",
+                         {{".csv: text for spreadsheets", "csv"},
+                          {".json: text with units and meanings", "json"},
+                          {".npz: arrays for NumPy", "npz"},
+                          {".mat: a structure for MATLAB and Octave", "mat"},
+                          {".h5: data sets with units and meanings", "h5"},
+                          {".mcap: messages for Foxglove", "mcap"}});
   filtersRow_ = makeFilters();
   smooth_ = named(new QLineEdit, "batchSmooth", "Filters over time of the signals themselves");
   smooth_->setPlaceholderText("none; e.g. kalman:q=0.05");
@@ -121,6 +128,7 @@ BatchFields::BatchFields(QWidget* parent)
   unitsRow_ = batchCheckBox("batchUnitsRow", "A second row with the &units");
   form_->addRow("&Make", work_);
   form_->addRow("F&ormat", ending_);
+  form_->addRow("F&ormat", table_);
   form_->addRow("F&ormat", picture_);
   form_->addRow("Colour ma&p", map_);
   form_->addRow("Mov&ie speed", speed_);
@@ -137,7 +145,7 @@ BatchFields::BatchFields(QWidget* parent)
     showFields();
     emit edited();
   };
-  for (QComboBox* box : {work_, ending_, picture_, map_, method_, set_})
+  for (QComboBox* box : {work_, ending_, table_, picture_, map_, method_, set_})
     connect(box, &QComboBox::currentIndexChanged, this, changed);
   connect(reference_, &QComboBox::currentTextChanged, this, changed);
   for (QLineEdit* field : {filters_, smooth_})
@@ -175,6 +183,7 @@ void BatchFields::fill(const BatchChoices& choices) {
   const QSignalBlocker quiet(this);
   work_->setCurrentIndex(static_cast<int>(choices.work));
   chooseBatchValue(*ending_, choices.form);
+  chooseBatchValue(*table_, choices.table);
   chooseBatchValue(*picture_, choices.picture);
   chooseBatchValue(*map_, choices.map);
   speed_->setValue(choices.speed);
@@ -200,6 +209,7 @@ void BatchFields::fill(const BatchChoices& choices) {
 void BatchFields::readInto(BatchChoices& choices) const {
   choices.work = static_cast<BatchWork>(work_->currentIndex());
   choices.form = ending_->currentData().toString();
+  choices.table = table_->currentData().toString();
   choices.picture = picture_->currentData().toString();
   choices.map = map_->currentData().toString();
   choices.speed = speed_->value();
@@ -226,6 +236,7 @@ void BatchFields::showFields() {
   readInto(now);
   const bool ofSlip = now.work == BatchWork::kSlip;
   form_->setRowVisible(ending_, now.work == BatchWork::kConvert);
+  form_->setRowVisible(table_, makesTables(now));
   const bool drawn = now.work == BatchWork::kRender;
   form_->setRowVisible(picture_, drawn);
   form_->setRowVisible(map_, drawn);

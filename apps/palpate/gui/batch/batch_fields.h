@@ -38,6 +38,7 @@ class BatchFields : public QWidget {
   QFormLayout* form_;
   QComboBox* work_;
   QComboBox* ending_;
+  QComboBox* table_;
   QComboBox* picture_;
   QComboBox* map_;
   QDoubleSpinBox* speed_;

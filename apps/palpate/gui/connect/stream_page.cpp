@@ -4,11 +4,13 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <algorithm>
 
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 #include <palpate/device/stream_device.h>
 #include <palpate/model/hand_file.h>
+#include <palpate/model/touch.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/connect/source_field.h"
@@ -25,7 +27,8 @@ constexpr const char* kHandBeingRead = "The hand is being read.";
 
 QString streamPageText(const std::string& of) { return QString::fromStdString(of); }
 
-// "matrices 3 x 14x6, 3 x 13x6, 456 taxels; 7 joints, 10 temperatures; 0 to 4095 counts"
+// "matrices 3 x 14x6, 3 x 13x6, 456 taxels; 7 joints, 10 temperatures; 0 to 4095 counts"; of
+// readings: "..; 3 components, signed; -100 to 100 N"
 QString handSummaryOf(const HandDescription& hand) {
   const SensorLayout& layout = *hand.layout;
   QString summary = (layout.numMatrices() == 1 ? "matrix " : "matrices ") +
@@ -35,8 +38,12 @@ QString handSummaryOf(const HandDescription& hand) {
       hand.axes.empty() ? "; no joints" : "; " + streamPageText(counted(hand.axes.size(), "joint"));
   if (!hand.temperatureSensors.empty())
     summary += ", " + streamPageText(counted(hand.temperatureSensors.size(), "temperature"));
-  return summary + "; 0 to " + streamPageText(numberText(hand.maximumCounts)) + " " +
-         streamPageText(hand.unit);
+  const std::string readings = readingsText(layout), most = numberText(hand.maximumCounts);
+  if (!readings.empty()) summary += "; " + streamPageText(readings);
+  const bool isSigned = std::ranges::any_of(
+      layout.matrices(), [](const MatrixLayout& matrix) { return matrix.touch.isSigned; });
+  return summary + "; " + streamPageText(isSigned ? "-" + most : "0") + " to " +
+         streamPageText(most) + " " + streamPageText(hand.unit);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kHandPictureMargin = 12.0;    // [px]
+constexpr double kNoticePadding = 10.0;        // [px], half of it above and below
 constexpr double kHandPictureBarWidth = 12.0;  // [px] of the colour bar
 constexpr double kHandPictureBarLabels = 44.0;
 constexpr double kHighestBar = 220.0;
@@ -79,19 +80,22 @@ double paintSphereText(QPainter& painter,
   return line.bottom() + 6.0;
 }
 
+// The text of a notice at the top of a picture of this width.
+QRectF noticeBox(const QFont& font, double widthPx, const QString& notice) {
+  const double left = kHandPictureMargin + kNoticePadding;
+  return QFontMetricsF(font).boundingRect(
+      QRectF(left, 0.0, widthPx - 2.0 * left, 200.0), Qt::AlignLeft | Qt::TextWordWrap, notice);
+}
+
 void handPicturePaintNotice(QPainter& painter,
                             const QRectF& area,
                             double top,
                             const HandPictureOptions& options) {
   if (options.notice.isEmpty()) return;
   const ThemeColors& colors = colorsOf(options.page.theme);
-  const QFontMetricsF metrics(painter.font());
-  const double widest = area.width() - 2.0 * kHandPictureMargin - 20.0;
-  QRectF box =
-      metrics.boundingRect(QRectF(area.left() + kHandPictureMargin + 10.0, top, widest, 200.0),
-                           Qt::AlignLeft | Qt::TextWordWrap,
-                           options.notice);
-  const QRectF around = box.adjusted(-10.0, -5.0, 10.0, 5.0).translated(0.0, 5.0);
+  const QRectF box =
+      noticeBox(painter.font(), area.width(), options.notice).translated(area.left(), top);
+  const QRectF around = box.adjusted(-kNoticePadding, 0.0, kNoticePadding, kNoticePadding);
   painter.setPen(QPen(colors.warning, 1.0));
   painter.setBrush(colors.panel);
   painter.drawRoundedRect(around, 5.0, 5.0);
@@ -100,6 +104,12 @@ void handPicturePaintNotice(QPainter& painter,
 }
 
 }  // namespace
+
+double noticeHeight(const QFont& font, double widthPx, const QString& notice) {
+  return notice.isEmpty() ? 0.0
+                          : kHandPictureMargin + noticeBox(font, widthPx, notice).height() +
+                                2.0 * kNoticePadding;
+}
 
 HandLook lookOf(const HandPictureOptions& options, const HandSceneBuilder& drawing) {
   HandLook look = options.look;

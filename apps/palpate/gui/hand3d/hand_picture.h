@@ -44,5 +44,7 @@ QString sphereText(const HandSceneBuilder& drawing, SphereOf of);
 // What the user should know about the displayed pose; empty: nothing. `assumed`: the angles aren't
 // those of the recording.
 QString poseNotice(const HandSceneBuilder& drawing, bool assumed);
+// What a notice takes of a view of this width, at its top [px]; 0 without one.
+double noticeHeight(const QFont& font, double widthPx, const QString& notice);
 
 }  // namespace palpate::gui

@@ -198,8 +198,14 @@ void HandView::setExtent(std::vector<Eigen::Vector3d> pointsMm) {
 
 void HandView::fitTo(const std::vector<Eigen::Vector3d>& pointsMm) {
   HandCamera camera = camera_;
-  camera.fit(pointsMm, static_cast<double>(std::max(1, width())) / std::max(1, height()));
-  camera.distanceMm *= kRoom;
+  // The notice of a sensor without geometry stays: its taxels are below it.
+  const double above =
+      drawing_.hasGeometry() ? 0.0 : noticeHeight(font(), width(), poseNotice(drawing_, assumed_));
+  const double whole = std::max(1, height());
+  const double room = std::max(0.5 * whole, whole - above);
+  camera.fit(pointsMm, std::max(1, width()) / room);
+  camera.distanceMm *= kRoom * whole / room;
+  camera.pan({0.0, 0.5 * (whole - room)}, whole);
   setCamera(camera);
 }
 

@@ -17,9 +17,9 @@ namespace palpate::gui {
 
 MatricesActions::MatricesActions(ActionRegistry& book) {
   interpolated = book.make("interpolated", "View", "&Smooth", {}, true);
-  interpolated->setToolTip("Smooth between taxels");
+  interpolated->setToolTip("Smooth: interpolate the colours between taxels");
   values = book.make("values", "View", "&Values", {}, true);
-  values->setToolTip("Print the value of each active taxel");
+  values->setToolTip("Values: print the value of each active taxel");
   scanOnly = book.make("scanOnly", "Hand", "Scan &only the chosen taxels");
   scanOnly->setToolTip("No taxel of the other matrices is scanned: the most frames per second");
   scanOnlyInTheirMatrices = book.make(
@@ -109,8 +109,12 @@ void MatricesFeature::connectLook() {
   });
   on(actions.values,
      [&look](bool checked) { look.change([&](ViewSettings& view) { view.values = checked; }); });
-  const auto useMap = [&look](ColorMapName map) {
+  const auto useMap = [this, &look](ColorMapName map) {
     look.change([&](ViewSettings& view) { view.map = map; });
+    if (panel_->view().look().isSigned)
+      state().messages.flash(
+          QString("readings with a sign keep the diverging colour map; %1 is for other views")
+              .arg(nameOf(map)));
   };
   const auto useRange = [&look](RangeMode range) {
     look.change([&](ViewSettings& view) { view.range = range; });

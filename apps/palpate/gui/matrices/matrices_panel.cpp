@@ -267,6 +267,9 @@ void MatricesPanel::applyLook() {
                   .isSigned = isDrawnSigned(frame_, settings_.taxels),
                   .arrows = settings_.arrows,
                   .theme = shownTheme()});
+  const bool isSigned = view_->look().isSigned;
+  map_->setEnabled(!isSigned);
+  map_->setToolTip(isSigned ? "Readings with a sign use the diverging colour map" : "Colour map");
   emit lookChanged(view_->look());
 }
 

@@ -31,6 +31,7 @@ StatusReport::StatusReport(WindowState& windowState, StatusStrip& strip, WindowM
   connect(&windowState.currentFrame, &CurrentFrame::heldChanged, this, report);
   connect(&windowState.activeFilters, &ActiveFilters::onChanged, this, report);
   connect(&windowState.comparison, &ComparisonMode::changed, this, report);
+  connect(&windowState.derivedResults, &DerivedResults::baselineChanged, this, report);
   connect(&windowState.live, &LiveController::stateChanged, this, [this] {
     reportLink();
     this->report();
@@ -101,6 +102,7 @@ void StatusReport::report() {
     // While it plays, the cursor only runs from one frame to the next, except in a gap.
     if (cursorTime != frameTime && (!playing || inGap)) now.right += ", cursor " + cursorTime;
   }
+  showBaseline(now);
   now.notice = notice();
   strip_.setStatus(now);
 }
@@ -146,6 +148,7 @@ void StatusReport::reportLive() {
                  "lost " + QString::number(health.lost),
                  "bad " + QString::number(health.badChecksums + health.device.tactile.suspect),
                  "saturated " + QString::number(health.frames.saturatedFrames)};
+  showBaseline(now);
   now.notice = notice();
   // Until something is sent, where it is awaited.
   if (const StreamDevice* stream = live.source() ? live.source()->streamDevice() : nullptr;
@@ -155,6 +158,12 @@ void StatusReport::reportLive() {
   if (const QString open = OtherPrograms::shortText(windowState_.actions); !open.isEmpty())
     now.right = open + " · " + now.right;
   strip_.setStatus(now);
+}
+
+void StatusReport::showBaseline(Status& now) const {
+  const QString& baseline = windowState_.derivedResults.baseline();
+  if (!baseline.isEmpty())
+    now.figures.append(baseline == "none" ? QString("no baseline") : "baseline " + baseline);
 }
 
 QString StatusReport::notice() const {

@@ -9,6 +9,7 @@
 
 namespace palpate::gui {
 
+struct Status;
 class StatusStrip;
 
 class StatusReport : public QObject {
@@ -22,6 +23,7 @@ class StatusReport : public QObject {
   void reportLive();
   void reportLink();
   void reportHand();
+  void showBaseline(Status& now) const;
   QString notice() const;
   QString chosenTaxels() const;
 

@@ -8,6 +8,7 @@
 
 #include <palpate/signals/welch.h>
 
+#include "gui/widgets/eliding_box.h"
 #include "gui/widgets/make.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
@@ -17,6 +18,8 @@ namespace {
 
 constexpr int kShortest = static_cast<int>(SpectrumOptions::kWindow.minimum);  // [samples]
 constexpr int kLongest = static_cast<int>(SpectrumOptions::kWindow.maximum);
+constexpr const char* kSignalTip =
+    "Choose the signal: the chosen taxels, a curve by a formula, or a column of a series";
 constexpr const char* kTimesTip =
     "Use the times of the sender's clock, fitted to the times of arrival: for senders whose "
     "frames arrive in bursts";
@@ -62,16 +65,15 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
       "and coherence are of the selected range; without one, of the visible part.");
   view_->setFocusPolicy(Qt::TabFocus);
   for (const SpectrumView each : kAllSpectrumViews) view_->addItem(nameOf(each));
-  signal_ =
-      named(new QComboBox(this),
-            "spectrumSignal",
-            "Of which signal: the chosen taxels, a curve by a formula, or a column of a series",
-            "Of which signal");
+  signal_ = named(new ElidingBox(this), "spectrumSignal", kSignalTip, "Of which signal");
   signal_->setFocusPolicy(Qt::TabFocus);
   signal_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   signal_->setMinimumContentsLength(12);
   signal_->addItem("chosen taxels");
   signal_->hide();
+  connect(signal_, &QComboBox::currentTextChanged, this, [this](const QString& chosen) {
+    signal_->setToolTip(kSignalTip + ("\nNow: " + chosen));
+  });
   connect(signal_, &QComboBox::activated, this, &SpectrumHeader::changed);
   scale_ = named(new QComboBox(this),
                  "spectrumScale",

@@ -1,24 +1,70 @@
 #include "gui/timeline/baseline_controls.h"
 
+#include <QDateTime>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include <palpate/core/error.h>
+#include <palpate/core/time.h>
 #include <palpate/model/rest_span.h>
 
 #include "gui/window_state/event_marks.h"
 
 namespace palpate::gui {
+namespace {
+
+constexpr const char* kRefusedTopic = "baseline";
+
+// Whether readings are seen as they are.
+bool isNone(const std::shared_ptr<const Baseline>& baseline) {
+  return !baseline || *baseline == Baseline{std::vector<float>(baseline->rest.size()), {}};
+}
+
+// "taken 14:03:12", "the previous one, since 14:05:40", "none".
+QString takenText(const Event& event, const SensorLayout& layout) {
+  if (isNone(baselineAt(baselinesOf({&event, 1}, layout), event.tUs))) return "none";
+  const bool isPrevious = event.text == kPreviousBaselineText;
+  return (isPrevious ? "the previous one, since " : "taken ") +
+         QDateTime::fromMSecsSinceEpoch(event.tUs / kUsPerMs).toString("HH:mm:ss");
+}
+
+}  // namespace
 
 BaselineControls::BaselineControls(WindowState& windowState, const TimelineActions& actions)
-    : windowState_(windowState) {
+    : windowState_(windowState),
+      takeBaseline_(*actions.takeBaseline),
+      tip_(actions.takeBaseline->toolTip()) {
   connect(actions.takeBaseline, &QAction::triggered, this, &BaselineControls::take);
   connect(actions.undoBaseline, &QAction::triggered, this, &BaselineControls::undo);
   connect(
       actions.baselineOfSelection, &QAction::triggered, this, &BaselineControls::takeOfSelection);
-  connect(&reading_, &BackgroundJob::failed, this, [this](const QString& why) {
-    windowState_.messages.flash(why);
+  connect(&reading_, &BackgroundJob::failed, this, [this](const QString& why) { refuse(why); });
+  connect(&windowState.live, &LiveController::leaving, this, [this] {
+    live_.clear();
+    liveByEvent_ = false;
+  });
+  connect(&windowState.displayed, &DisplayedSource::shown, this, &BaselineControls::showInForce);
+  connect(&windowState.live,
+          &LiveController::eventsReceived,
+          this,
+          [this](const std::vector<Event>& events) {
+            const LiveSource* source = windowState_.live.source();
+            for (const Event& event : events) {
+              if (event.kind != kBaselineKind || !source) continue;
+              // A replay also passes on the events of its recording.
+              if (source->connection.kind == Connection::Kind::kReplay &&
+                  !source->session->canUndoBaseline())
+                continue;
+              live_ = takenText(event, *source->session->device().hand().layout);
+              liveByEvent_ = true;
+            }
+            showInForce();
+          });
+  connect(&windowState.events, &EventController::changed, this, &BaselineControls::showInForce);
+  connect(&windowState.currentFrame, &CurrentFrame::frameChanged, this, [this] {
+    const bool isFirst = windowState_.displayed.isLive() && live_.isEmpty();
+    if (isFirst || windowState_.currentFrame.frame().baseline != seen_) showInForce();
   });
   ActionEnabler& enabler = windowState_.actionEnabler;
   enabler.add(
@@ -31,7 +77,38 @@ BaselineControls::BaselineControls(WindowState& windowState, const TimelineActio
   });
 }
 
+void BaselineControls::showInForce() {
+  const QString text = inForce();
+  seen_ = windowState_.currentFrame.frame().baseline;
+  windowState_.derivedResults.setBaseline(text);
+  takeBaseline_.setToolTip(text.isEmpty() ? tip_ : tip_ + "\nBaseline in force: " + text);
+}
+
+// Filtered frames have no readings and no baseline.
+QString BaselineControls::inForce() {
+  const DisplayedSource& displayed = windowState_.displayed;
+  const TactileFrame& frame = windowState_.currentFrame.frame();
+  if (displayed.isLive()) {
+    if (!displayed.givesReadings()) return {};
+    if (!liveByEvent_ && !frame.readings.empty())
+      live_ = isNone(frame.baseline) ? "none" : "of the recording";
+    return live_;
+  }
+  const OpenedRecordingPtr recording = displayed.recorded();
+  if (!recording || !recording->profile.givesReadings()) return {};
+  const std::vector<Event> events = windowState_.events.eventsOf(recording);
+  const Baselines all = baselinesOf(events, recording->profile.layout());
+  if (isNone(baselineAt(all, frame.hostUs))) return "none";
+  const auto isNew = [](const Event& event) { return event.kind == kNewBaselineKind; };
+  return std::ranges::any_of(events, isNew) ? "taken from a selection" : "of the recording";
+}
+
+void BaselineControls::refuse(const QString& why) {
+  windowState_.messages.failAbout(kRefusedTopic, why);
+}
+
 void BaselineControls::tell(const QString& taken) {
+  windowState_.messages.withdraw(kRefusedTopic);
   windowState_.messages.flash("baseline of " + taken);
   windowState_.actionEnabler.refresh();
 }
@@ -48,7 +125,7 @@ void BaselineControls::take() {
     tell(QString::fromStdString(baselineText(rest.baseline, rest.numFrames)) +
          "; it is a filter, A switches the filters off");
   } catch (const std::exception& error) {
-    windowState_.messages.flash(QString::fromUtf8(error.what()));
+    refuse(QString::fromUtf8(error.what()));
   }
 }
 
@@ -106,7 +183,7 @@ void BaselineControls::takeOfSelection() {
     try {
       putFilter(std::move(step));
     } catch (const std::invalid_argument& error) {  // shorter than a millisecond
-      windowState_.messages.flash(error.what());
+      refuse(error.what());
     }
     return;
   }
@@ -128,7 +205,7 @@ void BaselineControls::takeOfSelection() {
           windowState_.events.keep(kNewBaselineKind, event, "a baseline");
           tell(text + "; Ctrl+S saves it, Ctrl+Z undoes it");
         } catch (const Error& error) {
-          windowState_.messages.flash(QString::fromUtf8(error.what()));
+          refuse(QString::fromUtf8(error.what()));
         }
       });
 }

@@ -397,14 +397,16 @@ void SignalTree::keyPressEvent(QKeyEvent* event) {
 }
 
 void SignalTree::openBelow(const QWidget& button) {
-  constexpr QSize kSize(300, 460);
-  resize(kSize);
+  constexpr int kWidth = 300, kMostHeight = 460, kGap = 2;  // [px]
   const QRect screen = button.screen()->availableGeometry();
-  QPoint at = button.mapToGlobal(QPoint(0, button.height() + 2));
-  if (at.y() + kSize.height() > screen.bottom())
-    at.setY(button.mapToGlobal(QPoint(0, -kSize.height() - 2)).y());
-  at.setX(
-      std::clamp(at.x(), screen.left(), std::max(screen.left(), screen.right() - kSize.width())));
+  const QRect of(button.mapToGlobal(QPoint()), button.size());
+  const int below = screen.bottom() - of.bottom() - kGap;
+  const int above = of.top() - kGap - screen.top();
+  const bool opensBelow = below >= kMostHeight || below >= above;
+  resize(kWidth, std::min(kMostHeight, opensBelow ? below : above));
+  const int left = std::max(screen.left(), screen.right() - width());
+  const QPoint at(std::clamp(of.left(), screen.left(), left),
+                  opensBelow ? of.bottom() + kGap : of.top() - kGap - height());
   move(at);
   show();
   tree_->setFocus();

@@ -67,7 +67,8 @@ class SignalTree : public QFrame {
   void setUnits(const DisplayUnits& units);
   void setExtras(const PlottedExtras& extras);
   const PlottedExtras& extras() const noexcept { return extras_; }
-  // Opens the list below a widget and gives it the keyboard focus.
+  // Opens the list below a widget, or above it where there is more room, and gives it the keyboard
+  // focus. It scrolls where the screen is too low.
   void openBelow(const QWidget& button);
   // Ticks a line by its text, for tests and keys; false: no such line.
   bool setTicked(const QString& text, bool on);

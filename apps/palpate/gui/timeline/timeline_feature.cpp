@@ -283,8 +283,10 @@ void TimelineFeature::connectLive() {
   });
   connect(&derived, &DerivedResults::pressureChanged, this, [this, &derived] {
     const bool has = derived.pressure() != nullptr;
-    if (has == hasForces_) return;
+    const bool areLimits = has && !derived.pressure()->areaKnown;
+    if (has == hasForces_ && areLimits == forcesAreLimits_) return;
     hasForces_ = has;
+    forcesAreLimits_ = areLimits;
     offerLiveCurves();
   });
   connect(&live, &LiveController::eventsReceived, this, [this](const std::vector<Event>& events) {
@@ -632,8 +634,11 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
       if (extras_.columns.contains(nameOf(series.description, series.description.columns[i])))
         add(computedCurve(*hand, series, i, units));
   for (const int row : extras_.forces)
-    if (live && hasForces_ && row <= static_cast<int>(hand->layout->numMatrices()))
-      add(forceCurve(*hand, static_cast<std::size_t>(row)));
+    if (live && hasForces_ && row <= static_cast<int>(hand->layout->numMatrices())) {
+      PlottedCurve curve = forceCurve(*hand, static_cast<std::size_t>(row));
+      if (forcesAreLimits_) curve.name += ", upper limit";
+      add(std::move(curve));
+    }
   return curves;
 }
 
@@ -653,7 +658,24 @@ void TimelineFeature::showCurves() {
     if (const QString reason = reasonAgainst(each); !reason.isEmpty())
       notes.append(each.name + " can't be computed: " + reason);
   }
+  if (const QString reason = reasonOfGaps(now); !reason.isEmpty()) notes.append(reason);
   chart_->setNotes(notes);
+}
+
+QString TimelineFeature::reasonOfGaps(const std::vector<PlottedCurve>& curves) const {
+  const auto forces =
+      state().derivedResults.forcesOf(state().displayed.unfilteredRecording().get());
+  if (!forces || !forces->calibration || forces->calibration->pressure.knowsArea()) return {};
+  const auto isForce = [this](const PlottedCurve& curve) {
+    if (curve.choice.kind == SeriesChoice::Kind::kFormula)
+      return curve.choice.formula.find("_force_n") != std::string::npos;
+    return std::ranges::any_of(computed_, [&](const ComputedSeries& series) {
+      return series.kind == ComputedKind::kForce && curve.choice.series == series.description.name;
+    });
+  };
+  if (state().displayed.isLive() || !std::ranges::any_of(curves, isForce)) return {};
+  return "Forces have gaps at contacts: the calibration has no area of its indenter. Give it in "
+         "the dock Calibrate, page Pressure (Indenter in mm²)";
 }
 
 QString TimelineFeature::reasonAgainst(const FormulaCurve& formula) const {

@@ -73,6 +73,9 @@ class TimelineFeature : public Feature {
   std::vector<PlottedCurve> curves() const;
   void showCurves();
   // Why a formula can't be computed on this recording; empty: it can.
+  // Why curves of forces have gaps; empty: the calibration knows the area of its indenter, or no
+  // force is plotted.
+  QString reasonOfGaps(const std::vector<PlottedCurve>& curves) const;
   QString reasonAgainst(const FormulaCurve& formula) const;
   void showReading();
   void showSelection();
@@ -113,6 +116,8 @@ class TimelineFeature : public Feature {
   std::vector<std::shared_ptr<const SeriesDescription>> liveSeries_;
   // Whether the live source has forces now: a calibration is applied.
   bool hasForces_ = false;
+  // Whether its calibration lacks the area of the indenter: the forces are upper limits.
+  bool forcesAreLimits_ = false;
 };
 
 }  // namespace palpate::gui

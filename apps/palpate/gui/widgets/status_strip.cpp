@@ -38,9 +38,9 @@ QString StatusStrip::shownRight() const {
 
 bool StatusStrip::event(QEvent* event) {
   if (event->type() != QEvent::ToolTip) return QWidget::event(event);
-  const bool whole = shownRight() == status_.right;
-  QToolTip::showText(
-      static_cast<QHelpEvent*>(event)->globalPos(), whole ? toolTip() : status_.right, this);
+  QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(),
+                     cut_.isEmpty() ? toolTip() : cut_.join("\n"),
+                     this);
   return true;
 }
 
@@ -51,6 +51,7 @@ void StatusStrip::paintEvent(QPaintEvent*) {
     return fontMetrics().horizontalAdvance(text);
   };
   const QString right = shownRight();
+  cut_ = right == status_.right ? QStringList() : QStringList(status_.right);
   const int rightWidth = advance(right);
   painter.setPen(colors.text);
   painter.drawText(QRect(width() - kStatusStripMargin - rightWidth, 0, rightWidth, height()),
@@ -68,11 +69,11 @@ void StatusStrip::paintEvent(QPaintEvent*) {
       QPointF(kStatusStripMargin + kLampRadius, height() / 2.0), kLampRadius, kLampRadius);
   int x = kStatusStripMargin + static_cast<int>(2 * kLampRadius) + 7;
   const auto item = [&](const QString& text, const QColor& color) {
-    if (text.isEmpty() || x >= end) return;
+    const QString shown = x < end ? withShorterPath(text, fontMetrics(), end - x) : QString();
+    if (shown != text) cut_.append(text);
+    if (shown.isEmpty()) return;
     painter.setPen(color);
-    painter.drawText(QRect(x, 0, end - x, height()),
-                     Qt::AlignLeft | Qt::AlignVCenter,
-                     withShorterPath(text, fontMetrics(), end - x));
+    painter.drawText(QRect(x, 0, end - x, height()), Qt::AlignLeft | Qt::AlignVCenter, shown);
     x += advance(text) + kStatusStripBetween;
   };
   item(status_.state, status_.lamp == Status::Lamp::kWarning ? colors.warning : colors.text);

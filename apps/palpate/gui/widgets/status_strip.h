@@ -30,13 +30,14 @@ class StatusStrip : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
-  // The tool tip has the whole text on the right, where it is shortened.
+  // The tool tip has the texts that are shortened.
   bool event(QEvent* event) override;
 
  private:
   QString shownRight() const;
 
   Status status_;
+  QStringList cut_;  // what was painted shortened, or not at all
 };
 
 }  // namespace palpate::gui

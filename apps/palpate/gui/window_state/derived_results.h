@@ -1,5 +1,5 @@
 // Holds what some features compute and others show with the frame: pressures, slip of the contacts,
-// matrices that can't measure the limit chosen for a grasp.
+// the baseline in force, matrices that can't measure the limit chosen for a grasp.
 #pragma once
 
 #include <QObject>
@@ -32,6 +32,14 @@ class DerivedResults : public QObject {
     calibration_ = text;
     emit calibrationChanged();
   }
+  // Over which baseline readings are seen: "taken 14:03:12", "of the recording", "none"; empty: the
+  // hand sends no readings.
+  const QString& baseline() const noexcept { return baseline_; }
+  void setBaseline(const QString& text) {
+    if (text == baseline_) return;
+    baseline_ = text;
+    emit baselineChanged();
+  }
   // What forces of a recording are computed with: calibration, settings and tare. Null: no
   // calibration is applied to it, or it is another recording.
   std::shared_ptr<const ComputedOptions> forcesOf(const void* recording) const {
@@ -59,6 +67,7 @@ class DerivedResults : public QObject {
  signals:
   void pressureChanged();
   void calibrationChanged();
+  void baselineChanged();
   void forcesChanged();
   void slipsChanged();
   void unmeasurableChanged();
@@ -66,6 +75,7 @@ class DerivedResults : public QObject {
  private:
   std::shared_ptr<const PressureFrame> pressure_;
   QString calibration_ = "none: values are counts";
+  QString baseline_;
   std::shared_ptr<const ComputedOptions> forces_;
   const void* forcesOf_ = nullptr;  // never dereferenced
   std::vector<HandSlip> slips_;
