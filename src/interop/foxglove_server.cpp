@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -39,6 +38,7 @@ constexpr std::size_t kMostClientBytes = 256U << 10;
 constexpr std::size_t kMostHandshakes = 64;
 // Messages that may wait for the server's thread: a second of 60 channels at 30 Hz.
 constexpr std::size_t kMostPosted = 2048;
+constexpr std::size_t kMostPostedBytes = 16U << 20;
 constexpr auto kSilence = std::chrono::seconds(60);
 
 std::string advertisement(const std::vector<FoxgloveChannel>& channels) {
@@ -150,7 +150,7 @@ struct FoxgloveServer::Impl {
 
   mutable std::mutex mutex;  // protects the next three
   std::vector<int> subscribers;
-  std::deque<FoxgloveMessage> posted;
+  OutletQueue<FoxgloveMessage> posted{kMostPostedBytes, kMostPosted};
   FoxgloveServerStats stats;
 
   // Used by the server's thread only.
@@ -299,11 +299,12 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
 
   // The message that is being sent has left the queue, from which others may be dropped meanwhile.
   void write() {
-    if (const std::uint64_t dropped = subscriber_.takeDropped(); dropped > 0)
+    OutletQueue<FoxgloveOutgoing>& waiting = subscriber_.waiting();
+    if (const std::uint64_t dropped = waiting.takeDropped(); dropped > 0)
       server_.count(&FoxgloveServerStats::dropped, dropped);
-    if (subscriber_.isOverrun()) return beast::get_lowest_layer(stream_).close();
+    if (waiting.isOverrun()) return beast::get_lowest_layer(stream_).close();
     if (sending_ || closing_) return;
-    sending_ = subscriber_.next();
+    sending_ = waiting.pop();
     if (!sending_) return;
     stream_.binary(sending_->binary);
     const std::array<asio::const_buffer, 2> buffers{
@@ -356,16 +357,16 @@ void FoxgloveServer::Impl::makeRoom() {
 // Sends what was posted up to now. What is posted meanwhile waits until the thread has served its
 // connections: publish() calls it again.
 void FoxgloveServer::Impl::sendPosted() {
-  std::deque<FoxgloveMessage> messages;
+  OutletQueue<FoxgloveMessage> messages(kMostPostedBytes, kMostPosted);
   {
     const std::lock_guard lock(mutex);
-    messages.swap(posted);
+    std::swap(messages, posted);
   }
-  for (const FoxgloveMessage& message : messages) {
-    if (channels[message.channel].latched) latest[message.channel] = message;
+  while (const auto message = messages.pop()) {
+    if (channels[message->channel].latched) latest[message->channel] = *message;
     for (const auto& session : server.sessions()) {
       try {
-        session->publish(message);
+        session->publish(*message);
       } catch (...) {
         count(&FoxgloveServerStats::dropped);  // no memory: the next message may find some
       }
@@ -394,17 +395,20 @@ bool FoxgloveServer::wanted(std::size_t channel) const {
 
 void FoxgloveServer::publish(std::size_t channel, std::int64_t timeUs, std::string payload) {
   const bool latched = impl_->channels.at(channel).latched;
-  FoxgloveMessage next{channel, timeUs, std::make_shared<const std::string>(std::move(payload))};
+  FoxgloveMessage next{
+      channel, timeUs, std::make_shared<const std::string>(std::move(payload)), !latched};
   {
     const std::lock_guard lock(impl_->mutex);
     if (!latched && impl_->subscribers[channel] == 0) return;
     ++impl_->stats.published;
-    if (impl_->posted.size() >= kMostPosted) {
+    if (impl_->posted.isOverrun()) {
       ++impl_->stats.dropped;
       return;
     }
-    impl_->posted.push_back(std::move(next));
-    if (impl_->posted.size() > 1) return;  // the thread has been called already
+    const bool called = impl_->posted.size() > 0;
+    impl_->posted.push(std::move(next));
+    impl_->stats.dropped += impl_->posted.takeDropped();
+    if (called) return;  // the thread comes for it
   }
   asio::post(impl_->server.context(), [impl = impl_.get()] { impl->sendPosted(); });
 }
