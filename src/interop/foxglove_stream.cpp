@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "palpate/core/number_text.h"
+#include "palpate/interop/signal_json.h"
 #include "palpate/model/gap_detector.h"
 
 namespace palpate {
@@ -82,36 +83,40 @@ void FoxgloveStream::send(const LiveResults& results) {
   const auto beforeUs = std::exchange(open_->frameUs, nowUs);
   if (beforeUs && nowUs <= *beforeUs)  // a recording that is played again
     open_->gaps.reset();
-  if (open_->gaps.afterGap(nowUs) && server.wanted(messages.eventsChannel())) {
-    const std::string text =
-        "no frame for " + fixedText(1e-6 * static_cast<double>(nowUs - *beforeUs), 1) + " s";
-    server.publish(messages.eventsChannel(),
-                   nowUs,
-                   messages.event({*beforeUs, nowUs, "gap", std::nullopt, text, ""}));
-  }
+  // Makes only messages that a client wants. Returns whether there was one.
+  const auto publish = [&](std::optional<std::size_t> channel, std::int64_t us, const auto& make) {
+    if (!channel || !server.wanted(*channel)) return false;
+    server.publish(*channel, us, make());
+    return true;
+  };
+  if (open_->gaps.afterGap(nowUs))
+    publish(messages.eventsChannel(), nowUs, [&] {
+      const std::string text =
+          "no frame for " + fixedText(1e-6 * static_cast<double>(nowUs - *beforeUs), 1) + " s";
+      return messages.event({*beforeUs, nowUs, "gap", std::nullopt, text, ""});
+    });
   for (std::size_t m = 0; m < messages.numImages(); ++m)
-    if (server.wanted(m)) server.publish(m, nowUs, messages.image(frame, m));
-  if (server.wanted(messages.signalsChannel()))
-    server.publish(messages.signalsChannel(),
-                   nowUs,
-                   messages.signalObject(results, sequence, open_->link.at(nowUs)));
+    publish(m, nowUs, [&] { return messages.image(frame, m); });
+  publish(messages.signalsChannel(), nowUs, [&] {
+    std::string object;
+    appendSignalJson(object, results, sequence, open_->link.at(nowUs));
+    return object;
+  });
   // Angles come less often than frames, or more often: each sample is sent once.
-  if (const auto joints = messages.jointsChannel(); joints && results.angles &&
-                                                    results.angles->hostUs != open_->anglesUs &&
-                                                    server.wanted(*joints)) {
-    server.publish(*joints, results.angles->hostUs, messages.joints(*results.angles));
-    open_->anglesUs = results.angles->hostUs;
-  }
-  if (const auto shapes = messages.shapesChannel();
-      shapes && !std::exchange(open_->shapesSent, true))
-    server.publish(*shapes, nowUs, messages.shapes(nowUs));
-  const auto transforms = messages.transformsChannel();
-  const auto taxels = messages.taxelsChannel();
-  const bool wantsTransforms = transforms && server.wanted(*transforms);
-  const bool wantsTaxels = taxels && server.wanted(*taxels);
-  if ((!wantsTransforms && !wantsTaxels) || !messages.setPose(results)) return;
-  if (wantsTransforms) server.publish(*transforms, nowUs, messages.transforms(nowUs));
-  if (wantsTaxels) server.publish(*taxels, nowUs, messages.taxels(frame));
+  if (const auto& angles = results.angles;
+      angles && angles->hostUs != open_->anglesUs &&
+      publish(messages.jointsChannel(), angles->hostUs, [&] { return messages.joints(*angles); }))
+    open_->anglesUs = angles->hostUs;
+  if (!std::exchange(open_->shapesSent, true))
+    publish(messages.shapesChannel(), nowUs, [&] { return messages.shapes(nowUs); });
+  const auto wanted = [&](std::optional<std::size_t> channel) {
+    return channel && server.wanted(*channel);
+  };
+  if (!(wanted(messages.transformsChannel()) || wanted(messages.taxelsChannel())) ||
+      !messages.setPose(results))
+    return;
+  publish(messages.transformsChannel(), nowUs, [&] { return messages.transforms(nowUs); });
+  publish(messages.taxelsChannel(), nowUs, [&] { return messages.taxels(frame); });
 }
 
 void FoxgloveStream::send(const Event& event) {

@@ -26,7 +26,8 @@ std::vector<std::string> streamedDatagrams(StreamKind kind,
                                            const LiveResults& results,
                                            std::uint64_t sequence,
                                            const LinkHealth* link) {
-  if (kind == StreamKind::kTactile) return tactileDatagrams(*results.frame, sequence);
+  if (kind == StreamKind::kTactile)
+    return tactileSensorMessages(*results.frame, sequence, kMaxDatagramBytes);
   std::string object;
   std::vector<JsonMember> members;
   appendSignalJson(object, results, sequence, link, &members);

@@ -6,6 +6,7 @@
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/network_place.h"
 #include "palpate/core/number_text.h"
 #include "palpate/live/pressure_stage.h"
 #include "palpate/live/signals_stage.h"
@@ -74,10 +75,6 @@ void addFoxglove(const CommandLine& given, StreamTargets& targets) {
   image = given.chosen("image", kFoxgloveImageWords).value_or(image);
 }
 
-bool isLoopback(const std::string& address) {
-  return address == "::1" || address.starts_with("127.");
-}
-
 }  // namespace
 
 std::vector<OptionSpec> foxgloveOptions() {
@@ -114,11 +111,12 @@ StreamTargets streamTargetsOf(const CommandLine& given, const std::string& optio
 }
 
 void warnAboutTargets(const StreamTargets& targets) {
-  if (!targets.foxglove || isLoopback(targets.foxglove->server.address)) return;
-  std::fprintf(stderr,
-               "palpate: %s:%d: any machine that reaches this address can read the hand\n",
-               escapedLine(targets.foxglove->server.address).c_str(),
-               static_cast<int>(targets.foxglove->server.port));
+  if (!targets.foxglove) return;
+  const NetworkPlace place{targets.foxglove->server.address, targets.foxglove->server.port};
+  if (place.isOpenToOthers())
+    std::fprintf(stderr,
+                 "palpate: %s: any machine that reaches this address can read the hand\n",
+                 escapedLine(place.text()).c_str());
 }
 
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given) {
