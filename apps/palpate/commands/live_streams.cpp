@@ -31,16 +31,11 @@ std::string countsText(const DatagramStats& stats) {
   return std::to_string(stats.sent) + " sent, " + std::to_string(stats.dropped) + " dropped";
 }
 
-ChainOptions sendingTo(const CaptureSession& session,
-                       LiveStream& stream,
-                       FoxgloveStream& foxglove) {
+ChainOptions sendingTo(const CaptureSession& session, LiveStream& stream) {
   ChainOptions options;
   options.furtherSeries = [&session] { return session.furtherSeries(); };
-  options.onResults = [&](const LiveResults& results) {
-    stream.send(results);
-    foxglove.send(results);
-  };
-  options.onEvent = [&](const Event& event) { foxglove.send(event); };
+  options.onResults = [&](const LiveResults& results) { stream.send(results); };
+  options.onEvent = [&](const Event& event) { stream.send(event); };
   return options;
 }
 
@@ -143,10 +138,9 @@ LiveStreams::LiveStreams(CaptureSession& session,
                          const StreamTargets& targets,
                          const std::optional<Calibration>& calibration)
     : targets_(targets),
-      stream_([&session] { return session.health(); }),
-      foxglove_(session.device().hand(), [&session] { return session.health(); }),
+      stream_(session.device().hand(), [&session] { return session.health(); }),
       chain_(streamedStages(&session, session.device().hand(), calibration),
-             sendingTo(session, stream_, foxglove_)) {
+             sendingTo(session, stream_)) {
   warnAboutTargets(targets_);
   for (const StreamTarget& target : targets_.datagrams) stream_.switchOn(target.kind, target.port);
   if (targets_.foxglove) {
@@ -154,7 +148,7 @@ LiveStreams::LiveStreams(CaptureSession& session,
     options.server.onRefusedOrigin = [](const std::string& why) {
       std::fprintf(stderr, "palpate: foxglove: %s\n", escapedLine(why).c_str());
     };
-    foxglove_.switchOn(std::move(options));
+    stream_.switchOn(std::move(options));
   }
   chain_.connect(session);
   chain_.start();
@@ -162,7 +156,7 @@ LiveStreams::LiveStreams(CaptureSession& session,
 
 std::vector<std::string> LiveStreams::places() const {
   if (!targets_.foxglove) return {};
-  return {"foxglove=" + foxglove_.url()};
+  return {"foxglove=" + stream_.foxgloveUrl()};
 }
 
 std::vector<std::string> LiveStreams::lines() const {
@@ -171,9 +165,9 @@ std::vector<std::string> LiveStreams::lines() const {
     if (const auto stats = stream_.stats(target.kind))
       lines.push_back(std::string(nameOf(target.kind)) +
                       " to 127.0.0.1:" + std::to_string(target.port) + ": " + countsText(*stats));
-  if (const auto stats = foxglove_.stats())
+  if (const auto stats = stream_.foxgloveStats())
     lines.push_back(
-        "foxglove at " + foxglove_.url() + ": " + counted(stats->accepted, "client") + ", " +
+        "foxglove at " + stream_.foxgloveUrl() + ": " + counted(stats->accepted, "client") + ", " +
         std::to_string(stats->sent) + " sent, " + std::to_string(stats->dropped) + " dropped" +
         (stats->refused == 0 ? std::string()
                              : ", " + std::to_string(stats->refused) +
