@@ -12,7 +12,7 @@
 
 namespace palpate {
 
-DatagramSender::DatagramSender(std::uint16_t port) : port_(port) {
+DatagramSender::DatagramSender(std::uint16_t port) {
   if (port == 0) throw std::invalid_argument("DatagramSender: port must be 1..65535");
   const NetworkPlace place{.port = port};  // on this machine
   const auto address = socketAddressOf(place);
