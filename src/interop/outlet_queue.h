@@ -1,5 +1,6 @@
-// What waits on its way to another program. It is bounded, so that neither the source nor the memory
-// depends on how fast the program reads: beyond a limit the oldest items are dropped and counted.
+// What waits on its way to another program. It is bounded, so that neither the source nor the
+// memory depends on how fast the program reads: beyond a limit the oldest items are dropped and
+// counted.
 #pragma once
 
 #include <cstddef>
