@@ -1,17 +1,12 @@
 #include "device/stream_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstring>
 #include <iterator>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -36,43 +31,6 @@ constexpr std::int64_t kHolderSilentUs = 1'000'000;
 // A sender that comes back this soon after another one sent is a second sender, no successor.
 constexpr std::int64_t kOtherSenderUs = 2'000'000;
 constexpr std::int64_t kRemarkEveryUs = 10'000'000;
-
-// A socket address of either family, of numbers.
-struct SocketAddress {
-  sockaddr_storage storage{};
-  socklen_t size = 0;
-
-  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
-  sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
-};
-
-std::optional<SocketAddress> socketAddress(const std::string& address, std::uint16_t port) {
-  SocketAddress place;
-  auto* v4 = reinterpret_cast<sockaddr_in*>(&place.storage);
-  if (::inet_pton(AF_INET, address.c_str(), &v4->sin_addr) == 1) {
-    v4->sin_family = AF_INET;
-    v4->sin_port = htons(port);
-    place.size = sizeof *v4;
-    return place;
-  }
-  auto* v6 = reinterpret_cast<sockaddr_in6*>(&place.storage);
-  if (::inet_pton(AF_INET6, address.c_str(), &v6->sin6_addr) != 1) return std::nullopt;
-  v6->sin6_family = AF_INET6;
-  v6->sin6_port = htons(port);
-  place.size = sizeof *v6;
-  return place;
-}
-
-std::string addressText(const SocketAddress& address) {
-  std::array<char, INET6_ADDRSTRLEN> text{};
-  const bool isV4 = address.storage.ss_family == AF_INET;
-  const auto* v4 = reinterpret_cast<const sockaddr_in*>(&address.storage);
-  const auto* v6 = reinterpret_cast<const sockaddr_in6*>(&address.storage);
-  const void* bytes = isV4 ? static_cast<const void*>(&v4->sin_addr) : &v6->sin6_addr;
-  if (::inet_ntop(address.storage.ss_family, bytes, text.data(), text.size()) == nullptr) return {};
-  const std::string port = std::to_string(ntohs(isV4 ? v4->sin_port : v6->sin6_port));
-  return isV4 ? text.data() + (":" + port) : "[" + std::string(text.data()) + "]:" + port;
-}
 
 // Whether bytes of the sender wait to be read; empty: it closed the connection.
 std::optional<bool> hasSent(const FileDescriptor& connection) {
@@ -113,10 +71,9 @@ class UdpChannel final : public DescriptorChannel {
  private:
   ssize_t receive(std::span<std::byte> into) override {
     SocketAddress sender;
-    sender.size = sizeof sender.storage;
     const ssize_t got =
         ::recvfrom(fd_.get(), into.data(), into.size(), 0, sender.get(), &sender.size);
-    if (got > 0) source_.noteDatagramFrom(addressText(sender));
+    if (got > 0) source_.noteDatagramFrom(sender.place().text());
     return got;
   }
 
@@ -169,22 +126,16 @@ StreamSource::StreamSource(std::string name, int baud, const Clock& clock)
     if (name_.starts_with(prefix)) kind_ = kind;
   if (kind_ == Kind::kPort) return;
   const std::string prefix(kind_ == Kind::kListen ? kListenPrefix : kUdpPrefix);
-  const std::string rest = name_.substr(prefix.size());
-  const std::size_t colon = rest.rfind(':');
-  const auto port = parseInteger(colon == std::string::npos ? rest : rest.substr(colon + 1));
-  address_ = colon == std::string::npos ? "127.0.0.1" : rest.substr(0, colon);
-  if (address_.size() > 2 && address_.front() == '[' && address_.back() == ']')
-    address_ = address_.substr(1, address_.size() - 2);
-  if (!port || *port < 0 || *port > 65'535 || !socketAddress(address_, 0))
+  const auto place = networkPlaceOf(name_.substr(prefix.size()));
+  if (!place)
     throw std::invalid_argument("'" + shortened(name_) + "' is not " + prefix +
                                 "[ADDRESS:]PORT, for example " + prefix + "9871 or " + prefix +
-                                "0.0.0.0:9871; ADDRESS is numeric, PORT 0..65535 (0: a free one)");
-  port_ = static_cast<std::uint16_t>(*port);
+                                "0.0.0.0:9871; " + kNetworkPlaceRule);
+  place_ = *place;
 }
 
-bool StreamSource::isOpenToOthers() const noexcept {
-  if (kind_ != Kind::kListen && kind_ != Kind::kUdp) return false;
-  return !address_.starts_with("127.") && address_ != "::1";
+bool StreamSource::isOpenToOthers() const {
+  return (kind_ == Kind::kListen || kind_ == Kind::kUdp) && place_.isOpenToOthers();
 }
 
 std::optional<std::uint16_t> StreamSource::localPort() const {
@@ -199,11 +150,8 @@ void StreamSource::close() {
 }
 
 std::string StreamSource::placeText() const {
-  const int port = localPort_;
-  if (port == 0) return {};
-  const std::string host =
-      address_.find(':') == std::string::npos ? address_ : "[" + address_ + "]";
-  return host + ":" + std::to_string(port);
+  const auto port = localPort();
+  return port ? NetworkPlace{place_.address, *port}.text() : std::string();
 }
 
 std::unique_ptr<ByteChannel> StreamSource::open() {
@@ -240,36 +188,11 @@ std::unique_ptr<ByteChannel> StreamSource::openInput() {
 }
 
 FileDescriptor StreamSource::boundSocket(int type) {
-  const SocketAddress place = socketAddress(address_, port_).value();
-  FileDescriptor fd(::socket(place.storage.ss_family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  const int on = 1;
-  if (type == SOCK_STREAM)
-    ::setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  else
+  NetworkPlace bound = place_;
+  FileDescriptor fd = listenAt(bound, name_, type, kBacklog);
+  if (type == SOCK_DGRAM)
     ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &kUdpBufferBytes, sizeof kUdpBufferBytes);
-  bool good = fd.get() >= 0 && ::bind(fd.get(), place.get(), place.size) == 0;
-  if (good && type == SOCK_STREAM) good = ::listen(fd.get(), kBacklog) == 0;
-  if (!good) {
-    const int error = errno;
-    if (error == EADDRINUSE)
-      throw DeviceError(
-          DeviceFault::kBusy, name_, "another program uses this port; name another one");
-    if (error == EACCES)
-      throw DeviceError(
-          DeviceFault::kNoPermission, name_, "no permission for this port; name one above 1023");
-    if (error == EADDRNOTAVAIL)
-      throw DeviceError(
-          DeviceFault::kNotFound, name_, "this machine does not have the address " + address_);
-    throw DeviceError(DeviceFault::kNotFound,
-                      name_,
-                      "can't be opened (" + std::generic_category().message(error) + ")");
-  }
-  SocketAddress bound;
-  bound.size = sizeof bound.storage;
-  if (::getsockname(fd.get(), bound.get(), &bound.size) == 0)
-    localPort_ = ntohs(bound.storage.ss_family == AF_INET
-                           ? reinterpret_cast<const sockaddr_in*>(&bound.storage)->sin_port
-                           : reinterpret_cast<const sockaddr_in6*>(&bound.storage)->sin6_port);
+  localPort_ = bound.port;
   return fd;
 }
 
@@ -305,12 +228,11 @@ void StreamSource::acceptWaiting() {
   nextAcceptUs_ = nowUs + kAcceptEveryUs;
   for (;;) {
     SocketAddress peer;
-    peer.size = sizeof peer.storage;
     FileDescriptor sender(
         ::accept4(listening_.get(), peer.get(), &peer.size, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (sender.get() < 0) return;
     if (waiting_.size() == kMaxWaiting) makeRoom();
-    waiting_.push_back({std::move(sender), addressText(peer), nowUs});
+    waiting_.push_back({std::move(sender), peer.place().text(), nowUs});
     if (!holder_.empty())
       remark(nextRemarkUs_,
              waiting_.back().peer + " is connected, too, and waits: " + holderText());

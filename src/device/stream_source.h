@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/network_place.h"
 #include "palpate/core/time.h"
 #include "palpate/device/byte_channel.h"
 
@@ -34,7 +35,7 @@ class StreamSource {
   // True once everything from standard input was read.
   bool ended() const noexcept { return ended_; }
   // True when other machines can reach the port on which senders are awaited.
-  bool isOpenToOthers() const noexcept;
+  bool isOpenToOthers() const;
   // True when the first bytes may lack the beginning of a line: the sender may be running already.
   bool startsInside() const noexcept { return kind_ == Kind::kPort; }
   bool isInput() const noexcept { return kind_ == Kind::kInput; }
@@ -76,8 +77,7 @@ class StreamSource {
   const int baud_;
   const Clock& clock_;
   Kind kind_ = Kind::kPort;
-  std::string address_;  // numeric
-  std::uint16_t port_ = 0;
+  NetworkPlace place_;
   std::string stableName_;
   FileDescriptor listening_;
   std::vector<Waiting> waiting_;  // the newest last

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -22,6 +21,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/network_place.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 
@@ -34,60 +34,13 @@ constexpr std::int64_t kSecondUs = 1'000'000;
 // A hand that is later than this does not catch up.
 constexpr std::int64_t kMostLateUs = kSecondUs;
 
-// A place to listen at, as numbers.
-struct ListenPlace {
-  std::string host = "127.0.0.1";
-  std::string port;
-};
-
-ListenPlace listenPlace(const std::string& where) {
-  ListenPlace place;
-  const std::size_t colon = where.rfind(':');
-  place.port = colon == std::string::npos ? where : where.substr(colon + 1);
-  if (colon != std::string::npos) place.host = where.substr(0, colon);
-  if (place.host.size() > 2 && place.host.front() == '[' && place.host.back() == ']')
-    place.host = place.host.substr(1, place.host.size() - 2);
-  return place;
-}
-
-// The address of a place; empty when it is none.
-std::optional<std::vector<std::byte>> socketAddressOf(const ListenPlace& place) {
-  const auto port = parseInteger(place.port);
-  if (!port || *port < 0 || *port > 65'535) return std::nullopt;
-  addrinfo hints{};
-  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  if (::getaddrinfo(place.host.c_str(), std::to_string(*port).c_str(), &hints, &found) != 0)
-    return std::nullopt;
-  const auto* bytes = reinterpret_cast<const std::byte*>(found->ai_addr);
-  std::vector<std::byte> address(bytes, bytes + found->ai_addrlen);
-  ::freeaddrinfo(found);
-  return address;
-}
-
-[[noreturn]] void failToListen(const std::string& where, int error) {
-  const std::string name = "tcp:" + where;
-  if (error == EADDRINUSE)
-    throw DeviceError(
-        DeviceFault::kBusy, name, "another program uses this port; name another one, or 0");
-  if (error == EACCES)
-    throw DeviceError(
-        DeviceFault::kNoPermission, name, "no permission for this port; name one above 1023");
-  if (error == EADDRNOTAVAIL)
-    throw DeviceError(DeviceFault::kNotFound, name, "this machine does not have the address");
-  throw DeviceError(DeviceFault::kNotFound,
-                    name,
-                    "can't be opened (" + std::generic_category().message(error) + ")");
-}
-
 }  // namespace
 
 void EmulatedStreamOptions::validate() const {
-  if (!socketAddressOf(listenPlace(where)))
+  if (!networkPlaceOf(where))
     throw std::invalid_argument("'" + shortened(where) +
-                                "' is not [ADDRESS:]PORT, for example 9871 or 0.0.0.0:9871; "
-                                "ADDRESS is numeric, PORT 0..65535 (0: a free one)");
+                                "' is not [ADDRESS:]PORT, for example 9871 or 0.0.0.0:9871; " +
+                                kNetworkPlaceRule);
   OptionCheck{"EmulatedStreamOptions"}(kRateHz, "rateHz", rateHz);
 }
 
@@ -97,7 +50,7 @@ class EmulatedStream::Loop {
        EmulatedStreamOptions options,
        EmulatedStreamObserver observer)
       : options_((options.validate(), std::move(options))),
-        place_(listenPlace(options_.where)),
+        place_(networkPlaceOf(options_.where).value()),
         model_(std::move(model)),
         observer_(std::move(observer)),
         encoder_(model_->hand(), options_.format),
@@ -119,11 +72,8 @@ class EmulatedStream::Loop {
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
-  std::string name() const {
-    const bool isV6 = place_.host.find(':') != std::string::npos;
-    return "tcp:" + (isV6 ? "[" + place_.host + "]" : place_.host) + ":" + place_.port;
-  }
-  bool isOpenToOthers() const { return !place_.host.starts_with("127.") && place_.host != "::1"; }
+  std::string name() const { return "tcp:" + place_.text(); }
+  bool isOpenToOthers() const { return place_.isOpenToOthers(); }
   EmulatedStreamCounts counts() const {
     std::lock_guard lock(mutex_);
     return counts_;
@@ -136,25 +86,7 @@ class EmulatedStream::Loop {
     bool isCounted = false;
   };
 
-  void listen() {
-    const std::vector<std::byte> address = *socketAddressOf(place_);
-    sockaddr_storage storage{};
-    std::copy(address.begin(), address.end(), reinterpret_cast<std::byte*>(&storage));
-    auto* generic = reinterpret_cast<sockaddr*>(&storage);
-    FileDescriptor fd(::socket(storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    const int on = 1;
-    if (fd.get() < 0) failToListen(options_.where, errno);
-    ::setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    if (::bind(fd.get(), generic, static_cast<socklen_t>(address.size())) != 0 ||
-        ::listen(fd.get(), 1) != 0)
-      failToListen(options_.where, errno);
-    socklen_t size = sizeof storage;
-    if (::getsockname(fd.get(), generic, &size) != 0) failToListen(options_.where, errno);
-    place_.port = std::to_string(ntohs(storage.ss_family == AF_INET
-                                           ? reinterpret_cast<sockaddr_in*>(&storage)->sin_port
-                                           : reinterpret_cast<sockaddr_in6*>(&storage)->sin6_port));
-    listener_ = std::move(fd);
-  }
+  void listen() { listener_ = listenAt(place_, name(), SOCK_STREAM, 1); }
 
   void runGuarded() {
     try {
@@ -302,7 +234,7 @@ class EmulatedStream::Loop {
   }
 
   const EmulatedStreamOptions options_;
-  ListenPlace place_;  // its port is fixed by the constructor
+  NetworkPlace place_;  // its port is fixed by the constructor
   const std::unique_ptr<PhysicalHand> model_;
   const EmulatedStreamObserver observer_;
   const StreamEncoder encoder_;

@@ -1,17 +1,15 @@
 // The TCP port behind openTcpPort(), and openPortServer(), which chooses the kind of port.
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 
-#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/network_place.h"
 #include "palpate/core/number_text.h"
 #include "palpate/emulator/port_server.h"
 
@@ -20,7 +18,7 @@ namespace {
 
 class TcpPort final : public PortServer {
  public:
-  explicit TcpPort(std::uint16_t port) : port_(port) { plug(); }
+  explicit TcpPort(std::uint16_t port) : place_{.port = port} { plug(); }
   ~TcpPort() override { unplug(); }
   TcpPort(const TcpPort&) = delete;
   TcpPort& operator=(const TcpPort&) = delete;
@@ -57,32 +55,11 @@ class TcpPort final : public PortServer {
 
   void plug() override {
     if (listener_.get() >= 0) return;
-    listener_ = FileDescriptor(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (listener_.get() < 0) fail();
-    const int on = 1;
-    ::setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port_);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // not reachable from other machines
-    socklen_t size = sizeof address;
-    auto* generic = reinterpret_cast<sockaddr*>(&address);
-    if (::bind(listener_.get(), generic, size) != 0 || ::listen(listener_.get(), 1) != 0 ||
-        ::getsockname(listener_.get(), generic, &size) != 0)
-      fail();
-    port_ = ntohs(address.sin_port);
-    name_ = "tcp:127.0.0.1:" + std::to_string(port_);
+    listener_ = listenAt(place_, "tcp:" + place_.text(), SOCK_STREAM, 1);
+    name_ = "tcp:" + place_.text();
   }
 
  private:
-  [[noreturn]] void fail() {
-    const int error = errno;
-    unplug();
-    throw DeviceError(error == EADDRINUSE ? DeviceFault::kBusy : DeviceFault::kDisconnected,
-                      "tcp:127.0.0.1:" + std::to_string(port_),
-                      std::string("can't listen: ") + std::strerror(error));
-  }
-
   void accept() {
     client_ =
         FileDescriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
@@ -92,7 +69,7 @@ class TcpPort final : public PortServer {
 
   void hangUp() noexcept { client_ = FileDescriptor(); }
 
-  std::uint16_t port_;
+  NetworkPlace place_;
   std::string name_;
   FileDescriptor listener_;
   FileDescriptor client_;

@@ -5,28 +5,24 @@
 #include <stdexcept>
 #include <string>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/network_place.h"
 
 namespace palpate {
 
-DatagramSender::DatagramSender(std::uint16_t port) : port_(port) {
+DatagramSender::DatagramSender(std::uint16_t port) {
   if (port == 0) throw std::invalid_argument("DatagramSender: port must be 1..65535");
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const NetworkPlace place{.port = port};  // on this machine
+  const auto address = socketAddressOf(place);
   socket_ = FileDescriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   // On a connected socket the system reports datagrams without a receiver.
-  if (socket_.get() >= 0 &&
-      ::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+  if (address && socket_.get() >= 0 && ::connect(socket_.get(), address->get(), address->size) == 0)
     return;
   const int error = errno;
   throw DeviceError(DeviceFault::kDisconnected,
-                    "udp:127.0.0.1:" + std::to_string(port),
+                    "udp:" + place.text(),
                     std::string("can't send: ") + std::strerror(error));
 }
 

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "palpate/recording/tactile_sensor_json.h"
-
 namespace palpate {
 namespace {
 
@@ -135,12 +133,6 @@ std::vector<std::string> signalDatagrams(std::string_view object,
     }
   }
   return parts.take();
-}
-
-std::vector<std::string> tactileDatagrams(const TactileFrame& frame,
-                                          std::uint64_t sequence,
-                                          std::size_t maxBytes) {
-  return tactileSensorMessages(frame, sequence, maxBytes);
 }
 
 }  // namespace palpate

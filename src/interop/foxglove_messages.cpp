@@ -15,7 +15,6 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_file.h"
-#include "palpate/interop/signal_json.h"
 
 #include "interop/foxglove_schemas.h"
 
@@ -52,13 +51,16 @@ Json timeJson(std::int64_t timeUs) {
   return Json::object().set("sec", seconds).set("nsec", nanoseconds);
 }
 
-void appendVector(std::string& out, const Eigen::Vector3d& m) {
-  out += "{\"x\":";
-  appendNumber(out, m.x());
-  out += ",\"y\":";
-  appendNumber(out, m.y());
-  out += ",\"z\":";
-  appendNumber(out, m.z());
+// The parts of a vector, or of a quaternion.
+template <typename Parts>
+void appendParts(std::string& out, const Parts& parts) {
+  for (int i = 0; i < parts.size(); ++i) {
+    out += i == 0 ? '{' : ',';
+    out += '"';
+    out += "xyzw"[i];
+    out += "\":";
+    appendNumber(out, parts[i]);
+  }
   out += '}';
 }
 
@@ -124,8 +126,7 @@ bool isWarning(const std::string& kind) {
 // Empty: the file can't be read, or is too large for a message.
 std::string meshBytes(const std::filesystem::path& path) {
   try {
-    std::string bytes = readTextFile(path, kMostMeshBytes);
-    return bytes;
+    return readTextFile(path, kMostMeshBytes);
   } catch (const Error&) {
     return {};
   }
@@ -288,14 +289,6 @@ std::string FoxgloveMessages::image(const TactileFrame& frame, std::size_t matri
   return out;
 }
 
-std::string FoxgloveMessages::signalObject(const LiveResults& results,
-                                           std::uint64_t sequence,
-                                           const LinkHealth* link) const {
-  std::string out;
-  appendSignalJson(out, results, sequence, link);
-  return out;
-}
-
 std::string FoxgloveMessages::joints(const Sample& angles) const {
   std::string out = "{\"timestamp\":";
   appendTime(out, angles.hostUs);
@@ -356,17 +349,10 @@ std::string FoxgloveMessages::transforms(std::int64_t timeUs) const {
     if (!std::exchange(first, false)) out += ',';
     out += stamp + ",\"parent_frame_id\":" + parent + ",\"child_frame_id\":" + child +
            ",\"translation\":";
-    appendVector(out, parentFromChild.translation() * kMPerMm);
-    const Eigen::Quaterniond turn(parentFromChild.rotation());
-    out += ",\"rotation\":{\"x\":";
-    appendNumber(out, turn.x());
-    out += ",\"y\":";
-    appendNumber(out, turn.y());
-    out += ",\"z\":";
-    appendNumber(out, turn.z());
-    out += ",\"w\":";
-    appendNumber(out, turn.w());
-    out += "}}";
+    appendParts(out, Eigen::Vector3d(parentFromChild.translation() * kMPerMm));
+    out += ",\"rotation\":";
+    appendParts(out, Eigen::Quaterniond(parentFromChild.rotation()).coeffs());
+    out += '}';
   };
   std::vector<Eigen::Isometry3d> baseFrom;
   for (const Frame& frame : frames_) {

@@ -8,7 +8,6 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
-#include "palpate/interop/foxglove_server.h"
 
 namespace palpate {
 namespace {
@@ -27,10 +26,7 @@ std::string chosenProtocol(std::string_view offered) {
   std::vector<std::string_view> names;
   while (!offered.empty()) {
     const std::size_t comma = std::min(offered.find(','), offered.size());
-    std::string_view name = offered.substr(0, comma);
-    while (!name.empty() && (name.front() == ' ' || name.front() == '\t')) name.remove_prefix(1);
-    while (!name.empty() && (name.back() == ' ' || name.back() == '\t')) name.remove_suffix(1);
-    names.push_back(name);
+    names.push_back(trimmed(offered.substr(0, comma)));
     offered.remove_prefix(std::min(comma + 1, offered.size()));
   }
   for (const std::string_view ours : kSubprotocols)
@@ -73,17 +69,15 @@ void readUnsubscriptions(const Json& list, FoxgloveRequest& request) {
 
 }  // namespace
 
-bool isFoxgloveOrigin(std::string_view origin, const std::vector<std::string>& others) {
-  return origin.empty() || origin == kFoxgloveWebApp ||
-         std::find(others.begin(), others.end(), origin) != others.end();
-}
-
 FoxgloveReply replyTo(const FoxgloveHandshake& handshake, const std::vector<std::string>& origins) {
-  if (!handshake.hasOneOrigin || !isFoxgloveOrigin(handshake.origin, origins))
+  const std::string& origin = handshake.origin;  // empty: no web page
+  const bool mayConnect = origin.empty() || origin == kFoxgloveWebApp ||
+                          std::find(origins.begin(), origins.end(), origin) != origins.end();
+  if (!handshake.hasOneOrigin || !mayConnect)
     return {
         kForbidden,
         "",
-        "The web page " + shown(handshake.origin) +
+        "The web page " + shown(origin) +
             " may not read the hand: allow it with the option --origin (in the window: the setting "
             "streams/foxglove_origins)."};
   if (!handshake.isUpgrade)

@@ -1,6 +1,7 @@
 #include "interop/foxglove_schemas.h"
 
 #include <initializer_list>
+#include <string_view>
 #include <utility>
 
 #include "palpate/signals/characteristic_signals.h"
@@ -33,23 +34,18 @@ Json schemaBytes(const std::string& description) {
 Json schemaTime() {
   return schemaObject({{"sec", schemaWhole("s since 1970")}, {"nsec", schemaWhole("ns")}});
 }
-Json schemaVector(const std::string& unit) {
-  return schemaObject(
-      {{"x", schemaNumber(unit)}, {"y", schemaNumber(unit)}, {"z", schemaNumber(unit)}});
+// An object of numbers, a letter each.
+Json schemaNumbers(std::string_view letters, const std::string& unit) {
+  Json properties = Json::object();
+  for (const char letter : letters) properties.set(std::string(1, letter), schemaNumber(unit));
+  return Json::object().set("type", "object").set("properties", std::move(properties));
 }
-Json schemaQuaternion() {
-  return schemaObject(
-      {{"x", schemaNumber()}, {"y", schemaNumber()}, {"z", schemaNumber()}, {"w", schemaNumber()}});
-}
+Json schemaVector(const std::string& unit) { return schemaNumbers("xyz", unit); }
+Json schemaQuaternion() { return schemaNumbers("xyzw", {}); }
 Json schemaPose() {
   return schemaObject({{"position", schemaVector("m")}, {"orientation", schemaQuaternion()}});
 }
-Json schemaColor() {
-  return schemaObject({{"r", schemaNumber("0..1")},
-                       {"g", schemaNumber("0..1")},
-                       {"b", schemaNumber("0..1")},
-                       {"a", schemaNumber("0..1")}});
-}
+Json schemaColor() { return schemaNumbers("rgba", "0..1"); }
 std::string titled(const char* title, Json schema) { return schema.set("title", title).text(-1); }
 
 Json signalKeys() {

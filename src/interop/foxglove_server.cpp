@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -15,11 +14,11 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-#include <fcntl.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
+#include "palpate/core/network_place.h"
 #include "palpate/core/number_text.h"
 
 #include "interop/foxglove_request.h"
@@ -39,6 +38,7 @@ constexpr std::size_t kMostClientBytes = 256U << 10;
 constexpr std::size_t kMostHandshakes = 64;
 // Messages that may wait for the server's thread: a second of 60 channels at 30 Hz.
 constexpr std::size_t kMostPosted = 2048;
+constexpr std::size_t kMostPostedBytes = 16U << 20;
 constexpr auto kSilence = std::chrono::seconds(60);
 
 std::string advertisement(const std::vector<FoxgloveChannel>& channels) {
@@ -70,6 +70,7 @@ struct FoxgloveServer::Impl {
                  .set("metadata", Json::object())
                  .text(-1)),
         advertised(advertisement(channels)),
+        place{options.address, options.port},
         subscribers(channels.size()),
         latest(channels.size()),
         server(listen(), [this](FileDescriptor socket) { accept(std::move(socket)); }) {
@@ -84,32 +85,19 @@ struct FoxgloveServer::Impl {
     return options;
   }
 
-  // Sets `protocol` and `port`.
   FileDescriptor listen() {
-    const std::string place = options.address + ":" + std::to_string(options.port);
-    BoostError failure;
-    const auto address = asio::ip::make_address(options.address, failure);
-    if (failure) throw Error("'" + options.address + "' is not a numeric address");
-    const tcp::endpoint endpoint(address, options.port);
-    asio::io_context context;
-    tcp::acceptor acceptor(context);
-    acceptor.open(endpoint.protocol(), failure);
-    if (!failure) acceptor.set_option(asio::socket_base::reuse_address(true), failure);
-    if (!failure) acceptor.bind(endpoint, failure);
-    if (!failure) acceptor.listen(asio::socket_base::max_listen_connections, failure);
-    if (failure == asio::error::address_in_use)
-      throw Error(place + ": another program listens at this port: choose another port");
-    if (failure == asio::error::access_denied)
-      throw Error(place + ": this port is the system's: choose one above 1023");
-    if (failure) throw Error(place + ": can't listen: " + failure.message());
-    protocol = endpoint.protocol();
-    port = acceptor.local_endpoint().port();
-    FileDescriptor listener(::fcntl(acceptor.native_handle(), F_DUPFD_CLOEXEC, 0));
-    if (listener.get() < 0 || ::fcntl(listener.get(), F_SETFL, O_NONBLOCK) != 0)
-      throw Error(place + ": can't listen: the system has no descriptor left");
-    return listener;
+    try {
+      return listenAt(place, place.text(), SOCK_STREAM, SOMAXCONN);
+    } catch (const std::invalid_argument& problem) {
+      throw Error(problem.what());
+    } catch (const DeviceError& error) {  // no device: the program goes on without it
+      throw Error(error.what());
+    }
   }
 
+  std::chrono::milliseconds handshakeLimit() const {
+    return std::chrono::milliseconds(static_cast<std::int64_t>(options.handshakeS * 1000.0));
+  }
   void accept(FileDescriptor socket);
   void makeRoom();
   void sendPosted();
@@ -145,12 +133,11 @@ struct FoxgloveServer::Impl {
   const FoxgloveServerOptions options;
   const std::vector<FoxgloveChannel> channels;
   const std::string info, advertised;
-  tcp protocol = tcp::v4();
-  std::uint16_t port = 0;
+  NetworkPlace place;
 
   mutable std::mutex mutex;  // protects the next three
   std::vector<int> subscribers;
-  std::deque<FoxgloveMessage> posted;
+  OutletQueue<FoxgloveMessage> posted{kMostPostedBytes, kMostPosted};
   FoxgloveServerStats stats;
 
   // Used by the server's thread only.
@@ -184,8 +171,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
   void start() {
     parser_.header_limit(kMostHeaderBytes);
     parser_.body_limit(0);
-    beast::get_lowest_layer(stream_).expires_after(
-        std::chrono::milliseconds(static_cast<std::int64_t>(server_.options.handshakeS * 1000.0)));
+    beast::get_lowest_layer(stream_).expires_after(server_.handshakeLimit());
     http::async_read_header(
         beast::get_lowest_layer(stream_),
         buffer_,
@@ -261,10 +247,8 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
 
   void accept(const std::string& protocol) {
     admitted_ = true;
-    const auto limit =
-        std::chrono::milliseconds(static_cast<std::int64_t>(server_.options.handshakeS * 1000.0));
     beast::get_lowest_layer(stream_).expires_never();
-    stream_.set_option(websocket::stream_base::timeout{limit, kSilence, true});
+    stream_.set_option(websocket::stream_base::timeout{server_.handshakeLimit(), kSilence, true});
     stream_.set_option(
         websocket::stream_base::decorator([protocol](websocket::response_type& response) {
           response.set(http::field::server, "Palpate");
@@ -299,11 +283,12 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
 
   // The message that is being sent has left the queue, from which others may be dropped meanwhile.
   void write() {
-    if (const std::uint64_t dropped = subscriber_.takeDropped(); dropped > 0)
+    OutletQueue<FoxgloveOutgoing>& waiting = subscriber_.waiting();
+    if (const std::uint64_t dropped = waiting.takeDropped(); dropped > 0)
       server_.count(&FoxgloveServerStats::dropped, dropped);
-    if (subscriber_.isOverrun()) return beast::get_lowest_layer(stream_).close();
+    if (waiting.isOverrun()) return beast::get_lowest_layer(stream_).close();
     if (sending_ || closing_) return;
-    sending_ = subscriber_.next();
+    sending_ = waiting.pop();
     if (!sending_) return;
     stream_.binary(sending_->binary);
     const std::array<asio::const_buffer, 2> buffers{
@@ -333,8 +318,9 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
 
 void FoxgloveServer::Impl::accept(FileDescriptor socket) try {
   makeRoom();
-  const auto session =
-      std::make_shared<Session>(*this, tcp::socket(server.context(), protocol, socket.release()));
+  const bool isV6 = place.address.find(':') != std::string::npos;
+  const auto session = std::make_shared<Session>(
+      *this, tcp::socket(server.context(), isV6 ? tcp::v6() : tcp::v4(), socket.release()));
   server.add(session);
   session->start();
 } catch (...) {
@@ -356,16 +342,16 @@ void FoxgloveServer::Impl::makeRoom() {
 // Sends what was posted up to now. What is posted meanwhile waits until the thread has served its
 // connections: publish() calls it again.
 void FoxgloveServer::Impl::sendPosted() {
-  std::deque<FoxgloveMessage> messages;
+  OutletQueue<FoxgloveMessage> messages(kMostPostedBytes, kMostPosted);
   {
     const std::lock_guard lock(mutex);
-    messages.swap(posted);
+    std::swap(messages, posted);
   }
-  for (const FoxgloveMessage& message : messages) {
-    if (channels[message.channel].latched) latest[message.channel] = message;
+  while (const auto message = messages.pop()) {
+    if (channels[message->channel].latched) latest[message->channel] = *message;
     for (const auto& session : server.sessions()) {
       try {
-        session->publish(message);
+        session->publish(*message);
       } catch (...) {
         count(&FoxgloveServerStats::dropped);  // no memory: the next message may find some
       }
@@ -378,13 +364,9 @@ FoxgloveServer::FoxgloveServer(FoxgloveServerOptions options, std::vector<Foxglo
 
 FoxgloveServer::~FoxgloveServer() = default;
 
-std::uint16_t FoxgloveServer::port() const noexcept { return impl_->port; }
+std::uint16_t FoxgloveServer::port() const noexcept { return impl_->place.port; }
 
-std::string FoxgloveServer::url() const {
-  const std::string& address = impl_->options.address;
-  const bool bracketed = address.find(':') != std::string::npos;
-  return "ws://" + (bracketed ? "[" + address + "]" : address) + ":" + std::to_string(impl_->port);
-}
+std::string FoxgloveServer::url() const { return "ws://" + impl_->place.text(); }
 
 bool FoxgloveServer::wanted(std::size_t channel) const {
   if (impl_->channels.at(channel).latched) return true;
@@ -394,17 +376,20 @@ bool FoxgloveServer::wanted(std::size_t channel) const {
 
 void FoxgloveServer::publish(std::size_t channel, std::int64_t timeUs, std::string payload) {
   const bool latched = impl_->channels.at(channel).latched;
-  FoxgloveMessage next{channel, timeUs, std::make_shared<const std::string>(std::move(payload))};
+  FoxgloveMessage next{
+      channel, timeUs, std::make_shared<const std::string>(std::move(payload)), !latched};
   {
     const std::lock_guard lock(impl_->mutex);
     if (!latched && impl_->subscribers[channel] == 0) return;
     ++impl_->stats.published;
-    if (impl_->posted.size() >= kMostPosted) {
+    if (impl_->posted.isOverrun()) {
       ++impl_->stats.dropped;
       return;
     }
-    impl_->posted.push_back(std::move(next));
-    if (impl_->posted.size() > 1) return;  // the thread has been called already
+    const bool called = impl_->posted.size() > 0;
+    impl_->posted.push(std::move(next));
+    impl_->stats.dropped += impl_->posted.takeDropped();
+    if (called) return;  // the thread comes for it
   }
   asio::post(impl_->server.context(), [impl = impl_.get()] { impl->sendPosted(); });
 }

@@ -10,9 +10,6 @@
 namespace palpate {
 namespace {
 
-// What can't be dropped is the greeting and what new subscribers receive at once: more of it waits
-// only for a client that subscribes again and again without reading.
-constexpr std::size_t kMaxUndroppable = 64;
 constexpr std::int64_t kSubscriberNsPerUs = 1000;
 
 void putLittleEndian(unsigned char* at, std::uint64_t value, int bytes) {
@@ -25,8 +22,8 @@ FoxgloveSubscriber::FoxgloveSubscriber(std::size_t numChannels,
                                        std::size_t maxWaitingBytes,
                                        OnSubscription onSubscription)
     : numChannels_(numChannels),
-      maxWaitingBytes_(maxWaitingBytes),
-      onSubscription_(std::move(onSubscription)) {}
+      onSubscription_(std::move(onSubscription)),
+      waiting_(maxWaitingBytes) {}
 
 FoxgloveSubscriber::~FoxgloveSubscriber() {
   for (const auto& [id, channel] : channelOfId_) onSubscription_(channel, -1);
@@ -54,7 +51,7 @@ void FoxgloveSubscriber::take(bool isText,
   FoxgloveOutgoing out;
   out.droppable = true;
   out.content = std::make_shared<const std::string>(status.text(-1));
-  queue(std::move(out));
+  waiting_.push(std::move(out));
 }
 
 std::string FoxgloveSubscriber::subscribe(std::uint32_t id,
@@ -79,7 +76,7 @@ void FoxgloveSubscriber::publish(const FoxgloveMessage& message) {
 void FoxgloveSubscriber::queueText(std::string text) {
   FoxgloveOutgoing out;
   out.content = std::make_shared<const std::string>(std::move(text));
-  queue(std::move(out));
+  waiting_.push(std::move(out));
 }
 
 void FoxgloveSubscriber::queueMessage(std::uint32_t id,
@@ -95,38 +92,7 @@ void FoxgloveSubscriber::queueMessage(std::uint32_t id,
       out.head.data() + 5,
       static_cast<std::uint64_t>(std::max<std::int64_t>(message.timeUs, 0) * kSubscriberNsPerUs),
       8);
-  queue(std::move(out));
+  waiting_.push(std::move(out));
 }
-
-void FoxgloveSubscriber::queue(FoxgloveOutgoing out) {
-  const std::size_t bytes = out.size();
-  const std::size_t undroppable = out.droppable ? 0 : 1;
-  waiting_.push_back(std::move(out));
-  waitingBytes_ += bytes;
-  undroppable_ += undroppable;
-  auto oldest = waiting_.begin();
-  while (waitingBytes_ > maxWaitingBytes_ && oldest != waiting_.end()) {
-    if (!oldest->droppable) {
-      ++oldest;
-      continue;
-    }
-    waitingBytes_ -= oldest->size();
-    oldest = waiting_.erase(oldest);
-    ++dropped_;
-  }
-}
-
-std::optional<FoxgloveOutgoing> FoxgloveSubscriber::next() {
-  if (waiting_.empty()) return std::nullopt;
-  FoxgloveOutgoing out = std::move(waiting_.front());
-  waiting_.pop_front();
-  waitingBytes_ -= out.size();
-  if (!out.droppable) --undroppable_;
-  return out;
-}
-
-bool FoxgloveSubscriber::isOverrun() const noexcept { return undroppable_ > kMaxUndroppable; }
-
-std::uint64_t FoxgloveSubscriber::takeDropped() noexcept { return std::exchange(dropped_, 0); }
 
 }  // namespace palpate

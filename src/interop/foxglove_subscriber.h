@@ -6,14 +6,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "interop/outlet_queue.h"
 
 namespace palpate {
 
@@ -24,6 +24,9 @@ struct FoxgloveMessage {
   std::size_t channel = 0;
   std::int64_t timeUs = 0;  // since 1970
   FoxgloveText payload;     // null: there is no message yet
+  bool droppable = true;
+
+  std::size_t size() const { return payload->size(); }
 };
 
 // A WebSocket message to one client: `head` (of binary messages only), then `content`.
@@ -60,13 +63,9 @@ class FoxgloveSubscriber {
   // Queues a text that is never dropped.
   void queueText(std::string text);
 
-  // Takes the next message out of the queue; nullopt: none waits.
-  std::optional<FoxgloveOutgoing> next();
-  // Whether too many messages wait that can't be dropped: the client is to be disconnected.
-  bool isOverrun() const noexcept;
-  // Number of messages dropped since the last call.
-  std::uint64_t takeDropped() noexcept;
-  std::size_t waitingBytes() const noexcept { return waitingBytes_; }
+  // What waits for the client. What can't be dropped is the greeting and what new subscribers
+  // receive at once: it overruns only where a client subscribes again and again without reading.
+  OutletQueue<FoxgloveOutgoing>& waiting() noexcept { return waiting_; }
 
  private:
   // Returns why there is no such subscription now; empty: there is.
@@ -74,18 +73,13 @@ class FoxgloveSubscriber {
                         std::size_t channel,
                         const std::vector<FoxgloveMessage>& latest);
   void queueMessage(std::uint32_t id, const FoxgloveMessage& message, bool droppable);
-  void queue(FoxgloveOutgoing out);
 
   const std::size_t numChannels_;
-  const std::size_t maxWaitingBytes_;
   const OnSubscription onSubscription_;
   // Each the inverse of the other: a channel has at most one subscription.
   std::map<std::uint32_t, std::size_t> channelOfId_;
   std::map<std::size_t, std::uint32_t> idOfChannel_;
-  std::deque<FoxgloveOutgoing> waiting_;
-  std::size_t waitingBytes_ = 0;
-  std::size_t undroppable_ = 0;
-  std::uint64_t dropped_ = 0;
+  OutletQueue<FoxgloveOutgoing> waiting_;
 };
 
 }  // namespace palpate

@@ -13,10 +13,20 @@ using RemoteProtocolVerb = RemoteRequest::Verb;
 constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kMaxQuoted = 60;  // part of an invalid request quoted in an answer
 
-bool hasText(RemoteProtocolVerb verb) {
-  return verb == RemoteProtocolVerb::kStart || verb == RemoteProtocolVerb::kLabel ||
-         verb == RemoteProtocolVerb::kFile || verb == RemoteProtocolVerb::kSet;
-}
+struct VerbSpec {
+  RemoteProtocolVerb verb;
+  std::string_view name;
+  bool hasText;
+};
+// In the order of RemoteRequest::Verb.
+constexpr std::array<VerbSpec, 8> kVerbs = {{{RemoteProtocolVerb::kStatus, "status", false},
+                                             {RemoteProtocolVerb::kStart, "start", true},
+                                             {RemoteProtocolVerb::kStop, "stop", false},
+                                             {RemoteProtocolVerb::kLabel, "label", true},
+                                             {RemoteProtocolVerb::kMark, "mark", false},
+                                             {RemoteProtocolVerb::kFile, "file", true},
+                                             {RemoteProtocolVerb::kSet, "set", true},
+                                             {RemoteProtocolVerb::kHelp, "help", false}}};
 
 ReadRequest refuse(std::string code, std::string why) {
   return {std::nullopt, RemoteAnswer::refused(std::move(code), std::move(why))};
@@ -29,36 +39,15 @@ std::string quoted(std::string_view text) {
 }  // namespace
 
 std::string_view nameOf(RemoteProtocolVerb verb) noexcept {
-  switch (verb) {
-    case RemoteProtocolVerb::kStatus:
-      return "status";
-    case RemoteProtocolVerb::kStart:
-      return "start";
-    case RemoteProtocolVerb::kStop:
-      return "stop";
-    case RemoteProtocolVerb::kLabel:
-      return "label";
-    case RemoteProtocolVerb::kMark:
-      return "mark";
-    case RemoteProtocolVerb::kFile:
-      return "file";
-    case RemoteProtocolVerb::kSet:
-      return "set";
-    case RemoteProtocolVerb::kHelp:
-      return "help";
-  }
-  return {};
+  return kVerbs[static_cast<std::size_t>(verb)].name;
 }
 
 const std::vector<RemoteProtocolVerb>& allRemoteVerbs() {
-  static const std::vector<RemoteProtocolVerb> all{RemoteProtocolVerb::kStatus,
-                                                   RemoteProtocolVerb::kStart,
-                                                   RemoteProtocolVerb::kStop,
-                                                   RemoteProtocolVerb::kLabel,
-                                                   RemoteProtocolVerb::kMark,
-                                                   RemoteProtocolVerb::kFile,
-                                                   RemoteProtocolVerb::kSet,
-                                                   RemoteProtocolVerb::kHelp};
+  static const std::vector<RemoteProtocolVerb> all = [] {
+    std::vector<RemoteProtocolVerb> verbs;
+    for (const VerbSpec& spec : kVerbs) verbs.push_back(spec.verb);
+    return verbs;
+  }();
   return all;
 }
 
@@ -91,17 +80,16 @@ ReadRequest readRequest(std::string_view line) {
   const std::string_view text = trimmed(plain);
   if (text.empty()) return refuse("malformed", "an empty request; 'help' lists the requests");
   const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
-  const auto& verbs = allRemoteVerbs();
-  const auto verb = std::find_if(
-      verbs.begin(), verbs.end(), [&](RemoteProtocolVerb each) { return nameOf(each) == word; });
-  if (verb == verbs.end())
+  const auto spec = std::find_if(
+      kVerbs.begin(), kVerbs.end(), [&](const VerbSpec& each) { return each.name == word; });
+  if (spec == kVerbs.end())
     return refuse("unknown", quoted(word) + " isn't a request; 'help' lists them");
-  RemoteRequest request{*verb, std::string(trimmed(text.substr(word.size())))};
-  if (!request.text.empty() && !hasText(*verb))
+  RemoteRequest request{spec->verb, std::string(trimmed(text.substr(word.size())))};
+  if (!request.text.empty() && !spec->hasText)
     return refuse("malformed", std::string(word) + " takes no text");
-  if (request.text.empty() && *verb == RemoteProtocolVerb::kLabel)
+  if (request.text.empty() && spec->verb == RemoteProtocolVerb::kLabel)
     return refuse("malformed", "label needs its text: label TEXT");
-  if (*verb == RemoteProtocolVerb::kSet && !settingFrom(request.text))
+  if (spec->verb == RemoteProtocolVerb::kSet && !settingFrom(request.text))
     return refuse("malformed",
                   "set operator TEXT, object, run or notes; without TEXT it is forgotten");
   return {std::move(request), {}};

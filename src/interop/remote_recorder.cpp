@@ -1,5 +1,6 @@
 #include "palpate/interop/remote_recorder.h"
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -23,19 +24,8 @@ constexpr std::chrono::milliseconds kUsualRound{200};  // a recording may end by
 
 enum class State { kIdle, kStarting, kRecording, kStopping };
 
-std::string_view nameOf(State state) {
-  switch (state) {
-    case State::kIdle:
-      return "idle";
-    case State::kStarting:
-      return "starting";
-    case State::kRecording:
-      return "recording";
-    case State::kStopping:
-      return "stopping";
-  }
-  return {};
-}
+constexpr std::array<std::string_view, 4> kStateNames = {
+    "idle", "starting", "recording", "stopping"};
 
 }  // namespace
 
@@ -63,7 +53,7 @@ struct RemoteRecorder::Impl {
     const LinkHealth health = session.health();
     const std::lock_guard lock(mutex);
     RemoteAnswer answer;
-    answer.fields.set("state", nameOf(state));
+    answer.fields.set("state", kStateNames[static_cast<std::size_t>(state)]);
     if (state != State::kIdle) setRecorderFields(answer.fields, health.recorder);
     setLinkFields(answer.fields, health);
     answer.fields.set("folder", options.folder.string()).set("next_file", nextFile());

@@ -33,9 +33,9 @@ class FoxgloveSession {
   ~FoxgloveSession() {
     while (takeOne()) {
     }
-    require(subscriber_->waitingBytes() == 0);
+    require(subscriber_->waiting().bytes() == 0);
     // Status messages may have been dropped, too.
-    const std::uint64_t gone = taken_ + subscriber_->takeDropped();
+    const std::uint64_t gone = taken_ + subscriber_->waiting().takeDropped();
     require(gone >= queued_ && gone <= queued_ + numStatus_);
     subscriber_.reset();
     for (const int each : subscribers_) require(each == 0);
@@ -51,8 +51,8 @@ class FoxgloveSession {
       ++numStatus_;
     }
     for (const int each : subscribers_) require(each == 0 || each == 1);
-    require(subscriber_->waitingBytes() <= kMaxWaitingBytes || numUndroppable_ > 0);
-    return !subscriber_->isOverrun();
+    require(subscriber_->waiting().bytes() <= kMaxWaitingBytes || numUndroppable_ > 0);
+    return !subscriber_->waiting().isOverrun();
   }
 
  private:
@@ -74,7 +74,7 @@ class FoxgloveSession {
     subscriber_->publish(message);
   }
   bool takeOne() {
-    const auto out = subscriber_->next();
+    const auto out = subscriber_->waiting().pop();
     if (!out) return false;
     if (!out->binary) {
       const Json status = Json::parse(*out->content);

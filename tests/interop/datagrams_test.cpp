@@ -149,7 +149,7 @@ TEST(Datagrams, LargeSeriesAreDividedBetweenTheirColumns) {
 
 TEST(Datagrams, TaxelMessagesHoldWholeMatrices) {
   const LiveResults results = largeResults(40, 0);
-  const auto parts = tactileDatagrams(*results.frame, 9);
+  const auto parts = tactileSensorMessages(*results.frame, 9, kMaxDatagramBytes);
   std::string text;
   appendTactileSensorJson(text, *results.frame, 9);
   const Parsed whole = Parsed::parse(text);
@@ -171,7 +171,7 @@ TEST(Datagrams, AMatrixThatDoesNotFitHasAMessageOfItsOwn) {
                                      MatrixLayout::full(2, 2, 1.0)};
   TactileFrame frame(std::make_shared<const SensorLayout>(std::move(matrices)));
   for (float& value : frame.values) value = 1000.0F;
-  const auto parts = tactileDatagrams(frame, 0);
+  const auto parts = tactileSensorMessages(frame, 0, kMaxDatagramBytes);
   ASSERT_EQ(parts.size(), 3u);
   EXPECT_EQ(Parsed::parse(parts[1]).at("tactile_matrix").at(0).at("matrix_id").get<int>(), 1);
   EXPECT_GT(parts[1].size(), kMaxDatagramBytes);

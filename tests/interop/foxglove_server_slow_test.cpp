@@ -1,5 +1,6 @@
 // The Foxglove server under back pressure: many clients that pause at random times.
 #include <cstdint>
+#include <future>
 #include <list>
 #include <random>
 #include <string>
@@ -80,6 +81,43 @@ TEST(FoxgloveServerSlow, EachMessageIsWholeOrCountedAsDropped) {
   EXPECT_EQ(stats.sent, received);
   EXPECT_EQ(stats.sent + stats.dropped, clients.size() * published);
   EXPECT_GT(stats.dropped, 10'000u);
+}
+
+// While the server's thread is held up, here by a callback, the source goes on and 16 MB wait at
+// most: 255 messages of 64 KB. What is published once is not among those dropped.
+TEST(FoxgloveServerSlow, AServerThatIsHeldUpNeitherStopsTheSourceNorGrows) {
+  std::promise<void> held, goesOn;
+  FoxgloveServerOptions options = freePort();
+  options.onRefusedOrigin = [&](const std::string&) {
+    held.set_value();
+    goesOn.get_future().wait();
+  };
+  FoxgloveServer server(options, {{"/a", "test.A", "{}"}, {"/b", "test.B", "{}", true}});
+  WebSocketClient client(server.port()), page(server.port());
+  ASSERT_TRUE(client.join());
+  skipGreeting(client);
+  client.say(
+      R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":0},{"id":2,"channelId":1}]})");
+  awaitServer(client);
+  page.send(WebSocketClient::request("foxglove.sdk.v1", "Origin: https://evil.example\r\n"));
+  held.get_future().wait();
+  server.publish(1, 1, "\"scene\"");
+  const std::string large = "\"" + std::string(64U << 10, ' ') + "\"";
+  for (int i = 0; i < 1000; ++i) server.publish(0, i, large);
+  EXPECT_EQ(server.stats().dropped, 745u);
+  goesOn.set_value();
+  const auto first = client.frame();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->payload.substr(13), "\"scene\"");
+  for (std::uint64_t last = 0; last != 999;) {
+    const auto frame = client.frame();
+    ASSERT_TRUE(frame);
+    last = littleEndian(frame->payload, 5, 8) / 1000;
+  }
+  awaitServer(client);
+  const FoxgloveServerStats stats = server.stats();
+  EXPECT_EQ(stats.published, 1001u);
+  EXPECT_EQ(stats.sent + stats.dropped, 1001u);
 }
 
 }  // namespace

@@ -476,7 +476,7 @@ TEST(FoxgloveServer, APortThatIsTakenIsSaid) {
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()),
               "127.0.0.1:" + std::to_string(first.port()) +
-                  ": another program listens at this port: choose another port");
+                  ": another program uses this port; name another one");
   }
   options.address = "localhost";
   EXPECT_THROW(FoxgloveServer(options, twoChannels()), Error);

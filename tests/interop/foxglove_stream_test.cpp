@@ -1,8 +1,11 @@
-#include "palpate/interop/foxglove_stream.h"
+// Foxglove as LiveStream serves it.
+#include <set>
+#include <string>
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/interop/live_stream.h"
 #include "palpate/model/hand_file.h"
 
 #include "interop/listening_sockets.h"
@@ -19,6 +22,11 @@ FoxgloveOptions anyPort() {
   FoxgloveOptions options;
   options.server.port = 0;
   return options;
+}
+
+std::uint16_t portOf(const LiveStream& stream) {
+  const std::string url = stream.foxgloveUrl();
+  return static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
 }
 
 std::int64_t channelOf(const Json& channels, const std::string& topic) {
@@ -41,27 +49,26 @@ void subscribe(WebSocketClient& client, const std::vector<std::string>& topics) 
 }
 
 TEST(FoxgloveStream, IsOffUntilItIsSwitchedOn) {
-  FoxgloveStream stream(sdh2());
-  EXPECT_FALSE(stream.on());
-  EXPECT_FALSE(stream.stats());
-  EXPECT_EQ(stream.url(), "");
+  LiveStream stream(sdh2());
+  EXPECT_FALSE(stream.foxgloveStats());
+  EXPECT_EQ(stream.foxgloveUrl(), "");
   stream.send(sampleResults());
   EXPECT_EQ(testing::listeningSocketsOf(::getpid()), std::vector<std::string>());
   stream.switchOn(anyPort());
-  EXPECT_TRUE(stream.on());
+  EXPECT_TRUE(stream.foxgloveStats());
   EXPECT_EQ(testing::listeningSocketsOf(::getpid()).size(), 1u);
-  stream.switchOff();
+  stream.switchOffFoxglove();
   EXPECT_EQ(testing::listeningSocketsOf(::getpid()), std::vector<std::string>());
 }
 
 TEST(FoxgloveStream, SendsWhatAFrameHolds) {
   int asked = 0;
-  FoxgloveStream stream(sdh2(), [&asked] {
+  LiveStream stream(sdh2(), [&asked] {
     ++asked;
     return LinkHealth();
   });
   stream.switchOn(anyPort());
-  WebSocketClient client(stream.port());
+  WebSocketClient client(portOf(stream));
   ASSERT_TRUE(client.join());
   const std::vector<std::string> topics = {
       "/signals", "/tactile/finger_0_distal/image", "/joint_states", "/tf", "/hand/taxels"};
@@ -76,15 +83,15 @@ TEST(FoxgloveStream, SendsWhatAFrameHolds) {
     seen.insert(static_cast<unsigned char>(payload[1]));
   }
   EXPECT_EQ(asked, 1);
-  EXPECT_EQ(stream.stats()->published, topics.size());
+  EXPECT_EQ(stream.foxgloveStats()->published, topics.size());
   stream.send(results);  // the same sample of the angles is not sent twice
-  EXPECT_EQ(stream.stats()->published, 2 * topics.size() - 1);
+  EXPECT_EQ(stream.foxgloveStats()->published, 2 * topics.size() - 1);
 }
 
 TEST(FoxgloveStream, EventsAreALog) {
-  FoxgloveStream stream(sdh2());
+  LiveStream stream(sdh2());
   stream.switchOn(anyPort());
-  WebSocketClient client(stream.port());
+  WebSocketClient client(portOf(stream));
   ASSERT_TRUE(client.join());
   subscribe(client, {"/events"});
   stream.send(Event{7'000'000, 7'000'000, "slip", 1, "begins", ""});
@@ -94,9 +101,9 @@ TEST(FoxgloveStream, EventsAreALog) {
 }
 
 TEST(FoxgloveStream, AnIntervalWithoutFramesIsAnEvent) {
-  FoxgloveStream stream(sdh2());
+  LiveStream stream(sdh2());
   stream.switchOn(anyPort());
-  WebSocketClient client(stream.port());
+  WebSocketClient client(portOf(stream));
   ASSERT_TRUE(client.join());
   subscribe(client, {"/events"});
   const auto sendAt = [&](std::int64_t us) {
@@ -107,7 +114,7 @@ TEST(FoxgloveStream, AnIntervalWithoutFramesIsAnEvent) {
     stream.send(results);
   };
   for (int i = 0; i < 20; ++i) sendAt(1'000'000 + i * 33'000);
-  EXPECT_EQ(stream.stats()->published, 0u);
+  EXPECT_EQ(stream.foxgloveStats()->published, 0u);
   sendAt(1'000'000 + 19 * 33'000 + 2'300'000);
   const Json log = Json::parse(client.frame().value().payload.substr(13));
   EXPECT_EQ(log.at("name").asString(), "gap");
@@ -115,12 +122,12 @@ TEST(FoxgloveStream, AnIntervalWithoutFramesIsAnEvent) {
   EXPECT_EQ(log.at("timestamp").at("sec").asInteger(), 1);
   EXPECT_EQ(log.at("timestamp").at("nsec").asInteger(), 627'000'000);
   sendAt(500'000);  // a recording that is played again
-  EXPECT_EQ(stream.stats()->published, 1u);
+  EXPECT_EQ(stream.foxgloveStats()->published, 1u);
 }
 
 TEST(FoxgloveStream, NothingIsMadeThatNobodyReads) {
   const HandDescription hand = builtInHand("parallel_gripper");
-  FoxgloveStream stream(hand, []() -> LinkHealth {
+  LiveStream stream(hand, []() -> LinkHealth {
     ADD_FAILURE() << "nobody reads the signals";
     return {};
   });
@@ -128,19 +135,19 @@ TEST(FoxgloveStream, NothingIsMadeThatNobodyReads) {
   LiveResults results;
   results.frame = std::make_shared<const TactileFrame>(hand.layout);
   for (int i = 0; i < 5; ++i) stream.send(results);
-  EXPECT_EQ(stream.stats()->published, 1u);  // the shapes, for whoever comes later
+  EXPECT_EQ(stream.foxgloveStats()->published, 1u);  // the shapes, for whoever comes later
 }
 
 TEST(FoxgloveStream, CanBeSwitchedOnAgainAtItsPort) {
-  FoxgloveStream stream(sdh2());
+  LiveStream stream(sdh2());
   stream.switchOn(anyPort());
   FoxgloveOptions same;
-  same.server.port = stream.port();
+  same.server.port = portOf(stream);
   stream.switchOn(same);
-  EXPECT_EQ(stream.port(), same.server.port);
-  FoxgloveStream other(sdh2());
+  EXPECT_EQ(portOf(stream), same.server.port);
+  LiveStream other(sdh2());
   EXPECT_THROW(other.switchOn(same), Error);
-  EXPECT_FALSE(other.on());
+  EXPECT_FALSE(other.foxgloveStats());
 }
 
 }  // namespace

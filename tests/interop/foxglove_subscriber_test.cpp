@@ -25,7 +25,7 @@ class FoxgloveSubscriberTest : public ::testing::Test {
   // What waits, in order; of a status its message.
   std::vector<std::string> waiting() {
     std::vector<std::string> all;
-    while (const auto out = client_->next())
+    while (const auto out = client_->waiting().pop())
       all.push_back(out->binary ? *out->content
                                 : Json::parse(*out->content).at("message").asString());
     return all;
@@ -72,15 +72,15 @@ TEST_F(FoxgloveSubscriberTest, DropsTheOldestMessagesAndKeepsWhatIsBeingSent) {
   subscribe(1, 0);
   const auto payload = [](int n) { return std::to_string(n) + std::string(15, '.'); };
   for (int n = 10; n < 13; ++n) publish(0, payload(n));
-  const auto sending = client_->next();
+  const auto sending = client_->waiting().pop();
   for (int n = 13; n < 99; ++n) publish(0, payload(n));
   ASSERT_TRUE(sending);
   EXPECT_EQ(*sending->content, payload(10));
-  EXPECT_EQ(client_->waitingBytes(), 90u);
-  EXPECT_EQ(client_->takeDropped(), 85u);
-  EXPECT_EQ(client_->takeDropped(), 0u);
+  EXPECT_EQ(client_->waiting().bytes(), 90u);
+  EXPECT_EQ(client_->waiting().takeDropped(), 85u);
+  EXPECT_EQ(client_->waiting().takeDropped(), 0u);
   EXPECT_EQ(waiting(), (std::vector<std::string>{payload(96), payload(97), payload(98)}));
-  EXPECT_EQ(client_->waitingBytes(), 0u);
+  EXPECT_EQ(client_->waiting().bytes(), 0u);
 }
 
 TEST_F(FoxgloveSubscriberTest, WhatANewSubscriberReceivesIsNotDropped) {
@@ -93,10 +93,10 @@ TEST_F(FoxgloveSubscriberTest, WhatANewSubscriberReceivesIsNotDropped) {
     unsubscribe(2);
     subscribe(2, 0);
   }
-  EXPECT_FALSE(client_->isOverrun());
+  EXPECT_FALSE(client_->waiting().isOverrun());
   unsubscribe(2);
   subscribe(2, 0);
-  EXPECT_TRUE(client_->isOverrun());
+  EXPECT_TRUE(client_->waiting().isOverrun());
 }
 
 }  // namespace

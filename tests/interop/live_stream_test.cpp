@@ -15,7 +15,7 @@ using testing::UdpReceiver;
 
 TEST(LiveStream, IsOffUntilItIsSwitchedOn) {
   UdpReceiver receiver;
-  LiveStream stream;
+  LiveStream stream{HandDescription()};
   stream.send(sampleResults());
   EXPECT_FALSE(stream.on(StreamKind::kSignals));
   EXPECT_FALSE(stream.stats(StreamKind::kTactile));
@@ -31,7 +31,7 @@ TEST(LiveStream, IsOffUntilItIsSwitchedOn) {
 
 TEST(LiveStream, EachStreamHasItsPortAndCounts) {
   UdpReceiver signalReceiver, tactileReceiver;
-  LiveStream stream;
+  LiveStream stream{HandDescription()};
   stream.switchOn(StreamKind::kSignals, signalReceiver.port());
   stream.switchOn(StreamKind::kTactile, tactileReceiver.port());
   for (int i = 0; i < 3; ++i) stream.send(sampleResults());
@@ -56,7 +56,7 @@ TEST(LiveStream, EachStreamHasItsPortAndCounts) {
 TEST(LiveStream, AsksForTheLinkFourTimesASecondAtMost) {
   UdpReceiver receiver;
   int asked = 0;
-  LiveStream stream([&asked] {
+  LiveStream stream({}, [&asked] {
     LinkHealth health;
     health.lost = static_cast<std::uint64_t>(++asked);
     return health;
@@ -101,7 +101,7 @@ TEST(RecentLink, AsksAgainAfterAQuarterOfASecond) {
 }
 
 TEST(LiveStream, RefusesPortZero) {
-  LiveStream stream;
+  LiveStream stream{HandDescription()};
   EXPECT_THROW(stream.switchOn(StreamKind::kSignals, 0), std::invalid_argument);
   EXPECT_FALSE(stream.on(StreamKind::kSignals));
 }

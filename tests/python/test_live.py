@@ -162,7 +162,7 @@ def test_wrong_usage_is_one_line():
         taken.listen()
         port = taken.getsockname()[1]
         code, text = fails("--foxglove", str(port))
-        assert code == 1 and "another program listens at this port" in text
+        assert code == 1 and "another program uses this port" in text
 
 
 def udp_port():

@@ -6,6 +6,7 @@
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/network_place.h"
 #include "palpate/core/number_text.h"
 #include "palpate/live/pressure_stage.h"
 #include "palpate/live/signals_stage.h"
@@ -30,16 +31,11 @@ std::string countsText(const DatagramStats& stats) {
   return std::to_string(stats.sent) + " sent, " + std::to_string(stats.dropped) + " dropped";
 }
 
-ChainOptions sendingTo(const CaptureSession& session,
-                       LiveStream& stream,
-                       FoxgloveStream& foxglove) {
+ChainOptions sendingTo(const CaptureSession& session, LiveStream& stream) {
   ChainOptions options;
   options.furtherSeries = [&session] { return session.furtherSeries(); };
-  options.onResults = [&](const LiveResults& results) {
-    stream.send(results);
-    foxglove.send(results);
-  };
-  options.onEvent = [&](const Event& event) { foxglove.send(event); };
+  options.onResults = [&](const LiveResults& results) { stream.send(results); };
+  options.onEvent = [&](const Event& event) { stream.send(event); };
   return options;
 }
 
@@ -72,10 +68,6 @@ void addFoxglove(const CommandLine& given, StreamTargets& targets) {
   server.origins = given.texts("origin");
   FoxgloveImage& image = targets.foxglove->image;
   image = given.chosen("image", kFoxgloveImageWords).value_or(image);
-}
-
-bool isLoopback(const std::string& address) {
-  return address == "::1" || address.starts_with("127.");
 }
 
 }  // namespace
@@ -114,11 +106,12 @@ StreamTargets streamTargetsOf(const CommandLine& given, const std::string& optio
 }
 
 void warnAboutTargets(const StreamTargets& targets) {
-  if (!targets.foxglove || isLoopback(targets.foxglove->server.address)) return;
-  std::fprintf(stderr,
-               "palpate: %s:%d: any machine that reaches this address can read the hand\n",
-               escapedLine(targets.foxglove->server.address).c_str(),
-               static_cast<int>(targets.foxglove->server.port));
+  if (!targets.foxglove) return;
+  const NetworkPlace place{targets.foxglove->server.address, targets.foxglove->server.port};
+  if (place.isOpenToOthers())
+    std::fprintf(stderr,
+                 "palpate: %s: any machine that reaches this address can read the hand\n",
+                 escapedLine(place.text()).c_str());
 }
 
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given) {
@@ -145,10 +138,9 @@ LiveStreams::LiveStreams(CaptureSession& session,
                          const StreamTargets& targets,
                          const std::optional<Calibration>& calibration)
     : targets_(targets),
-      stream_([&session] { return session.health(); }),
-      foxglove_(session.device().hand(), [&session] { return session.health(); }),
+      stream_(session.device().hand(), [&session] { return session.health(); }),
       chain_(streamedStages(&session, session.device().hand(), calibration),
-             sendingTo(session, stream_, foxglove_)) {
+             sendingTo(session, stream_)) {
   warnAboutTargets(targets_);
   for (const StreamTarget& target : targets_.datagrams) stream_.switchOn(target.kind, target.port);
   if (targets_.foxglove) {
@@ -156,7 +148,7 @@ LiveStreams::LiveStreams(CaptureSession& session,
     options.server.onRefusedOrigin = [](const std::string& why) {
       std::fprintf(stderr, "palpate: foxglove: %s\n", escapedLine(why).c_str());
     };
-    foxglove_.switchOn(std::move(options));
+    stream_.switchOn(std::move(options));
   }
   chain_.connect(session);
   chain_.start();
@@ -164,7 +156,7 @@ LiveStreams::LiveStreams(CaptureSession& session,
 
 std::vector<std::string> LiveStreams::places() const {
   if (!targets_.foxglove) return {};
-  return {"foxglove=" + foxglove_.url()};
+  return {"foxglove=" + stream_.foxgloveUrl()};
 }
 
 std::vector<std::string> LiveStreams::lines() const {
@@ -173,9 +165,9 @@ std::vector<std::string> LiveStreams::lines() const {
     if (const auto stats = stream_.stats(target.kind))
       lines.push_back(std::string(nameOf(target.kind)) +
                       " to 127.0.0.1:" + std::to_string(target.port) + ": " + countsText(*stats));
-  if (const auto stats = foxglove_.stats())
+  if (const auto stats = stream_.foxgloveStats())
     lines.push_back(
-        "foxglove at " + foxglove_.url() + ": " + counted(stats->accepted, "client") + ", " +
+        "foxglove at " + stream_.foxgloveUrl() + ": " + counted(stats->accepted, "client") + ", " +
         std::to_string(stats->sent) + " sent, " + std::to_string(stats->dropped) + " dropped" +
         (stats->refused == 0 ? std::string()
                              : ", " + std::to_string(stats->refused) +

@@ -12,7 +12,6 @@
 
 #include <palpate/calibration/calibration.h>
 #include <palpate/capture/capture_session.h>
-#include <palpate/interop/foxglove_stream.h>
 #include <palpate/interop/live_stream.h>
 #include <palpate/live/processing_chain.h>
 
@@ -71,7 +70,6 @@ class LiveStreams {
  private:
   const StreamTargets targets_;
   LiveStream stream_;
-  FoxgloveStream foxglove_;
   ProcessingChain chain_;
 };
 

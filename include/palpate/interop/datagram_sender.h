@@ -35,11 +35,9 @@ class DatagramSender {
   // Returns whether the system accepted the datagram. Sending continues even if no program received
   // earlier ones, because a receiver may start at any time.
   bool send(std::string_view bytes) noexcept;
-  std::uint16_t port() const noexcept { return port_; }
   const DatagramStats& stats() const noexcept { return stats_; }
 
  private:
-  std::uint16_t port_;
   FileDescriptor socket_;
   bool lastTaken_ = false;
   DatagramStats stats_;

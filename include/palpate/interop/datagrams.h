@@ -4,14 +4,12 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <palpate/interop/signal_json.h>
-#include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 
@@ -28,12 +26,5 @@ constexpr std::size_t kMaxDatagramBytes = 1400;
 std::vector<std::string> signalDatagrams(std::string_view object,
                                          std::span<const JsonMember> members,
                                          std::size_t maxBytes = kMaxDatagramBytes);
-
-// The frame as messages schunk_sdh/TactileSensor (recording/tactile_sensor_json.h) with the same
-// header, each with as many whole matrices as fit. A matrix that does not fit has a message of its
-// own, which is longer.
-std::vector<std::string> tactileDatagrams(const TactileFrame& frame,
-                                          std::uint64_t sequence,
-                                          std::size_t maxBytes = kMaxDatagramBytes);
 
 }  // namespace palpate

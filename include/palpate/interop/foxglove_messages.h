@@ -65,10 +65,6 @@ class FoxgloveMessages {
 
   // foxglove.RawImage of one matrix, row 0 (the fingertip) on top. Throws std::out_of_range.
   std::string image(const TactileFrame& frame, std::size_t matrix) const;
-  // The object of signal_json.h.
-  std::string signalObject(const LiveResults& results,
-                           std::uint64_t sequence,
-                           const LinkHealth* link) const;
   // foxglove.JointStates; position in rad or m.
   std::string joints(const Sample& angles) const;
   // foxglove.Log: a warning for gaps, faults and alarms, information otherwise.

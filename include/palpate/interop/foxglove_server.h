@@ -17,7 +17,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace palpate {
@@ -62,10 +61,6 @@ struct FoxgloveServerStats {
   std::uint64_t dropped = 0;     // messages dropped because a client was too slow
   std::string lastRefusal = {};  // why the last one was refused; empty: none was
 };
-
-// Whether a web page of this origin may connect (`others` as in FoxgloveServerOptions::origins).
-// The empty origin of programs that are no web page may.
-bool isFoxgloveOrigin(std::string_view origin, const std::vector<std::string>& others);
 
 // Every function may be called from any thread.
 class FoxgloveServer {

@@ -134,13 +134,13 @@ TEST_F(OtherProgramsTest, FoxgloveReadsTheHandAsLongAsTheSwitchSays) {
   EXPECT_TRUE(facts()[0].value.endsWith("nothing is connected"));
   EXPECT_EQ(OtherPrograms::shortText(actions()), "streaming");
   connectEmulated();
-  ASSERT_TRUE(await([&] { return live().source()->foxglove->on(); }));
+  ASSERT_TRUE(await([&] { return live().source()->stream->foxgloveStats().has_value(); }));
   testing::WebSocketClient client(port);
   ASSERT_TRUE(client.join());
   EXPECT_EQ(Json::parse(client.frame().value().payload).at("op").asString(), "serverInfo");
   EXPECT_TRUE(await([&] { return facts().size() == 1 && facts()[0].value.endsWith("1 client"); }));
   actions().at("streamFoxglove")->trigger();
-  EXPECT_FALSE(live().source()->foxglove->on());
+  EXPECT_FALSE(live().source()->stream->foxgloveStats());
   EXPECT_TRUE(client.awaitEnd());
   EXPECT_TRUE(facts().empty());
 }
@@ -154,7 +154,7 @@ TEST_F(OtherProgramsTest, APortThatIsTakenSwitchesFoxgloveOff) {
   connectEmulated();
   actions().at("streamFoxglove")->trigger();
   EXPECT_FALSE(actions().at("streamFoxglove")->isChecked());
-  EXPECT_FALSE(live().source()->foxglove->on());
+  EXPECT_FALSE(live().source()->stream->foxgloveStats());
 }
 
 TEST_F(OtherProgramsTest, WebPagesThatAreRefusedByTurnsAreLoggedOnceEach) {

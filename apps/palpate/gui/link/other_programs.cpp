@@ -75,7 +75,7 @@ void OtherPrograms::switchFoxglove(bool on) {
   LiveSource* source = live_.source();
   if (!source) return reportFoxglove(on);
   if (!on) {
-    source->foxglove->switchOff();
+    source->stream->switchOffFoxglove();
     return reportFoxglove(on);
   }
   try {
@@ -93,14 +93,14 @@ void OtherPrograms::switchFoxglove(bool on) {
           },
           Qt::QueuedConnection);
     };
-    source->foxglove->switchOn(std::move(options));
+    source->stream->switchOn(std::move(options));
   } catch (const Error& error) {
     actions_.streamFoxglove->setChecked(false);
     emit failed("Not streaming: " + QString::fromUtf8(error.what()));
     return;
   }
   reportFoxglove(on);
-  if (const std::string problem = source->foxglove->geometryProblem(); !problem.empty())
+  if (const std::string problem = source->stream->geometryProblem(); !problem.empty())
     emit logged("Foxglove does not show the hand in 3-D: " + QString::fromStdString(problem));
 }
 
@@ -184,7 +184,7 @@ std::vector<Fact> OtherPrograms::facts() const {
   if (actions_.streamFoxglove->isChecked()) {
     QString value = "ws://127.0.0.1:" + QString::number(foxglovePort());
     std::optional<FoxgloveServerStats> stats;
-    if (const LiveSource* source = live_.source()) stats = source->foxglove->stats();
+    if (const LiveSource* source = live_.source()) stats = source->stream->foxgloveStats();
     if (!stats)
       value += " · nothing is connected";
     else

@@ -139,25 +139,21 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   stages.push_back(std::move(slip));
   ChainOptions options;
   source->stream =
-      std::make_unique<LiveStream>([session = source->session.get()] { return session->health(); });
-  source->foxglove = std::make_unique<FoxgloveStream>(
-      source->session->device().hand(),
-      [session = source->session.get()] { return session->health(); });
+      std::make_unique<LiveStream>(source->session->device().hand(),
+                                   [session = source->session.get()] { return session->health(); });
   options.furtherSeries = [session = source->session.get()] { return session->furtherSeries(); };
   options.onResults = [history = source->history.get(),
-                       stream = source->stream.get(),
-                       foxglove = source->foxglove.get()](const LiveResults& results) {
+                       stream = source->stream.get()](const LiveResults& results) {
     history->add(results);
     stream->send(results);
-    foxglove->send(results);
   };
   options.onFurther = [history = source->history.get()](const FurtherSample& sample) {
     history->add(sample);
   };
   options.onEvent = [session = source->session.get(),
-                     foxglove = source->foxglove.get()](const Event& event) {
+                     stream = source->stream.get()](const Event& event) {
     session->note(event);
-    foxglove->send(event);
+    stream->send(event);
   };
   source->chain = std::make_unique<ProcessingChain>(std::move(stages), std::move(options));
   source->chain->connect(*source->session);

@@ -13,7 +13,6 @@
 #include <palpate/core/progress.h>
 #include <palpate/emulator/emulated_hand.h>
 #include <palpate/emulator/scene.h>
-#include <palpate/interop/foxglove_stream.h>
 #include <palpate/interop/live_stream.h>
 #include <palpate/live/filter_stage.h>
 #include <palpate/live/pressure_stage.h>
@@ -50,10 +49,8 @@ struct LiveSource {
   bool isEmulated = false;
   std::unique_ptr<CaptureSession> session;
   std::unique_ptr<SignalHistory> history;
-  // Sends live signals to other programs; off at first.
+  // Sends live results to other programs; off at first.
   std::unique_ptr<LiveStream> stream;
-  // Sends the hand to Foxglove; off at first.
-  std::unique_ptr<FoxgloveStream> foxglove;
   std::unique_ptr<ProcessingChain> chain;
   // The first stage of `chain`.
   FilterStage* filters = nullptr;
