@@ -295,7 +295,7 @@ TEST(StreamLines, AMessageInAnEnvelopeIsRead) {
            "\"tactile_array\":[1,2.5,300]}]}}\n";
   };
   for (const char* stamp : {"\"secs\":12,\"nsecs\":34000000", "\"sec\":12,\"nanosec\":34000000"}) {
-    const Reading reading = readText(envelope(stamp), smallHand());
+    const Reading reading = readText(envelope(stamp), padHand({{1, 3}}));
     ASSERT_EQ(reading.items.size(), 1u) << reading.fault;
     EXPECT_EQ(reading.items[0].numbers, kValues);
     EXPECT_EQ(reading.items[0].sequence, 7u);
