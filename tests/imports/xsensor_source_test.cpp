@@ -10,8 +10,14 @@
 
 #include "imports/import_samples.h"
 
-namespace palpate::testing {
+namespace palpate::xsensor_source_test {
 namespace {
+
+using testing::errorOf;
+using testing::handOf;
+using testing::importText;
+using testing::TemporaryFolder;
+using testing::writeFile;
 
 // A frame of two sensors of 2 x 3; `first` is the first number of the left one.
 std::string block(int number, const std::string& time, const std::string& first) {
@@ -97,7 +103,7 @@ TEST(XsensorSource, KnowsItsFilesAndTheirPlaces) {
 
 // The maker's own figures of each frame, read independently from the text.
 TEST(XsensorSource, AveragesAndPeaksAreThoseOfTheMaker) {
-  const auto arrays = arraysFolder();
+  const auto arrays = testing::arraysFolder();
   if (!arrays) GTEST_SKIP() << "no files of other makers: set PALPATE_ARRAYS";
   const std::filesystem::path xsensor = *arrays / "xsensor_insole";
   std::vector<double> averages;
@@ -133,4 +139,4 @@ TEST(XsensorSource, AveragesAndPeaksAreThoseOfTheMaker) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::xsensor_source_test
