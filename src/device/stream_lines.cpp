@@ -525,10 +525,10 @@ std::optional<StreamItem> StreamLineParser::readJsonFrame(const Json& object) {
   StreamItem item;
   item.sequence = sequence;
   const Json stamp = header.at("stamp");
-  if (stamp.contains("secs"))
-    item.deviceUs =
-        jsonTimeUs(1e6 * stamp.at("secs").asDouble() +
-                   1e-3 * (stamp.contains("nsecs") ? stamp.at("nsecs").asDouble() : 0.0));
+  for (const auto& [whole, part] : {std::pair("secs", "nsecs"), {"sec", "nanosec"}})  // ROS 1, 2
+    if (stamp.contains(whole))
+      item.deviceUs = jsonTimeUs(1e6 * stamp.at(whole).asDouble() +
+                                 1e-3 * (stamp.contains(part) ? stamp.at(part).asDouble() : 0.0));
   return item;
 }
 
@@ -548,7 +548,10 @@ void StreamLineParser::readJson(std::string_view line, const Sink& sink) {
   std::string description;
   bool isFrame = false;
   try {
-    const Json object = Json::parse(line);
+    const Json whole = Json::parse(line);
+    // rosbridge sends a message in an envelope.
+    const bool isEnvelope = whole.at("op").isString() && whole.at("op").asString() == "publish";
+    const Json object = isEnvelope ? whole.at("msg") : whole;
     const auto addNumbers = [&](const char* key, StreamItemKind kind, std::vector<double>& kept) {
       if (!object.contains(key)) return;
       const Json list = object.at(key);

@@ -16,6 +16,7 @@
 #include "imports/mat5_source.h"
 #include "imports/npz_source.h"
 #include "imports/pad_folder_source.h"
+#include "imports/xsensor_source.h"
 
 namespace palpate {
 namespace {
@@ -92,6 +93,7 @@ std::unique_ptr<TableSource> openTable(const std::filesystem::path& path,
   if (first.starts_with("PK\x03\x04") || first.starts_with("PK\x05\x06") ||
       first.starts_with(kNumpy))
     return std::make_unique<NpzSource>(path);
+  if (XsensorSource::isExport(path)) return std::make_unique<XsensorSource>(path, options);
   return std::make_unique<CsvSource>(path, options);
 }
 

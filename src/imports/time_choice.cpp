@@ -172,7 +172,9 @@ std::optional<std::int64_t> TimeChoice::joinFactor(std::size_t first,
   if (wholes.empty() || parts.empty() || !std::all_of(wholes.begin(), wholes.end(), isWhole) ||
       !std::all_of(parts.begin(), parts.end(), isPart))
     return std::nullopt;
-  if (!isChosen && std::equal(wholes.begin(), wholes.end(), parts.begin(), parts.end(), isSameTime))
+  // Two columns may hold the same time in two units, but not the parts of a stamp of ROS.
+  if (!isChosen && !whole.stem.ends_with("stamp.") &&
+      std::equal(wholes.begin(), wholes.end(), parts.begin(), parts.end(), isSameTime))
     return std::nullopt;
   return factor;
 }

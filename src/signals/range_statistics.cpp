@@ -3,8 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace palpate {
+namespace {
+
+// Of at least one number.
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+}  // namespace
 
 RangeStatistics rangeStatistics(std::span<const double> timeS,
                                 std::span<const double> values,
@@ -12,10 +25,12 @@ RangeStatistics rangeStatistics(std::span<const double> timeS,
   if (timeS.size() != values.size())
     throw std::invalid_argument("a range needs as many times as values");
   RangeStatistics result;
+  std::vector<double> finite;
   double sum = 0.0, timeSum = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) continue;
     const bool first = result.count++ == 0;
+    finite.push_back(values[i]);
     sum += values[i];
     timeSum += timeS[i];
     result.minimum = first ? values[i] : std::min(result.minimum, values[i]);
@@ -43,6 +58,8 @@ RangeStatistics rangeStatistics(std::span<const double> timeS,
     before = i;
   }
   if (result.count > 1) result.sd = std::sqrt(squares / (count - 1.0));
+  result.rms = std::sqrt(result.mean * result.mean + squares / count);
+  result.median = medianOf(std::move(finite));
   if (timeSquares > 0.0) result.slope = products / timeSquares;
   return result;
 }

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 #include "palpate/core/json.h"
 
@@ -24,11 +23,9 @@ TEST(HandsCommand, ListsTheBuiltInHands) {
   const auto result = run({"--json"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   std::map<std::string, Json> hands;
-  std::istringstream lines(result.out);
-  for (std::string line; std::getline(lines, line);) {
-    Json hand = Json::parse(line);
-    hands.emplace(hand.at("key").asString(), std::move(hand));
-  }
+  const Json list = Json::parse(result.out).at("hands");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    hands.emplace(list.at(i).at("key").asString(), list.at(i));
   // The figures of the SDH-2: six matrices, 456 taxels, seven axes, nine temperature sensors.
   ASSERT_TRUE(hands.contains("sdh2"));
   const Json& sdh2 = hands.at("sdh2");

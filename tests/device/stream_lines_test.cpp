@@ -285,6 +285,26 @@ TEST(StreamLines, JsonHasAnglesTemperaturesAndADescription) {
   EXPECT_EQ(reading.items[2].text, "{\"serial\":\"P7\"}");
 }
 
+// As rosbridge sends a message of ROS 1 or 2.
+TEST(StreamLines, AMessageInAnEnvelopeIsRead) {
+  const auto envelope = [](const std::string& stamp) {
+    return "{\"op\":\"publish\",\"topic\":\"/tactile\",\"msg\":{\"header\":{\"seq\":7,\"stamp\":{" +
+           stamp +
+           "},\"frame_id\":\"hand\"},\"tactile_matrix\":[{\"matrix_id\":0,\"cells_x\":3,\"cells_"
+           "y\":1,"
+           "\"tactile_array\":[1,2.5,300]}]}}\n";
+  };
+  for (const char* stamp : {"\"secs\":12,\"nsecs\":34000000", "\"sec\":12,\"nanosec\":34000000"}) {
+    const Reading reading = readText(envelope(stamp), padHand({{1, 3}}));
+    ASSERT_EQ(reading.items.size(), 1u) << reading.fault;
+    EXPECT_EQ(reading.items[0].numbers, kValues);
+    EXPECT_EQ(reading.items[0].sequence, 7u);
+    EXPECT_EQ(reading.items[0].deviceUs, 12'034'000);
+  }
+  EXPECT_NE(faultOf("{\"op\":\"publish\"}\n").find("none of tactile_matrix"), std::string::npos);
+  EXPECT_NE(faultOf("{\"op\":\"subscribe\"}\n").find("none of tactile_matrix"), std::string::npos);
+}
+
 TEST(StreamLines, JsonFaultsNameTheMatrix) {
   const auto matrix = [](int id, int rows, int columns, const std::string& values) {
     return "{\"tactile_matrix\":[{\"matrix_id\":" + std::to_string(id) +

@@ -139,6 +139,12 @@ TEST(ImportForms, ATimeInTwoColumnsIsJoined) {
     EXPECT_EQ(made.profile.frameTimeUs(1), kUs + 1'001'000);
     EXPECT_EQ(made.report.refused.text, 1u);
   }
+  // A stamp from 0 on looks like one time in two units; its name says that it is none.
+  const auto fromZero = importText(
+      folder, "stamp.secs,stamp.nsecs,p0,p1\n0,0,1,2\n0,10000000,3,4\n1,500000,5,6\n", pad(1, 2));
+  ASSERT_EQ(fromZero.report.frames, 3u) << fromZero.report.refused.first;
+  EXPECT_EQ(fromZero.profile.frameTimeUs(1) - fromZero.profile.frameTimeUs(0), 10'000);
+  EXPECT_EQ(fromZero.profile.frameTimeUs(2) - fromZero.profile.frameTimeUs(0), 1'000'500);
   ImportMapping wrong;
   wrong.time.column = "p0,p1";
   const std::string what =

@@ -12,7 +12,8 @@ namespace {
 const std::vector<double> kTimeS = {0, 0.1, 0.25, 0.3, 0.5, 1.7, 1.8};
 const std::vector<double> kValues = {3.0, -1.5, 4.25, 1e3, 1002.5, 7, 0.125};
 
-// The expected values are those of NumPy 1.24: mean(), std(ddof=1), polyfit(t, v, 1)[0], trapz().
+// The expected values are those of NumPy 1.24: mean(), std(ddof=1), polyfit(t, v, 1)[0], trapz(),
+// median(); rms: sqrt(fsum(v * v) / n).
 TEST(RangeStatistics, AreThoseOfNumPy) {
   const RangeStatistics found = rangeStatistics(kTimeS, kValues);
   EXPECT_EQ(found.count, 7u);
@@ -22,6 +23,8 @@ TEST(RangeStatistics, AreThoseOfNumPy) {
   EXPECT_EQ(found.maximum, 1002.5);
   EXPECT_NEAR(found.slope, -151.8709927611169, 1e-10);
   EXPECT_NEAR(found.integral, 831.6937499999999, 1e-11);
+  EXPECT_EQ(found.median, 4.25);
+  EXPECT_NEAR(found.rms, 535.2015078620922, 1e-11);
 }
 
 TEST(RangeStatistics, TheChangeIsThatBetweenTheFirstAndTheLastNumber) {
@@ -78,12 +81,20 @@ TEST(RangeStatistics, OfTooFewSamplesAreNotNumbers) {
   EXPECT_EQ(none.count, 0u);
   EXPECT_TRUE(std::isnan(none.mean));
   EXPECT_TRUE(std::isnan(none.integral));
+  EXPECT_TRUE(std::isnan(none.median));
+  EXPECT_TRUE(std::isnan(none.rms));
   const std::vector<double> one = {2.0};
   const RangeStatistics single = rangeStatistics(one, one);
   EXPECT_EQ(single.mean, 2.0);
   EXPECT_TRUE(std::isnan(single.sd));
   EXPECT_TRUE(std::isnan(single.slope));
   EXPECT_EQ(single.integral, 0.0);
+  EXPECT_EQ(single.median, 2.0);
+  EXPECT_EQ(single.rms, 2.0);
+  const std::vector<double> times = {0, 1, 2, 3}, four = {4, 1, 3, std::nan("")},
+                            even = {4, 1, 3, 8};
+  EXPECT_EQ(rangeStatistics(times, four).median, 3.0);
+  EXPECT_EQ(rangeStatistics(times, even).median, 3.5);
   EXPECT_THROW(rangeStatistics(one, {}), std::invalid_argument);
 }
 

@@ -120,7 +120,7 @@ int handsCommand(const Arguments& words) {
            "~/.local/share/palpate/hands. With check: reads the hand.json, URDF and meshes "
            "of each FOLDER, and prints what does not fit together. A mesh that can't be read "
            "is replaced by a box: exit code 3.",
-       .options = {{"json", "", "as JSON, one object per hand"}},
+       .options = {{"json", "", "one object of JSON, with a list of the hands"}},
        .example = "palpate hands check my_hand",
        .minArguments = 0},
       words);
@@ -132,11 +132,12 @@ int handsCommand(const Arguments& words) {
     if (given.has("json")) throw UsageError("--json can't be used with check");
     return checkFolders({given.words().begin() + 1, given.words().end()});
   }
+  const std::vector<ListedHand> hands = listHands();
+  if (given.has("json"))
+    std::printf("%s\n", Json::object().set("hands", jsonList(hands, handJson)).text(-1).c_str());
   bool failed = false;
-  for (const ListedHand& listed : listHands()) {
-    if (given.has("json")) {
-      std::printf("%s\n", handJson(listed).text(-1).c_str());
-    } else if (listed.fault.empty()) {
+  for (const ListedHand& listed : hands) {
+    if (!given.has("json") && listed.fault.empty()) {
       std::printf("%-18s %-46s %s (%s)\n",
                   escapedLine(listed.key).c_str(),
                   escapedLine(listed.hand.name).c_str(),

@@ -1,4 +1,4 @@
-// What a signal does over a range of time, in seven numbers, and its change between the ends: for
+// What a signal does over a range of time, in a few numbers, and its change between the ends: for
 // the selection in the timeline.
 #pragma once
 
@@ -23,6 +23,9 @@ struct RangeStatistics {
   // Integral over time by the trapezoidal rule [unit s]. Intervals longer than `longestS` (gaps)
   // are left out; 0 with one sample.
   double integral = std::numeric_limits<double>::quiet_NaN();
+  // Of an even number of samples the mean of the two in the middle.
+  double median = std::numeric_limits<double>::quiet_NaN();
+  double rms = std::numeric_limits<double>::quiet_NaN();  // root of the mean square
 };
 
 // `timeS`: times of the samples [s], ascending. Throws std::invalid_argument when the numbers of

@@ -74,7 +74,8 @@ DsaEncoding dsaEncodingOf(std::string_view first) noexcept {
 namespace {
 // A table can't be opened, but imported.
 std::string tableHint(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 5> kTables = {".csv", ".tsv", ".txt", ".npy", ".npz"};
+  constexpr std::array<std::string_view, 6> kTables = {
+      ".csv", ".tsv", ".txt", ".jsonl", ".npy", ".npz"};
   if (std::ranges::find(kTables, std::string_view(lowerEndingOf(path))) == kTables.end()) return {};
   return "; a table becomes a recording by File > Import (palpate import)";
 }

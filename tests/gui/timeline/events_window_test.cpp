@@ -287,7 +287,9 @@ TEST_F(EventsWindowTest, StatisticsOfTheSelectionAreATable) {
   EXPECT_EQ(table->item(0, 2)->text().toULongLong(), frames.second - frames.first + 1);
   QTest::mouseClick(window().findChild<QPushButton*>("copyStatistics"), Qt::LeftButton);
   const QString copied = QGuiApplication::clipboard()->text();
-  EXPECT_TRUE(copied.startsWith("curve\tunit\tframes\tmean\tsd\tmin\tmax\tslope [unit/s]\t"))
+  EXPECT_TRUE(
+      copied.startsWith("curve\tunit\tframes\tmean\tsd\tmin\tmax\tslope [unit/s]\tintegral [unit "
+                        "s]\tmedian\trms\n"))
       << copied.toStdString();
   EXPECT_EQ(copied.trimmed().split('\n').size(), plotted + 1);
 }

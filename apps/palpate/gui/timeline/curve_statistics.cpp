@@ -75,7 +75,9 @@ TextTable statisticsTable(const SelectedCurves& selected) {
                      statisticsCell(found.minimum),
                      statisticsCell(found.maximum),
                      statisticsCell(found.slope),
-                     statisticsCell(found.integral)});
+                     statisticsCell(found.integral),
+                     statisticsCell(found.median),
+                     statisticsCell(found.rms)});
   }
   return {.header = {"curve",
                      "unit",
@@ -85,7 +87,9 @@ TextTable statisticsTable(const SelectedCurves& selected) {
                      "min",
                      "max",
                      "slope [unit/s]",
-                     "integral [unit s]"},
+                     "integral [unit s]",
+                     "median",
+                     "rms"},
           .numRows = rows->size(),
           .row = [rows](std::size_t row) { return (*rows)[row]; }};
 }
@@ -163,7 +167,9 @@ StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
                          {.name = "min", .letters = 9},
                          {.name = "max", .letters = 9},
                          {.name = "slope [unit/s]", .letters = 9},
-                         {.name = "integral [unit s]", .letters = 9}}),
+                         {.name = "integral [unit s]", .letters = 9},
+                         {.name = "median", .letters = 9},
+                         {.name = "rms", .tip = "root of the mean square", .letters = 9}}),
                "&Statistics");
   tabs->addTab(table("differenceTable",
                      differences,

@@ -36,7 +36,7 @@ SelectedCurves selectedCurves(const OpenedRecordingPtr& recording,
                               const std::optional<Profile>& with = {});
 
 // A row per curve: its name and unit, the number of frames with a value, mean, standard deviation,
-// smallest and largest value, slope [unit/s], integral over time [unit s]; see
+// smallest and largest value, slope [unit/s], integral over time [unit s], median, rms; see
 // palpate/signals/range_statistics.h.
 TextTable statisticsTable(const SelectedCurves& selected);
 // The same for files, in base units, as curveTable(). Reads every frame of the span. Throws
