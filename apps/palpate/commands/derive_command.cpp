@@ -123,8 +123,8 @@ int deriveCommand(const Arguments& words) {
     }
   }
   line.wipe();
-  writeTable(given, *curveTable(std::move(curves), from, to));
-  return unknown ? kPartlyDone : kDone;
+  const int code = writeTable(given, *curveTable(std::move(curves), from, to));
+  return unknown ? kPartlyDone : code;
 }
 
 }  // namespace palpate::commands

@@ -137,11 +137,14 @@ PipelineOptions pipelineGiven(const CommandLine& given, FeatureSet set) {
 }
 
 // JSON, or the table to a file of -o that ends in .csv.
-void printResult(const CommandLine& given, const Json& json, ResultTable& table) {
+int printResult(const CommandLine& given,
+                const Json& json,
+                ResultTable& table,
+                const FeatureTable& features) {
   if (given.has("output") && formOf(given) == TableForm::kCsv)
-    writeTable(given, table);
-  else
-    printJson(given, json);
+    return std::max(writeTable(given, table), codeFor(features));
+  printJson(given, json);
+  return codeFor(features);
 }
 
 int crossValidation(const CommandLine& given, const CrossValidation& how) {
@@ -191,8 +194,7 @@ int crossValidation(const CommandLine& given, const CrossValidation& how) {
   if (given.has("learning-curve")) json.set("learning_curve", curveJson(curve));
   if (given.has("eliminate")) json.set("elimination", eliminationJson(samples, steps));
   if (given.has("unknown")) json.set("unknown", unknownJson(given, samples, options, table.set));
-  printResult(given, json, *classTable(report.confusion));
-  return codeFor(table);
+  return printResult(given, json, *classTable(report.confusion), table);
 }
 
 Json answersJson(const ModelEvaluation& evaluation,
@@ -252,8 +254,7 @@ int withModel(const CommandLine& given, EvaluationOptions options) {
   json.set("calibration_error", expectedCalibrationError(answers))
       .set("coverage_curve", coverageJson(coverageCurve(answers)))
       .set("verdicts", answersJson(evaluation, table, samples));
-  printResult(given, json, *verdictTable(evaluation, table, samples));
-  return codeFor(table);
+  return printResult(given, json, *verdictTable(evaluation, table, samples), table);
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ int featuresCommand(const Arguments& words) {
     return kFailed;
   }
   const bool isWhole = table.problems.empty();
-  writeTable(given, *featureTable(std::move(table)));
-  return isWhole ? kDone : kPartlyDone;
+  const int code = writeTable(given, *featureTable(std::move(table)));
+  return isWhole ? code : kPartlyDone;
 }
 
 }  // namespace palpate::commands

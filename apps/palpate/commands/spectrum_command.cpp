@@ -205,11 +205,11 @@ int writeMeanSpectrum(const CommandLine& given,
                   .set("peaks", peaksJson(peaks)));
     return kDone;
   }
-  writeTable(
+  const int code = writeTable(
       given,
       *(given.has("peaks") ? peakTable(peaks, unit) : meanSpectrumTable(spectrum.mean, unit)));
   sayGrid(given, spectrum.report);
-  return kDone;
+  return code;
 }
 
 int writeCoherence(const CommandLine& given,
@@ -243,14 +243,15 @@ int writeCoherence(const CommandLine& given,
                   .set("phase_deg", jsonList(found.phaseDeg)));
     return kDone;
   }
-  writeTable(given, *coherenceTable(found, unitOf(profile, signalA), unitOf(profile, signalB)));
+  const int code =
+      writeTable(given, *coherenceTable(found, unitOf(profile, signalA), unitOf(profile, signalB)));
   sayGrid(given, found.report);
   if (!given.quiet())
     std::fprintf(stderr,
                  "palpate: of independent noise 5 %% of the bins are above %s (%zu segments)\n",
                  fixedText(found.level95(), 3).c_str(),
                  found.segments);
-  return kDone;
+  return code;
 }
 
 }  // namespace
@@ -343,10 +344,10 @@ int spectrumCommand(const Arguments& words) {
 
   line.setLabel("transforming " + file);
   if (formOf(given) == TableForm::kCsv) {
-    writeTable(given, *spectraTable(std::move(run), unit, line.callback()));
+    const int code = writeTable(given, *spectraTable(std::move(run), unit, line.callback()));
     line.wipe();
     sayGrid(given, plan);
-    return kDone;
+    return code;
   }
   MeanSpectrumCollector collector(plan);
   const auto visit = [&](const SpectrumSink& sink) {

@@ -81,7 +81,7 @@ class TableOutput {
 };
 // Writes one table, then its notes (unless quiet) and problems to standard error. Returns
 // kPartlyDone after a problem.
-int writeTable(const CommandLine& given, ResultTable& table);
+[[nodiscard]] int writeTable(const CommandLine& given, ResultTable& table);
 
 // Runs a command that makes a table of each recording. Returns the exit code. Throws UsageError.
 int runTableCommand(const CommandLine& given, const RecordingTable& table);
