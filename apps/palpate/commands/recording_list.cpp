@@ -207,15 +207,15 @@ std::string joined(std::string text, const std::vector<std::string>& more) {
 }
 
 // Runs `work` for each file: ahead of its turn for small recordings, whose text is kept until then;
-// otherwise at its turn, straight to standard output.
+// otherwise at its turn, straight to `out`.
 int writeTexts(const RecordingList& list,
                bool quiet,
                const TextForm& form,
                Reading reading,
                const std::vector<std::string>& topics,
+               ResultOutput& out,
                const TextWork& work) {
   ListRun run(list, quiet);
-  StandardOutput out;
   bool begun = false, written = false;
   std::string firstHead;
   const auto read = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
@@ -286,7 +286,7 @@ int writeTexts(const RecordingList& list,
       } catch (const OutputError&) {
         throw;
       } catch (...) {
-        out.finish();
+        out.flush();
         throw;
       }
     } else {
@@ -298,40 +298,14 @@ int writeTexts(const RecordingList& list,
       }
     }
     // The rows of each recording at once.
-    out.finish();
+    out.flush();
     if (result.failure) std::rethrow_exception(result.failure);
     return FileOutcome{.problem =
                            result.damage.empty() ? "" : file.string() + ": " + result.damage};
   });
   if (begun) out.write(form.end);
-  out.finish();
+  out.flush();
   return code;
-}
-
-// Texts that all stand behind the same beginning.
-int writeFramedTexts(const RecordingList& list,
-                     bool quiet,
-                     const TextFrame& frame,
-                     Reading reading,
-                     const std::vector<std::string>& topics,
-                     const OpenedText& work) {
-  return writeTexts(list,
-                    quiet,
-                    {.between = frame.between},
-                    reading,
-                    topics,
-                    [&](const fs::path& file,
-                        const Recording& recording,
-                        TextTarget& target,
-                        const Progress& progress) {
-                      bool first = true;
-                      const auto write = [&](const std::string& text) {
-                        if (std::exchange(first, false)) target.head(frame.begin);
-                        target.write(text);
-                      };
-                      work(file, recording, write, progress);
-                      write({});
-                    });
 }
 
 }  // namespace
@@ -410,30 +384,43 @@ int forEachOpened(const RecordingList& list, bool quiet, const OpenedWork& work)
   });
 }
 
-int writeOpenedTexts(const RecordingList& list,
-                     bool quiet,
-                     const TextFrame& frame,
-                     const OpenedText& work) {
-  return writeFramedTexts(list, quiet, frame, Reading::kWhole, {}, work);
-}
-
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,
+                       ResultOutput& out,
                        const OpenedText& work,
                        const std::vector<std::string>& topics) {
-  return writeFramedTexts(list, quiet, frame, Reading::kAsFarAsReadable, topics, work);
+  return writeTexts(list,
+                    quiet,
+                    {.between = frame.between},
+                    Reading::kAsFarAsReadable,
+                    topics,
+                    out,
+                    [&](const fs::path& file,
+                        const Recording& recording,
+                        TextTarget& target,
+                        const Progress& progress) {
+                      bool first = true;
+                      const auto write = [&](const std::string& text) {
+                        if (std::exchange(first, false)) target.head(frame.begin);
+                        target.write(text);
+                      };
+                      work(file, recording, write, progress);
+                      write({});
+                    });
 }
 
 int writeTables(const RecordingList& list, bool quiet, const TableRun& run) {
   TableTextOptions options = run.text;
   if (list.several) options.addedName = "file";
   const bool isJson = options.form == TableForm::kJson;
+  ResultOutput out;
   return writeTexts(list,
                     quiet,
                     {.end = isJson ? kJsonTableEnd : "", .startsWithComma = isJson},
                     run.readable ? Reading::kAsFarAsReadable : Reading::kWhole,
                     {},
+                    out,
                     [&](const fs::path& file,
                         const Recording& recording,
                         TextTarget& target,

@@ -134,10 +134,12 @@ ResultOutput::ResultOutput(const CommandLine& given, bool outputTaken) : quiet_(
 }
 
 void ResultOutput::write(const std::string& text) {
-  if (file_)
+  if (!file_) return out_.write(text);
+  try {
     file_->write(text);
-  else
-    out_.write(text);
+  } catch (const FileError& error) {
+    throw OutputError(error.what());
+  }
 }
 
 void ResultOutput::flush() { out_.finish(); }

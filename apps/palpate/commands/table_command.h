@@ -52,15 +52,16 @@ BatchTemplate tableTemplateOf(const CommandLine& given);
 // names on standard output.
 class ResultOutput {
  public:
+  ResultOutput() = default;  // standard output
   // Throws FileError, also when the file exists and --force is missing. `outputTaken`: -o is
   // something else, the result goes to standard output.
   explicit ResultOutput(const CommandLine& given, bool outputTaken = false);
-  void write(const std::string& text);  // throws OutputError, FileError
+  void write(const std::string& text);  // throws OutputError
   void flush();                         // what is for standard output
-  void finish();
+  void finish();                        // without it there is no file
 
  private:
-  const bool quiet_;
+  bool quiet_ = false;
   StandardOutput out_;
   std::optional<OutputFile> file_;
 };
