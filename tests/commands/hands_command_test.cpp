@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 #include "palpate/core/json.h"
 
@@ -24,11 +23,9 @@ TEST(HandsCommand, ListsTheBuiltInHands) {
   const auto result = run({"--json"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   std::map<std::string, Json> hands;
-  std::istringstream lines(result.out);
-  for (std::string line; std::getline(lines, line);) {
-    Json hand = Json::parse(line);
-    hands.emplace(hand.at("key").asString(), std::move(hand));
-  }
+  const Json list = Json::parse(result.out).at("hands");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    hands.emplace(list.at(i).at("key").asString(), list.at(i));
   // The figures of the SDH-2: six matrices, 456 taxels, seven axes, nine temperature sensors.
   ASSERT_TRUE(hands.contains("sdh2"));
   const Json& sdh2 = hands.at("sdh2");
@@ -41,6 +38,23 @@ TEST(HandsCommand, ListsTheBuiltInHands) {
   EXPECT_EQ(hands.at("four_fingers").at("axes").asInteger(), 16);
   EXPECT_EQ(hands.at("sole").at("unit").asString(), "kPa");
   for (const auto& [key, hand] : hands) EXPECT_TRUE(hand.at("geometry").asBool()) << key;
+}
+
+TEST(HandsCommand, WritesTheListToAFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run({"-o", folder / "hands.json"}).exitCode, 0);
+  EXPECT_EQ(readFile(folder / "hands.json"), run({"--json"}).out);
+  const auto result = run({"-o", folder / "hands.csv"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out, (folder / "hands.csv").string() + "\n");
+  const std::string table = readFile(folder / "hands.csv");
+  EXPECT_TRUE(table.starts_with(
+      "key,name,maker,unit,matrices,taxels,axes,temperature_sensors,geometry,source\n"))
+      << table;
+  EXPECT_NE(table.find("\nsdh2,"), std::string::npos) << table;
+  EXPECT_NE(table.find(",456,7,9,1,built in\n"), std::string::npos) << table;
+  EXPECT_EQ(run({"-o", folder / "hands.csv"}).exitCode, 1) << "exists already";
+  EXPECT_EQ(run({"-o", folder / "hands.txt"}).exitCode, 2);
 }
 
 TEST(HandsCommand, ChecksAFolder) {

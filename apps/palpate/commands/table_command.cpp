@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <iterator>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_name.h"
@@ -150,6 +152,23 @@ void ResultOutput::finish() {
     if (!quiet_) out_.write(escapedLine(file_->path().string()) + "\n");
   }
   out_.finish();
+}
+
+Json rowsJson(ResultTable& table) {
+  const auto valueOf = [](const auto& value) -> Json {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::monostate>)
+      return {};
+    else
+      return value;
+  };
+  Json rows = Json::array();
+  for (std::vector<Cell> cells; table.next(cells);) {
+    Json row = Json::object();
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      row.set(table.columns()[i].name, std::visit(valueOf, cells[i]));
+    rows.push(std::move(row));
+  }
+  return rows;
 }
 
 void printJson(const CommandLine& given, const Json& json, bool outputTaken) {

@@ -65,6 +65,8 @@ class ResultOutput {
   StandardOutput out_;
   std::optional<OutputFile> file_;
 };
+// The rows of a table as a list of objects.
+Json rowsJson(ResultTable& table);
 // An object as the whole result.
 void printJson(const CommandLine& given, const Json& json, bool outputTaken = false);
 
