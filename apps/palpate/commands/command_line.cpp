@@ -20,6 +20,10 @@
 namespace palpate::commands {
 namespace po = boost::program_options;
 
+void sayLine(std::string_view message) {
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
+}
+
 std::string detail::longName(const std::string& name) { return name.substr(0, name.find(',')); }
 
 namespace {

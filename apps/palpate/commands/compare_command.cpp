@@ -2,7 +2,6 @@
 // frame, as CSV; with --average the average of a signal over grasps or recordings.
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -82,11 +81,9 @@ double offsetOfGrasps(const CommandLine& given, const TimedRecording& a, const T
   const double offsetS = *offsetBetween(timedA, timedB, Alignment::kGrasp);
   const auto both = graspsInCommon(timedA, ranges[0], timedB, ranges[1], offsetS);
   if (both && !given.quiet())
-    std::fprintf(stderr,
-                 "palpate: both grasps last from time_s %s to %s; the rows are of all frames that "
-                 "both recordings have\n",
-                 fixedText(both->fromS, kMicroseconds).c_str(),
-                 fixedText(both->toS, kMicroseconds).c_str());
+    sayLine("both grasps last from time_s " + fixedText(both->fromS, kMicroseconds) + " to " +
+            fixedText(both->toS, kMicroseconds) +
+            "; the rows are of all frames that both recordings have");
   return offsetS;
 }
 

@@ -77,9 +77,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
                     .c_str());
   const int code = reportOpened(in, profile, given.quiet());
   if (recording.damage.events == 0) return code;
-  std::fprintf(stderr,
-               "palpate: %s\n",
-               escapedLine(in + ": " + eventsLeftOutText(recording.damage.events)).c_str());
+  sayLine(in + ": " + eventsLeftOutText(recording.damage.events));
   return kPartlyDone;
 }
 

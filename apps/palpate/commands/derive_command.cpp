@@ -1,7 +1,6 @@
 // The command `palpate derive FILE NAME=FORMULA..` prints curves that formulas make of the signals
 // of a recording as CSV.
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -9,7 +8,6 @@
 
 #include "palpate/calibration/pressure_reader.h"
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/curve_rows.h"
 #include "palpate/signals/formula.h"
@@ -56,8 +54,7 @@ bool sayAssumptions(const ComputedOptions& computed,
   const PressureReader reader(
       *computed.counts, *computed.calibration, computed.pressure, computed.tare);
   for (const std::string& sentence : reader.assumptions())
-    if (!quiet || (unknown && sentence == kUnknownAreaText))
-      std::fprintf(stderr, "palpate: %s\n", escapedLine(sentence).c_str());
+    if (!quiet || (unknown && sentence == kUnknownAreaText)) sayLine(sentence);
   return unknown;
 }
 

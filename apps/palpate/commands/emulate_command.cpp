@@ -238,9 +238,7 @@ void emulateStream(const CommandLine& given, Interruption& interruption) {
   {
     EmulatedStream stream(std::move(model), options, observer);
     if (stream.isOpenToOthers())
-      std::fprintf(stderr,
-                   "palpate: any machine that reaches this address can connect to %s\n",
-                   stream.name().c_str());
+      sayLine("any machine that reaches this address can connect to " + stream.name());
     printReady("stream=" + stream.name());
     waitForEnd(stream, interruption);
   }

@@ -96,9 +96,7 @@ int filterCommand(const Arguments& words) {
                 fullRecipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
   if (recording.damage.events == 0) return kDone;
-  std::fprintf(stderr,
-               "palpate: %s\n",
-               escapedLine(in + ": " + eventsLeftOutText(recording.damage.events)).c_str());
+  sayLine(in + ": " + eventsLeftOutText(recording.damage.events));
   return kPartlyDone;
 }
 

@@ -362,9 +362,7 @@ void remember(const GraspReport& report) {
     TouchMemory touches = loadTouches(touchesFile());
     if (touches.learn(report)) saveTouches(touches, touchesFile());
   } catch (const Error& error) {
-    std::fprintf(stderr,
-                 "palpate: where the object was touched is not remembered: %s\n",
-                 escapedLine(error.what()).c_str());
+    sayLine(std::string("where the object was touched is not remembered: ") + error.what());
   }
 }
 
@@ -449,8 +447,7 @@ int graspCommand(const Arguments& words) {
         " needs --dsa PORT: it stops by the readings of the taxels");
   std::optional<Calibration> calibration;
   if (const auto file = given.text("calibration")) calibration = loadCalibration(*file);
-  if (const std::string problem = stopProgramProblem(); !problem.empty())
-    std::fprintf(stderr, "palpate: %s\n", escapedLine(problem).c_str());
+  if (const std::string problem = stopProgramProblem(); !problem.empty()) sayLine(problem);
   const StateLines lines(given.quiet());
   Interruption interruption;
   CaptureSession session(std::make_unique<LiveHand>(std::move(ports)));

@@ -133,7 +133,7 @@ int listed(const CommandLine& given, const std::vector<ListedHand>& hands) {
   }
   for (const ListedHand& each : hands) {
     if (each.fault.empty()) continue;
-    std::fprintf(stderr, "palpate: %s\n", escapedLine(each.fault).c_str());
+    sayLine(each.fault);
     code = kPartlyDone;
   }
   return code;
@@ -146,7 +146,7 @@ int checkFolders(const std::vector<std::string>& folders) {
     try {
       const HandDescription hand = readHandFolder(folder);
       for (const std::string& fault : checkHand(hand)) {
-        std::fprintf(stderr, "palpate: %s\n", escapedLine(folder + ": " + fault).c_str());
+        sayLine(folder + ": " + fault);
         inPart = true;
       }
       std::printf("%s: %s: %s, %zu taxels, %zu axes, %s\n",
@@ -157,7 +157,7 @@ int checkFolders(const std::vector<std::string>& folders) {
                   hand.axes.size(),
                   hasGeometry(hand) ? "with geometry" : "without geometry");
     } catch (const std::exception& error) {
-      std::fprintf(stderr, "palpate: %s\n", escapedLine(error.what()).c_str());
+      sayLine(error.what());
       ++failed;
     }
   }

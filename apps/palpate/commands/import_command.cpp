@@ -353,8 +353,7 @@ int importCommand(const Arguments& words) {
       std::printf("note: %s\n", escapedLine(note).c_str());
   }
   if (!report.isPartial()) return kDone;
-  std::fprintf(
-      stderr, "palpate: %s\n", escapedLine(data.string() + ": " + report.lossText()).c_str());
+  sayLine(data.string() + ": " + report.lossText());
   return kPartlyDone;
 }
 

@@ -406,7 +406,9 @@ int infoCommand(const Arguments& words) {
            "damaged "
            "recording it shows what can be read and what is missing: exit code 3, too.",
        .options = withOutputOptions(
-           {{"json", "", "one object of JSON, for several with the list recordings; -o: by the ending"},
+           {{"json",
+             "",
+             "one object of JSON, for several with the list recordings; -o: by the ending"},
             topicOption()},
            "OUT.csv"),
        .example = "palpate info foam_ball.dsa --json",

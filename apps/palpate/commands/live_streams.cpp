@@ -1,7 +1,6 @@
 #include "commands/live_streams.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "palpate/calibration/calibration.h"
@@ -115,10 +114,9 @@ StreamTargets streamTargetsOf(const CommandLine& given, const std::string& optio
 
 void warnAboutTargets(const StreamTargets& targets) {
   if (!targets.foxglove || isLoopback(targets.foxglove->server.address)) return;
-  std::fprintf(stderr,
-               "palpate: %s:%d: any machine that reaches this address can read the hand\n",
-               escapedLine(targets.foxglove->server.address).c_str(),
-               static_cast<int>(targets.foxglove->server.port));
+  const auto& server = targets.foxglove->server;
+  sayLine(server.address + ":" + std::to_string(server.port) +
+          ": any machine that reaches this address can read the hand");
 }
 
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given) {
@@ -153,9 +151,7 @@ LiveStreams::LiveStreams(CaptureSession& session,
   for (const StreamTarget& target : targets_.datagrams) stream_.switchOn(target.kind, target.port);
   if (targets_.foxglove) {
     FoxgloveOptions options = *targets_.foxglove;
-    options.server.onRefusedOrigin = [](const std::string& why) {
-      std::fprintf(stderr, "palpate: foxglove: %s\n", escapedLine(why).c_str());
-    };
+    options.server.onRefusedOrigin = [](const std::string& why) { sayLine("foxglove: " + why); };
     foxglove_.switchOn(std::move(options));
   }
   chain_.connect(session);

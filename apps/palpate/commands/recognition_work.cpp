@@ -1,12 +1,10 @@
 #include "commands/recognition_work.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
@@ -15,10 +13,6 @@
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
-
-void sayLine(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
-}
 
 void runInterruptibly(const CommandLine& given,
                       const std::string& label,

@@ -367,14 +367,12 @@ int recordCommand(const Arguments& words) {
                                              : lineText(report, device);
   if (given.has("json") || !given.quiet()) std::printf("%s\n", text.c_str());
   if (!report.mcapFailure.empty())
-    std::fprintf(stderr,
-                 "palpate: the MCAP file stopped before the end: %s\n",
-                 escapedLine(report.mcapFailure).c_str());
+    sayLine("the MCAP file stopped before the end: " + report.mcapFailure);
   const std::string leftOut = leftOutText(report, streamOf(session));
-  if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
+  if (!leftOut.empty()) sayLine(leftOut);
   const std::string seriesLeftOut = seriesLeftOutText(report, session);
-  if (!seriesLeftOut.empty()) std::fprintf(stderr, "palpate: %s\n", seriesLeftOut.c_str());
-  if (!report.complete) std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
+  if (!seriesLeftOut.empty()) sayLine(seriesLeftOut);
+  if (!report.complete) sayLine(report.message);
   return report.complete && report.mcapFailure.empty() && leftOut.empty() && seriesLeftOut.empty()
              ? kDone
              : kPartlyDone;

@@ -28,10 +28,6 @@ namespace {
 
 std::atomic<bool> lossReported = false;
 
-void sayRecordingList(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
-}
-
 std::string countText(std::size_t part, std::size_t whole) {
   return std::to_string(part) + " of " + std::to_string(whole);
 }
@@ -55,7 +51,7 @@ class ListRun {
   }
 
   int through(const FileWork& work) {
-    for (const std::string& problem : list_.problems) sayRecordingList(problem);
+    for (const std::string& problem : list_.problems) sayLine(problem);
     for (index_ = 0; index_ < list_.files.size(); ++index_) {
       if (interrupted()) return endInterrupted();
       const fs::path& file = list_.files[index_];
@@ -71,7 +67,7 @@ class ListRun {
         std::fflush(stdout);  // each line at once, also into a pipe
       }
       if (outcome->problem.empty()) continue;
-      sayRecordingList(outcome->problem);
+      sayLine(outcome->problem);
       ++inPart_;
     }
     return end();
@@ -81,7 +77,7 @@ class ListRun {
   void note(const std::string& message) {
     if (quiet_) return;
     line_.wipe();
-    sayRecordingList(message);
+    sayLine(message);
   }
   // Stops showing progress when rows go to a terminal: they would appear behind the percentage, and
   // they show the progress themselves.
@@ -125,13 +121,13 @@ class ListRun {
 
   void fail(const std::string& message) {
     line_.wipe();
-    sayRecordingList(message);
+    sayLine(message);
     ++failed_;
   }
 
   int end() const {
     const std::size_t all = list_.files.size();
-    if (failed_ > 1) sayRecordingList(countText(failed_, all) + " recordings failed");
+    if (failed_ > 1) sayLine(countText(failed_, all) + " recordings failed");
     if (failed_ == all) return kFailed;
     return failed_ + inPart_ + list_.problems.size() > 0 ? kPartlyDone : kDone;
   }
@@ -139,8 +135,7 @@ class ListRun {
   int endInterrupted() {
     line_.wipe();
     const std::size_t done = index_ - failed_;
-    sayRecordingList("interrupted: " + countText(done, list_.files.size()) +
-                     " recordings are done");
+    sayLine("interrupted: " + countText(done, list_.files.size()) + " recordings are done");
     return done > 0 ? kPartlyDone : kFailed;
   }
 
@@ -336,10 +331,10 @@ std::string lostLine(const fs::path& file, const Profile& profile) {
 
 int reportOpened(const fs::path& file, const Profile& profile, bool quiet) {
   if (!quiet)
-    for (const std::string& line : notedWarnings(file, profile, false)) sayRecordingList(line);
+    for (const std::string& line : notedWarnings(file, profile, false)) sayLine(line);
   const std::string lost = lostLine(file, profile);
   if (lost.empty()) return kDone;
-  sayRecordingList(lost);
+  sayLine(lost);
   lossReported = true;
   return kPartlyDone;
 }
@@ -443,7 +438,7 @@ int writeTables(const RecordingList& list, bool quiet, const TableRun& run) {
 
 void reportLeftOut(const Profile& profile, const std::filesystem::path& out) {
   const std::string text = leftOutText(profile, out);
-  if (!text.empty()) sayRecordingList(out.string() + ": " + text);
+  if (!text.empty()) sayLine(out.string() + ": " + text);
 }
 
 }  // namespace palpate::commands

@@ -105,8 +105,8 @@ struct TableRun {
   bool readable = false;
 };
 // As writeReadableTexts(): one table of all recordings on standard output, in whose last column
-// `file` each row of several recordings names its own. A recording with other columns or units than the first one
-// fails.
+// `file` each row of several recordings names its own. A recording with other columns or units than
+// the first one fails.
 int writeTables(const RecordingList& list, bool quiet, const TableRun& run);
 
 // Says on standard error, before a profile is saved as `out`, what will be missing there.

@@ -234,7 +234,7 @@ int drawSeries(const CommandLine& given,
   if (!report.failure.empty())
     throw Error(report.failure + (report.written > 0 ? "; " + count : std::string()));
   if (report.cancelled) {
-    std::fprintf(stderr, "palpate: interrupted: %s\n", escapedLine(count).c_str());
+    sayLine("interrupted: " + count);
     return kPartlyDone;
   }
   if (!given.quiet())

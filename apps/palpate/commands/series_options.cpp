@@ -1,6 +1,5 @@
 #include "commands/series_options.h"
 
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -22,9 +21,7 @@ std::pair<std::string, std::string> seriesValue(const std::string& option,
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-void printSeries(const std::string& text) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(text).c_str());
-}
+void printSeries(const std::string& text) { sayLine(text); }
 
 std::int64_t lostOf(const RecordingReport& report, const RecordedSeries& series) {
   return report.counter(seriesCounter(series.name, "lost")) + series.lost;

@@ -1,7 +1,6 @@
 // The command `palpate spectrum FILE` prints the short-time Fourier transform of a taxel or a
 // matrix signal as CSV.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -169,12 +168,9 @@ Json peaksJson(const std::vector<SpectralPeak>& peaks) {
 
 void sayGrid(const CommandLine& given, const SpectrumReport& report) {
   if (given.quiet()) return;
-  std::fprintf(stderr,
-               "palpate: intervals vary by %s %%: resampled to %s Hz; nothing above %s Hz can be "
-               "seen\n",
-               fixedText(report.jitter * kPercent, 0).c_str(),
-               fixedText(report.rateHz, 2).c_str(),
-               fixedText(report.nyquistHz, 2).c_str());
+  sayLine("intervals vary by " + fixedText(report.jitter * kPercent, 0) + " %: resampled to " +
+          fixedText(report.rateHz, 2) + " Hz; nothing above " + fixedText(report.nyquistHz, 2) +
+          " Hz can be seen");
 }
 
 // --welch and --peaks.
@@ -247,10 +243,8 @@ int writeCoherence(const CommandLine& given,
       writeTable(given, *coherenceTable(found, unitOf(profile, signalA), unitOf(profile, signalB)));
   sayGrid(given, found.report);
   if (!given.quiet())
-    std::fprintf(stderr,
-                 "palpate: of independent noise 5 %% of the bins are above %s (%zu segments)\n",
-                 fixedText(found.level95(), 3).c_str(),
-                 found.segments);
+    sayLine("of independent noise 5 % of the bins are above " + fixedText(found.level95(), 3) +
+            " (" + std::to_string(found.segments) + " segments)");
   return code;
 }
 

@@ -124,7 +124,7 @@ Recording streamedRecording(const CommandLine& given, std::string& damage) {
 // Prints the damage of the recording. Returns the exit code of work that is otherwise done.
 int endOf(const std::string& damage) {
   if (damage.empty()) return kDone;
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(damage).c_str());
+  sayLine(damage);
   return kPartlyDone;
 }
 
@@ -277,9 +277,8 @@ int streamLines(const CommandLine& given, const StreamTargets& targets) {
   if (const std::string failure = chain.failure(); !failure.empty()) throw Error(failure);
   const ChainStats stats = chain.stats();
   if (stats.skipped == 0) return kDone;
-  std::fprintf(stderr,
-               "palpate: %llu frames were skipped: the program that reads them is too slow\n",
-               static_cast<unsigned long long>(stats.skipped));
+  sayLine(std::to_string(stats.skipped) +
+          " frames were skipped: the program that reads them is too slow");
   return kPartlyDone;
 }
 

@@ -1,7 +1,6 @@
 #include "commands/table_command.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <stdexcept>
 #include <type_traits>
@@ -28,10 +27,6 @@ constexpr const char* kOptionsOfTheRun[] = {
     "output", "force", "resume", "threads", "report", "quiet", "json", "units-row"};
 constexpr const char* kUnitsOfJson =
     "--units-row is a row of CSV; JSON has the units of its columns";
-
-void sayOfTable(const std::string& line) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(line).c_str());
-}
 
 Overwrite overwriteOf(const CommandLine& given) {
   return given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
@@ -207,9 +202,9 @@ int writeTable(const CommandLine& given, ResultTable& table) {
   out.add(table);
   out.finish();
   if (!given.quiet())
-    for (const std::string& note : table.notes()) sayOfTable(note);
+    for (const std::string& note : table.notes()) sayLine(note);
   const std::vector<std::string> problems = table.problems();
-  for (const std::string& problem : problems) sayOfTable(problem);
+  for (const std::string& problem : problems) sayLine(problem);
   return problems.empty() ? kDone : kPartlyDone;
 }
 
