@@ -54,12 +54,12 @@ int codeOf(const BatchPlan& plan, const BatchReport& report) {
 }  // namespace
 
 std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options) {
-  const std::vector<OptionSpec> batch = {
-      {"output,o",
-       "TEMPLATE",
-       "a file for each recording, as out/{name}.csv; also {folder}, {ending}, {date}, {time}; "
-       "docs/manual/many_recordings.md"},
-      {"force", "", "replace files that exist"}};
+  const std::vector<OptionSpec> batch = {{"output,o",
+                                          "TEMPLATE",
+                                          "write a file for each recording, as out/{name}.csv; "
+                                          "also {folder}, {ending}, {date}, {time}; "
+                                          "docs/manual/many_recordings.md"},
+                                         {"force", "", "replace files that exist"}};
   options.insert(options.end(), batch.begin(), batch.end());
   return withResumeOptions(std::move(options));
 }

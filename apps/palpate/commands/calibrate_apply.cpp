@@ -65,7 +65,7 @@ int calibrateApply(const Arguments& words) {
   const Recording recording = openReported(file, progress, given.quiet());
   const Profile& profile = recording.profile;
   CalibratedFrames frames(*choice, file, recording, profile);
-  // Without the pressures' forces the result is not whole: that is said with --quiet, too.
+  // Without the pressures' forces the result is incomplete: reported with --quiet as well.
   const bool noForces = !frames.areaKnown() && !outPath;
   for (const std::string& sentence : frames.assumptions())
     if (!given.quiet() || (noForces && sentence == kUnknownAreaText)) sayLine(sentence);

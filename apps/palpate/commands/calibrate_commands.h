@@ -1,4 +1,4 @@
-// The subcommands of `palpate calibrate`: one function for each kind, which gets the words after
+// The subcommands of `palpate calibrate`: one function for each kind, which takes the words after
 // it; and the options that they share.
 #pragma once
 

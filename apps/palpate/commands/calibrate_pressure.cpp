@@ -50,7 +50,7 @@ int calibratePressure(const Arguments& words) {
             boundChoice("choices", "NAME", "", model.study, kTerms),
             bound("area",
                   "MM2",
-                  "area of the indenter: forces are then those on this area",
+                  "area of the indenter, to compute the forces on it",
                   model.indenterAreaMm2,
                   model.kIndenterAreaMm2,
                   "not known"),

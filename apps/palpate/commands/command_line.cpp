@@ -78,7 +78,7 @@ std::size_t hangingIndent(const std::string& line) {
 }
 
 // Lines of at most kHelpWidth columns; further ones are indented like the text of the first. A
-// number stays beside its unit.
+// number stays next to its unit.
 std::string wrapped(const std::string& line) {
   if (line.size() <= kHelpWidth) return line + "\n";
   const bool indented = line.front() == ' ';

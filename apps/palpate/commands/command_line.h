@@ -71,7 +71,7 @@ OptionSpec boundChoice(const std::string& name,
                        const Words& words,
                        const std::optional<std::string>& usual = {});
 // Options whose value the command asks for by CommandLine::number() or integer() with the same
-// range, or by chosen() with the same words; CommandLine checks them, too.
+// range, or by chosen() with the same words; CommandLine also checks them.
 OptionSpec ranged(const std::string& name,
                   std::string value,
                   std::string help,

@@ -29,7 +29,7 @@ struct NamedFormula {
 
 // "rate=der(hand_sum)"; without NAME= the formula is its own name.
 NamedFormula namedFormula(const std::string& word) {
-  // The first = that is no comparison parts the name.
+  // The first = that is not part of a comparison ends the name.
   const auto equals = word.find('=');
   const bool named = equals != std::string::npos && equals > 0 &&
                      std::string("!<>").find(word[equals - 1]) == std::string::npos &&
@@ -42,7 +42,7 @@ NamedFormula namedFormula(const std::string& word) {
 }
 
 // Says what the forces assume; returns whether forces that a formula names aren't known, which is
-// said with --quiet, too.
+// reported with --quiet as well.
 bool sayAssumptions(const ComputedOptions& computed,
                     const std::vector<NamedFormula>& formulas,
                     bool quiet) {

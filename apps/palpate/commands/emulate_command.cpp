@@ -150,7 +150,7 @@ CommandSpec emulateSpec() {
             "NAME|FILE.json",
             "objects and events around the hand: " + joinedSceneNames() +
                 " (default empty), or a file; for a stream the default touches every matrix"},
-           {"replay", "FILE", "plays a recording: each frame once, then nothing"},
+           {"replay", "FILE", "play a recording: each frame once, then nothing"},
            {"faults",
             "SPEC",
             "faults to simulate, with commas and without blanks between them: crc=RATE drop=RATE "

@@ -273,13 +273,11 @@ int evaluateCommand(const Arguments& words) {
       bound("seed", "N", "seed of protocol S", how.seed, kSeedOption),
       {"confidence",
        "",
-       "calibrate probabilities, too: adds their calibration error and the coverage curve"},
-      {"weights", "", "adds how much the classifier depends on each feature"},
-      {"learning-curve",
-       "",
-       "adds the accuracy for different numbers of training grasps per class"},
-      {"eliminate", "", "adds recursive feature elimination"},
-      {"unknown", "", "adds how well unknown objects are detected: each class left out in turn"},
+       "also calibrate probabilities: add their calibration error and the coverage curve"},
+      {"weights", "", "add how much the classifier depends on each feature"},
+      {"learning-curve", "", "add the accuracy for different numbers of training grasps per class"},
+      {"eliminate", "", "add recursive feature elimination"},
+      {"unknown", "", "add how well unknown objects are detected: each class left out in turn"},
       {"later", "PATH2", "with --unknown: the same on these grasps of another session (gauss)"},
       {"model", "M.json", "test this model instead (protocol X)"},
       bound("adapt",
@@ -302,7 +300,7 @@ int evaluateCommand(const Arguments& words) {
            "with a folder of recordings per class.\n\nWithout --model it uses cross-validation: "
            "everything (scaling, discriminant analysis, classifier) is fitted to the training part "
            "of each split alone. The default classifier is svm with C = 100, for the set best it "
-           "is gauss, as in `train`; the default is no discriminant analysis. Both protocols stay "
+           "is gauss, as in `train`; by default without discriminant analysis. Both protocols stay "
            "within the recordings: they don't show the accuracy in another session.\n\nWith "
            "--model it tests the model on other recordings. The candidates are all classes of the "
            "model; the answer unknown counts as wrong. Grasps more than 8 hours apart are "

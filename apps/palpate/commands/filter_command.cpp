@@ -46,7 +46,7 @@ int filterCommand(const Arguments& words) {
                    {"recipe",
                     "R.json",
                     "a recipe, as the Filter dock saves it, before every --filter"},
-                   {"save-recipe", "R.json", "write the filters as a recipe, too"},
+                   {"save-recipe", "R.json", "also write the filters as a recipe"},
                    {"list", "", "list all filters with options, ranges and sources"},
                    timeOption(),
                    {"force", "", "replace OUT and R.json"}},

@@ -140,7 +140,7 @@ std::vector<std::string> lossTexts(const std::vector<Event>& events) {
   return texts;
 }
 
-// The series beside those of the hand.
+// The series in addition to those of the hand.
 Json furtherSeriesJson(const Profile& profile) {
   Json all = Json::array();
   for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
@@ -399,12 +399,13 @@ int infoCommand(const Arguments& words) {
            "Shows what a recording contains: frames, rates, gaps, matrices, angles, temperatures, "
            "largest value, what was entered before recording (operator, object, run, notes), "
            "labels and events (of a .dsa those of its notes). The rate comes from the median "
-           "interval; a gap is longer than max(1 s, 5 median intervals), and only of frames; what "
-           "the events tell of lost frames, angles and temperatures stands beside it. Of several "
+           "interval; a gap is longer than max(1 s, 5 median intervals), and only of frames; the "
+           "losses of frames, angles and temperatures that the events report are listed "
+           "separately. For several "
            "PATHs or a folder (every recording below it) it prints a table as CSV, a row each; a "
            "file that can't be read is reported, and the others are printed: exit code 3. Of a "
            "damaged "
-           "recording it shows what can be read and what is missing: exit code 3, too.",
+           "recording it shows what can be read and what is missing: also exit code 3.",
        .options = withOutputOptions(
            {{"json",
              "",

@@ -62,7 +62,7 @@ int labelsCommand(const Arguments& words) {
            "text, matrix. PATH is a recording, or a folder: every recording below it. With several "
            "recordings a last column names the file.\n\nWith --import the labels of such a table "
            "are added to FILE, which keeps its own; a label that FILE already has isn't added "
-           "again. Columns may stand in any order. begin_s and text are required; a row without "
+           "again. Columns may be in any order. begin_s and text are required; a row without "
            "end_s is a moment, a row without kind is a label. Where a column names the file, only "
            "the rows of FILE are added. Wrong rows are left out and named by "
            "their line number; then the exit code is 3, or 1 if all rows are wrong.",

@@ -80,9 +80,10 @@ bool isLoopback(const std::string& address) {
 }  // namespace
 
 std::vector<OptionSpec> foxgloveOptions() {
-  return {{"listen", "ADDRESS", "of the WebSocket, default 127.0.0.1: only this machine"},
-          {"origin", "URL", "a web page that may connect beside https://app.foxglove.dev"},
-          worded("image", "FORM", "of the WebSocket's heat maps", kFoxgloveImageWords, "values")};
+  return {
+      {"listen", "ADDRESS", "address of the WebSocket, default 127.0.0.1: only this machine"},
+      {"origin", "URL", "allow this web page to connect, in addition to https://app.foxglove.dev"},
+      worded("image", "FORM", "of the WebSocket's heat maps", kFoxgloveImageWords, "values")};
 }
 
 StreamTargets streamTargetsOf(const CommandLine& given, const std::string& option) {

@@ -46,7 +46,7 @@ FeatureTable extractFeatureTable(const CommandLine& given,
 OptionSpec zeroOptionSpec() {
   return {"empty-hand-zero",
           "FILE",
-          "recording of the empty hand that closes until its pads touch, of the same day"};
+          "recording of the same day in which the empty hand closes until its pads touch"};
 }
 
 std::optional<EmptyHandZero> zeroGiven(const CommandLine& given) {
@@ -97,7 +97,7 @@ std::vector<OptionSpec> pipelineOptionSpecs() {
   return {worded("classifier", "NAME", "", kClassifierWords),
           rangedWhole("lda",
                       "N",
-                      "components of a discriminant analysis before it (not for gauss)",
+                      "components of a discriminant analysis before the classifier (not for gauss)",
                       PipelineOptions::kComponents),
           ranged("c", "C", "cost of the svm", SvmOptions::kC, numberText(SvmOptions{}.c)),
           {"shrinkage",

@@ -154,7 +154,7 @@ class ListRun {
 // Of a small recording more text than this isn't kept until its turn comes.
 constexpr std::size_t kMostTextAhead = 4u << 20;
 constexpr std::size_t kPieceOfRows = 1u << 16;  // bytes
-// Why a recording can't stand in a table whose columns and units are those of an earlier one.
+// Why a recording can't be in a table whose columns and units are those of an earlier one.
 constexpr const char* kOtherColumns =
     "its columns or units differ from those of the recordings before; write it to another table";
 class TooMuchText {};

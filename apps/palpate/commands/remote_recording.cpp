@@ -61,7 +61,7 @@ void sayRemoteRecording(const RecordingReport& report, bool json) {
 }  // namespace
 
 OptionSpec remoteOption() {
-  return {"remote", "", "other programs start and stop recordings: 'palpate remote --help'"};
+  return {"remote", "", "let other programs start and stop recordings: 'palpate remote --help'"};
 }
 
 OptionSpec socketOption() {

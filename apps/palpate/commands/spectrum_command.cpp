@@ -274,11 +274,13 @@ int spectrumCommand(const Arguments& words) {
                  "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
                  "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
                  "m5_x2_y9, angle3, m1_sum-m3_sum"},
-                {"welch", "", "the mean over all segments as one spectrum (Welch)"},
-                {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
+                {"welch", "", "print one spectrum, the mean over all segments (Welch)"},
+                {"peaks",
+                 "",
+                 "print the peaks of this spectrum: frequency, density, amplitude, width"},
                 {"coherence",
                  "A,B",
-                 "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
+                 "print coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
                  "m5_x2_y9,m5_x3_y9"},
                 rangedWhole("window",
                             "N",
@@ -294,12 +296,12 @@ int spectrumCommand(const Arguments& words) {
                  "--peaks, --coherence"},
                 worded("detrend",
                        "HOW",
-                       "what is subtracted from each segment first",
+                       "subtract this from each segment first",
                        kDetrendWords,
                        "mean"),
                 worded("rate",
                        "HOW",
-                       "of the intervals: sampling rate after interpolation",
+                       "interval that sets the sampling rate after interpolation",
                        kGridRateWords,
                        "mean"),
                 timeOption()})),

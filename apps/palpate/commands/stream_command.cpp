@@ -80,8 +80,8 @@ CommandSpec streamSpec() {
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"to", "STREAM", "what to send, and to which port; may be repeated"},
                   {"foxglove", "[PORT]", "the same as --to foxglove[:PORT]; PORT 0: any free one"},
-                  {"lines", "", "lines on standard output instead of datagrams"},
-                  {"calibration", "C.json", "also pressures and forces"},
+                  {"lines", "", "print lines on standard output instead of sending datagrams"},
+                  {"calibration", "C.json", "also send pressures and forces"},
                   ranged("duration", "S", "stop after this time", RecordingLimits::kStopAfterS)},
       .example = "palpate stream --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1",
       .maxArguments = 1};

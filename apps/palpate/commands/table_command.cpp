@@ -32,7 +32,7 @@ Overwrite overwriteOf(const CommandLine& given) {
   return given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
 }
 
-// A value of another option can be a file, too: a model, a calibration.
+// The value of another option can also be a file: a model, a calibration.
 void checkOutput(const CommandLine& given) {
   const auto out = given.text("output");
   if (!out) return;
@@ -67,8 +67,9 @@ std::vector<OptionSpec> withOneTableOptions(std::vector<OptionSpec> options,
 }
 
 OptionSpec timeColumnOption() {
-  return {
-      "time-column", "s|utc", "in addition to time_ms; s: seconds from the first frame; utc: date"};
+  return {"time-column",
+          "s|utc",
+          "add a column next to time_ms; s: seconds from the first frame; utc: date"};
 }
 
 std::unique_ptr<ResultTable> withTimeColumn(const CommandLine& given,

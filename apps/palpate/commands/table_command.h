@@ -44,7 +44,7 @@ std::string choicesText(const CommandLine& given);
 TableForm formOf(const CommandLine& given);
 // How the options want a table as text. Throws UsageError.
 TableTextOptions tableTextOf(const CommandLine& given);
-// The template that -o gives, whose ending says the form. Throws UsageError, also for --json and
+// The template that -o gives, whose ending chooses the form. Throws UsageError, also for --json and
 // --units-row that don't fit it.
 BatchTemplate tableTemplateOf(const CommandLine& given);
 
