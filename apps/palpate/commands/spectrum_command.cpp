@@ -155,17 +155,6 @@ std::string tooShort(const SpectrumReport& report, const SpectrumOptions& option
          " samples, a window takes " + std::to_string(options.window) + ": take a smaller --window";
 }
 
-Json peaksJson(const std::vector<SpectralPeak>& peaks) {
-  return jsonList(peaks, [](const SpectralPeak& peak) {
-    return Json::object()
-        .set("frequency_hz", peak.frequencyHz)
-        .set("psd", peak.psd)
-        .set("amplitude", peak.amplitude)
-        .set("width_hz", peak.widthHz)
-        .set("prominence_db", peak.prominenceDb);
-  });
-}
-
 void sayGrid(const CommandLine& given, const SpectrumReport& report) {
   if (given.quiet()) return;
   sayLine("intervals vary by " + fixedText(report.jitter * kPercent, 0) + " %: resampled to " +
@@ -198,7 +187,7 @@ int writeMeanSpectrum(const CommandLine& given,
                   .set("segments", spectrum.mean.segments)
                   .set("psd", jsonList(spectrum.mean.psd))
                   .set("magnitude", jsonList(spectrum.mean.magnitude))
-                  .set("peaks", peaksJson(peaks)));
+                  .set("peaks", rowsJson(*peakTable(peaks, unit))));
     return kDone;
   }
   const int code = writeTable(
