@@ -116,7 +116,7 @@ std::unique_ptr<ResultTable> handTable(const std::vector<ListedHand>& hands) {
 }
 
 // Exit code 3 where the others are listed.
-int listed(const CommandLine& given, const std::vector<ListedHand>& hands) {
+int showHands(const CommandLine& given, const std::vector<ListedHand>& hands) {
   int code = kDone;
   if (formOf(given) == TableForm::kJson) {
     printJson(given, Json::object().set("hands", jsonList(hands, handJson)));
@@ -189,7 +189,7 @@ int handsCommand(const Arguments& words) {
       throw UsageError("hands check prints no list: leave out its options");
     return checkFolders({given.words().begin() + 1, given.words().end()});
   }
-  return listed(given, listHands());
+  return showHands(given, listHands());
 }
 
 }  // namespace palpate::commands
