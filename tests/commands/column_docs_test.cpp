@@ -1,4 +1,5 @@
-// docs/manual/columns.md defines every column that a table of the analysis prints.
+// docs/manual/columns.md defines every column that a table of the analysis prints; the pages that
+// the program prints are up to date.
 #include <map>
 #include <regex>
 #include <sstream>
@@ -61,7 +62,16 @@ TEST(ColumnDocs, ThePageOfColumnsIsWhatTheProgramPrints) {
   ASSERT_EQ(printed.exitCode, 0) << printed.err;
   EXPECT_EQ(testing::readFile(testing::dataFolder().parent_path() / "docs/manual/tables.md"),
             printed.out)
-      << "make it anew: palpate help columns > docs/manual/tables.md";
+      << "make it again: palpate help columns > docs/manual/tables.md";
+}
+
+TEST(ColumnDocs, ThePageOfOptionsIsWhatTheProgramPrints) {
+  const auto printed = palpate({"help", "commands"});
+  ASSERT_EQ(printed.exitCode, 0) << printed.err;
+  EXPECT_NE(printed.out.find("\n## calibrate tare\n"), std::string::npos);
+  EXPECT_EQ(testing::readFile(testing::dataFolder().parent_path() / "docs/manual/options.md"),
+            printed.out)
+      << "make it again: palpate help commands > docs/manual/options.md";
 }
 
 // Every column says what it means, and a number with a unit in its name has that unit.

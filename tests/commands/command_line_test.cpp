@@ -34,6 +34,12 @@ TEST(CommandLine, SortsOptionsFromWords) {
   EXPECT_FALSE(given.quiet());
 }
 
+TEST(CommandLine, SaysALineOnStandardError) {
+  ::testing::internal::CaptureStderr();
+  sayLine("a\nb");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "palpate: a\\nb\n");
+}
+
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   EXPECT_THROW(CommandLine(kSpec, {}), UsageError);
   EXPECT_THROW(CommandLine(kSpec, {"a", "b", "c"}), UsageError);

@@ -40,6 +40,23 @@ TEST(HandsCommand, ListsTheBuiltInHands) {
   for (const auto& [key, hand] : hands) EXPECT_TRUE(hand.at("geometry").asBool()) << key;
 }
 
+TEST(HandsCommand, WritesTheListToAFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run({"-o", folder / "hands.json"}).exitCode, 0);
+  EXPECT_EQ(readFile(folder / "hands.json"), run({"--json"}).out);
+  const auto result = run({"-o", folder / "hands.csv"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out, (folder / "hands.csv").string() + "\n");
+  const std::string table = readFile(folder / "hands.csv");
+  EXPECT_TRUE(table.starts_with(
+      "key,name,maker,unit,matrices,taxels,axes,temperature_sensors,geometry,source\n"))
+      << table;
+  EXPECT_NE(table.find("\nsdh2,"), std::string::npos) << table;
+  EXPECT_NE(table.find(",456,7,9,1,built in\n"), std::string::npos) << table;
+  EXPECT_EQ(run({"-o", folder / "hands.csv"}).exitCode, 1) << "exists already";
+  EXPECT_EQ(run({"-o", folder / "hands.txt"}).exitCode, 2);
+}
+
 TEST(HandsCommand, ChecksAFolder) {
   for (const auto& entry : fs::directory_iterator(dataFolder() / "hands")) {
     if (!entry.is_directory()) continue;

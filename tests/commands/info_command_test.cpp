@@ -220,6 +220,31 @@ TEST(InfoCommand, OfSeveralItPrintsOneTable) {
   EXPECT_EQ(last.at("matrices").size(), 6u);
 }
 
+TEST(InfoCommand, WritesWhatItPrintsToAFile) {
+  const testing::TemporaryFolder folder;
+  const std::string a = folder / "in/a.dsa", b = folder / "in/b.dsa", none = folder / "none.dsa";
+  fs::create_directory(folder / "in");
+  for (const std::string& file : {a, b})
+    ASSERT_EQ(palpate({"synthesize", "-o", file, "--duration", "1"}).exitCode, 0);
+  const auto written = [&](std::vector<std::string> words, const std::string& out) {
+    words.insert(words.begin(), "info");
+    words.insert(words.end(), {"-o", folder / out});
+    const auto result = palpate(words);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.out, (folder / out).string() + "\n");
+    return testing::readFile(folder / out);
+  };
+  EXPECT_EQ(written({a}, "one.json"), palpate({"info", a, "--json"}).out);
+  EXPECT_EQ(written({a, b}, "two.json"), palpate({"info", a, b, "--json"}).out);
+  const std::string table = palpate({"info", a, b}).out;
+  EXPECT_EQ(written({folder / "in"}, "two.csv"), table);
+  EXPECT_EQ(written({a}, "one.csv"), table.substr(0, table.find('\n', table.find(a)) + 1));
+  expectOneLineError(palpate({"info", a, "-o", folder / "two.csv"}), 1, {"two.csv"});
+  expectOneLineError(palpate({"info", a, "-o", folder / "x.png"}), 2, {".csv, .json"});
+  expectOneLineError(palpate({"info", none, "-o", folder / "none.csv"}), 1, {"none.dsa"});
+  EXPECT_FALSE(fs::exists(folder / "none.csv"));
+}
+
 // A recording as the recorder makes it, with what was asked before and marked during it.
 void writeWithNotes(const fs::path& path) {
   PalpateWriter writer(path,

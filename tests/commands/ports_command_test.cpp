@@ -79,6 +79,20 @@ TEST_F(PortsCommand, SaysTheSameAsJson) {
   EXPECT_EQ(portOf(report, "tcp:nonsense").at("answer").asString(), "not_found");
 }
 
+TEST_F(PortsCommand, WritesTheListToAFile) {
+  const testing::TemporaryFolder folder;
+  const std::string csv = folder / "ports.csv";
+  const auto result = palpate({"ports", "-o", csv, tactile.path()});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out, csv + "\n");
+  const std::string table = testing::readFile(csv);
+  EXPECT_TRUE(table.starts_with("port,by_id,description,usb,answer,firmware,serial,message\n"));
+  EXPECT_NE(table.find(tactile.path() + ",,,0,tactile,2.9.0.0,1D9B0057,"), std::string::npos)
+      << table;
+  expectOneLineError(palpate({"ports", "--no-probe", "-o", csv}), 1, {"ports.csv"});
+  expectOneLineError(palpate({"ports", "--no-probe", "-o", "x.txt"}), 2, {".csv, .json"});
+}
+
 TEST_F(PortsCommand, LeavesAloneWhatAnotherProgramHolds) {
   const auto held = openChannel(silent.path());
   const auto result = palpate({"ports", "--json", silent.path()});

@@ -292,13 +292,14 @@ ListResult textsOf(const RecordingList& list, const TextFrame& frame, const Open
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   ListResult run;
-  run.exitCode = writeOpenedTexts(list, true, frame, work);
+  ResultOutput out;
+  run.exitCode = writeReadableTexts(list, true, frame, out, work);
   run.out = ::testing::internal::GetCapturedStdout();
   run.err = ::testing::internal::GetCapturedStderr();
   return run;
 }
 
-TEST(WriteOpenedTexts, TheTextsStandInTheOrderOfTheRecordings) {
+TEST(WriteReadableTexts, TheTextsStandInTheOrderOfTheRecordings) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 40);
   const auto name =
@@ -317,7 +318,7 @@ TEST(WriteOpenedTexts, TheTextsStandInTheOrderOfTheRecordings) {
 }
 
 // The work of each of two recordings waits for that of the other: one thread would never end.
-TEST(WriteOpenedTexts, TheWorkOfSmallRecordingsIsDoneSeveralAtATime) {
+TEST(WriteReadableTexts, TheWorkOfSmallRecordingsIsDoneSeveralAtATime) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 2);
   if (readAheadThreads(2) == 0) GTEST_SKIP() << "this machine runs one thread at a time";
@@ -329,7 +330,7 @@ TEST(WriteOpenedTexts, TheWorkOfSmallRecordingsIsDoneSeveralAtATime) {
   EXPECT_EQ(textsOf(list, {}, meet).out, "met\nmet\n");
 }
 
-TEST(WriteOpenedTexts, WhatWasWrittenBeforeAFailureIsKept) {
+TEST(WriteReadableTexts, WhatWasWrittenBeforeAFailureIsKept) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 4);
   writeFile(list.files[0], "no recording");
@@ -347,7 +348,7 @@ TEST(WriteOpenedTexts, WhatWasWrittenBeforeAFailureIsKept) {
   EXPECT_NE(run.err.find("2 of 4 recordings failed"), std::string::npos) << run.err;
 }
 
-TEST(WriteOpenedTexts, TheFrameIsWrittenAlsoWhereNoRecordingHasText) {
+TEST(WriteReadableTexts, TheFrameIsWrittenAlsoWhereNoRecordingHasText) {
   const TemporaryFolder folder;
   const auto nothing = [](const fs::path&, const Recording&, const TextSink&, const Progress&) {};
   const RecordingList list = smallOnes(folder, 3);
@@ -357,7 +358,7 @@ TEST(WriteOpenedTexts, TheFrameIsWrittenAlsoWhereNoRecordingHasText) {
 }
 
 // What is too long to be kept is made again when its turn comes.
-TEST(WriteOpenedTexts, LongTextsAreWrittenAtTheirTurn) {
+TEST(WriteReadableTexts, LongTextsAreWrittenAtTheirTurn) {
   const TemporaryFolder folder;
   const RecordingList list = smallOnes(folder, 3);
   const std::string piece(1u << 20, 'x');
@@ -373,12 +374,13 @@ TEST(WriteOpenedTexts, LongTextsAreWrittenAtTheirTurn) {
   EXPECT_TRUE(run.out == one + "\n" + one + "\n" + one + "\n");
 }
 
-TEST(WriteOpenedTexts, WhatIsNoFilesFaultEndsIt) {
+TEST(WriteReadableTexts, WhatIsNoFilesFaultEndsIt) {
   const TemporaryFolder folder;
   const auto wrong = [](const fs::path&, const Recording&, const TextSink&, const Progress&) {
     throw UsageError("wrong");
   };
-  EXPECT_THROW(writeOpenedTexts(smallOnes(folder, 3), true, {}, wrong), UsageError);
+  ResultOutput out;
+  EXPECT_THROW(writeReadableTexts(smallOnes(folder, 3), true, {}, out, wrong), UsageError);
 }
 
 class FolderOfRecordings : public ::testing::Test {

@@ -1,3 +1,5 @@
+#include "palpate/core/json.h"
+
 #include "commands/palpate_program.h"
 
 namespace palpate::verify_command_test {
@@ -42,6 +44,21 @@ TEST_F(VerifyCommand, OneLinePerFileSaysWhatCanBeRead) {
   EXPECT_NE(result.out.find("damaged.dsa: damaged: "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("unreadable.dsa: unreadable: "), std::string::npos) << result.out;
   EXPECT_EQ(result.err, "");
+}
+
+TEST_F(VerifyCommand, WritesATableToAFile) {
+  const std::string csv = folder_ / "states.csv", json = folder_ / "states.json";
+  const auto result = palpate({"verify", sound(), damaged(), unreadable(), "-o", csv});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.out, csv + "\n");
+  const std::string table = testing::readFile(csv);
+  EXPECT_TRUE(table.starts_with("file,state,message\n" + sound() + ",sound,")) << table;
+  EXPECT_NE(table.find("\n" + damaged() + ",damaged,"), std::string::npos) << table;
+  EXPECT_NE(table.find("\n" + unreadable() + ",unreadable,"), std::string::npos) << table;
+  EXPECT_EQ(palpate({"verify", sound(), "-o", json}).exitCode, 0);
+  EXPECT_EQ(Json::parse(testing::readFile(json)).at("rows").size(), 1u);
+  testing::expectOneLineError(palpate({"verify", sound(), "-o", csv}), 1, {"states.csv"});
+  testing::expectOneLineError(palpate({"verify", sound(), "-o", "x.txt"}), 2, {".csv, .json"});
 }
 
 TEST_F(VerifyCommand, OneRecordingBehindAnotherIsNotMixedWithIt) {

@@ -60,14 +60,14 @@ int adaptCommand(const Arguments& words) {
            "deviation and its source. The sources, one or both:\n\n  FILE  a recording in which "
            "the empty hand closes until its pads touch (palpate grasp --preshape pinch-empty "
            "--mode reactive). It needs no object and no label, but a model that was trained with "
-           "such a recording of its own session.\n  PATH  labelled grasps of today: a folder with "
+           "such a recording of the same session.\n  PATH  labelled grasps of today: a folder with "
            "a folder of recordings per class. They also show how the objects measure today. One "
            "grasp of each object is usually enough; answers are called sure only after grasps of "
            "at least two different objects.\n\nIf the grasps are of several sessions (more than 8 "
            "h apart), the newest session is used, and the others are reported: exit code 3. What "
            "an earlier call stored of the same session is kept; what it stored of another session "
            "is removed. Prints the offset and the classes as JSON.",
-       .options = {{"output,o", "MODEL2.json", "write the adapted model there"},
+       .options = {{"output,o", "MODEL2.json", "write the adapted model to this file"},
                    zeroOptionSpec(),
                    {"force", "", "replace MODEL2.json"},
                    {"json", "", "no effect: it always prints JSON"}},

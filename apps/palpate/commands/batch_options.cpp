@@ -20,10 +20,6 @@ namespace {
 
 constexpr std::size_t kMostReasons = 10;
 
-void sayBatch(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
-}
-
 // The line of progress on a terminal.
 class BatchLine {
  public:
@@ -58,12 +54,12 @@ int codeOf(const BatchPlan& plan, const BatchReport& report) {
 }  // namespace
 
 std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options) {
-  const std::vector<OptionSpec> batch = {
-      {"output,o",
-       "TEMPLATE",
-       "a file for each recording, as out/{name}.csv; also {folder}, {ending}, {date}, {time}; "
-       "docs/manual/many_recordings.md"},
-      {"force", "", "replace files that exist"}};
+  const std::vector<OptionSpec> batch = {{"output,o",
+                                          "TEMPLATE",
+                                          "write a file for each recording, as out/{name}.csv; "
+                                          "also {folder}, {ending}, {date}, {time}; "
+                                          "docs/manual/many_recordings.md"},
+                                         {"force", "", "replace files that exist"}};
   options.insert(options.end(), batch.begin(), batch.end());
   return withResumeOptions(std::move(options));
 }
@@ -125,7 +121,7 @@ int runBatchCommand(const CommandLine& given,
   if (paths.empty()) paths.assign(given.words().begin(), given.words().end());
   const BatchPlan plan = planBatch(
       paths, names, [&](double) { return !interruption.waitForSignal(0); }, command.sameResults);
-  for (const std::string& problem : plan.problems) sayBatch(problem);
+  for (const std::string& problem : plan.problems) sayLine(problem);
   BatchLine line(given.quiet());
   StandardOutput out;
   const BatchReport report = runBatch(
@@ -137,7 +133,7 @@ int runBatchCommand(const CommandLine& given,
         const bool bad = result.state == State::kFailed || result.state == State::kInPart;
         if (bad) {
           line.wipe();
-          sayBatch(result.text);
+          sayLine(result.text);
         } else if (!given.quiet()) {
           line.wipe();
           out.write(escapedLine(result.text) + "\n");
@@ -151,11 +147,11 @@ int runBatchCommand(const CommandLine& given,
   line.wipe();
   if (table) writeTable(reportTable(plan, report), *table, overwriteTable);
   if (report.cancelled)
-    sayBatch("interrupted: " + std::to_string(report.status.done + report.status.skipped) + " of " +
-             std::to_string(plan.items.size()) + " are done; continue with --resume");
+    sayLine("interrupted: " + std::to_string(report.status.done + report.status.skipped) + " of " +
+            std::to_string(plan.items.size()) + " are done; continue with --resume");
   if (!command.summary && report.status.failed > 1)
-    sayBatch(std::to_string(report.status.failed) + " of " + std::to_string(plan.items.size()) +
-             " recordings failed");
+    sayLine(std::to_string(report.status.failed) + " of " + std::to_string(plan.items.size()) +
+            " recordings failed");
   if (command.summary && !given.quiet() && plan.items.size() > 1) {
     out.write(summaryText(plan, report, kMostReasons));
     out.finish();

@@ -1,12 +1,10 @@
 // The command `palpate calibrate apply FILE --calibration C.json` converts a recording to pressures
 // [kPa] and forces [N], frame by frame.
-#include <cstdio>
 #include <memory>
 #include <vector>
 
 #include "palpate/calibration/pressure_rows.h"
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/progress.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
@@ -67,11 +65,10 @@ int calibrateApply(const Arguments& words) {
   const Recording recording = openReported(file, progress, given.quiet());
   const Profile& profile = recording.profile;
   CalibratedFrames frames(*choice, file, recording, profile);
-  // Without the pressures' forces the result is not whole: that is said with --quiet, too.
+  // Without the pressures' forces the result is incomplete: reported with --quiet as well.
   const bool noForces = !frames.areaKnown() && !outPath;
   for (const std::string& sentence : frames.assumptions())
-    if (!given.quiet() || (noForces && sentence == kUnknownAreaText))
-      std::fprintf(stderr, "palpate: %s\n", escapedLine(sentence).c_str());
+    if (!given.quiet() || (noForces && sentence == kUnknownAreaText)) sayLine(sentence);
   ProfileBuilder builder(profile.hand());
   std::size_t beyond = 0, touched = 0, at = 0;
   TactileFrame frame;
@@ -103,11 +100,8 @@ int calibrateApply(const Arguments& words) {
   }
   progress.wipe();
   if (beyond > 0 && !given.quiet())
-    std::fprintf(
-        stderr,
-        "palpate: %zu of %zu contacts are outside the measured range: don't rely on them\n",
-        beyond,
-        touched);
+    sayLine(std::to_string(beyond) + " of " + std::to_string(touched) +
+            " contacts are outside the measured range: don't rely on them");
   if (outPath) {
     recording.requireEvents();
     copyState(profile, builder);

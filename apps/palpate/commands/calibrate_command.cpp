@@ -46,6 +46,12 @@ void showKinds() {
 
 }  // namespace
 
+std::vector<std::string> calibrationKinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
+  return names;
+}
+
 int calibrateCommand(const Arguments& words) {
   if (!words.empty() && (words[0] == "--help" || words[0] == "-h")) {
     showKinds();

@@ -1,9 +1,10 @@
-// The subcommands of `palpate calibrate`: one function for each kind, which gets the words after
+// The subcommands of `palpate calibrate`: one function for each kind, which takes the words after
 // it; and the options that they share.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "palpate/calibration/step_fit.h"
 #include "palpate/core/json.h"
@@ -21,6 +22,8 @@ int calibratePressure(const Arguments& words);
 int calibrateSensitivity(const Arguments& words);
 int calibrateStep(const Arguments& words);
 int calibrateTare(const Arguments& words);
+
+std::vector<std::string> calibrationKinds();  // "noise", ..
 
 // The matrix that --matrix names; throws UsageError when it is missing or negative.
 std::size_t matrixGiven(const CommandLine& given);

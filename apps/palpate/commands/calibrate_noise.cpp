@@ -1,10 +1,8 @@
 // The command `palpate calibrate noise FILE [-o N.xml]` determines the noise floor of an unloaded
 // hand.
-#include <cstdio>
 #include <filesystem>
 
 #include "palpate/calibration/noise_floor.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/output_file.h"
 #include "palpate/recording/recording.h"
@@ -51,10 +49,8 @@ int calibrateNoise(const Arguments& words) {
   for (const std::string& key : found.keys()) json.set(key, found.at(key));
   printJson(given, json, xml);
   if (!floor.notAtRest.empty()) {
-    std::fprintf(
-        stderr,
-        "palpate: %s; these lines are no noise: record the hand while nothing touches it\n",
-        escapedLine(floor.notAtRest).c_str());
+    sayLine(floor.notAtRest +
+            "; these lines are not noise: record the hand while nothing touches it");
     return kPartlyDone;
   }
   for (const NoiseLine& line : floor.lines)

@@ -2,13 +2,11 @@
 // gain and temperature.
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <optional>
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/calibration/calibration_samples.h"
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/text_file.h"
 #include "palpate/core/time.h"
@@ -52,7 +50,7 @@ int calibratePressure(const Arguments& words) {
             boundChoice("choices", "NAME", "", model.study, kTerms),
             bound("area",
                   "MM2",
-                  "area of the indenter: forces are then those on this area",
+                  "area of the indenter, to compute the forces on it",
                   model.indenterAreaMm2,
                   model.kIndenterAreaMm2,
                   "not known"),
@@ -109,11 +107,7 @@ int calibratePressure(const Arguments& words) {
   for (const PressureSample& sample : all.samples) {
     if (sample.used) continue;
     ++unused;
-    std::fprintf(stderr,
-                 "palpate: %s\n",
-                 escapedLine(sample.file +
-                             " is left out: " + (sample.notes.empty() ? "" : sample.notes.back()))
-                     .c_str());
+    sayLine(sample.file + " is left out: " + (sample.notes.empty() ? "" : sample.notes.back()));
   }
   if (unused == all.samples.size())
     throw FileError(table,

@@ -51,7 +51,7 @@ int calibrateTare(const Arguments& words) {
            {bound("window", "S", "length of a window", options.windowS, options.kWindowS),
             bound("most",
                   "N",
-                  "a matrix that never reads less counts as always loaded",
+                  "count a matrix that never reads less as always loaded",
                   options.maxRestCounts,
                   options.kMaxRestCounts),
             {"apply", "", "note it in the recording"},
@@ -83,7 +83,7 @@ int calibrateTare(const Arguments& words) {
   if (given.has("apply")) {
     if (found == 0)
       throw FileError(file,
-                      "has no unloaded window, so there is no zero to note; give a larger --most, "
+                      "has no unloaded window, so no zero can be stored; give a larger --most, "
                       "or a recording in which nothing touches the hand");
     recording.requireEvents();
     const EventsReport events{recording.events, recording.damage.events};

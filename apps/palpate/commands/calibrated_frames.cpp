@@ -69,7 +69,7 @@ PressureMapOptions withNoted(PressureMapOptions options,
 }  // namespace
 
 std::vector<OptionSpec> calibrationOptions() {
-  return {{"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
+  return {{"calibration", "C.json", "calibration that `palpate calibrate pressure` wrote"},
           ranged("sensor-sensitivity",
                  "S",
                  "sensitivity of the recording",

@@ -86,10 +86,8 @@ int classifyCommand(const Arguments& words) {
     printTable(model, table, predictions, use);
     return codeFor(table);
   }
-  if (formOf(given) == TableForm::kCsv) {
-    writeTable(given, *answerTable(model, table, predictions));
-    return codeFor(table);
-  }
+  if (formOf(given) == TableForm::kCsv)
+    return std::max(writeTable(given, *answerTable(model, table, predictions)), codeFor(table));
   Json grasps = Json::array();
   for (std::size_t i = 0; i < predictions.size(); ++i)
     grasps.push(predictionJson(model, table.rows[i], predictions[i]));

@@ -1,8 +1,11 @@
-// `palpate help columns` prints every column of every result table, as the page
-// docs/manual/tables.md.
+// `palpate help columns` and `palpate help commands` print pages of the manual: every column of
+// every result table (docs/manual/tables.md), the help of every command (docs/manual/options.md).
+#include <algorithm>
+#include <iostream>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +26,7 @@
 #include "palpate/signals/spectrum_rows.h"
 #include "palpate/slip/slip_rows.h"
 
+#include "commands/calibrate_commands.h"
 #include "commands/command_line.h"
 #include "commands/window_commands.h"
 
@@ -82,9 +86,39 @@ std::vector<ShownTable> shownTables() {
   return tables;
 }
 
+void printHelpOf(const std::string& name, const Arguments& words) {
+  std::cout << "\n## " << name << "\n\n```\n" << std::flush;
+  const auto& all = allCommands();
+  const auto command = std::find_if(
+      all.begin(), all.end(), [&](const Command& each) { return each.name == words.front(); });
+  Arguments rest(words.begin() + 1, words.end());
+  rest.emplace_back("--help");
+  if (command->run)
+    command->run(rest);
+  else
+    runWindowCommand(command->name, rest);
+  std::cout << "```\n" << std::flush;
+}
+
+void printOptions() {
+  std::cout << "# Options\n\n"
+               "Every option of every command with its range and default, as `palpate help "
+               "commands` prints it.\n";
+  for (const Command& command : allCommands()) {
+    printHelpOf(command.name, {command.name});
+    if (std::string_view(command.name) == "calibrate")
+      for (const std::string& kind : calibrationKinds())
+        printHelpOf("calibrate " + kind, {"calibrate", kind});
+  }
+}
+
 }  // namespace
 
-int columnsCommand(const Arguments&) {
+int columnsCommand(const Arguments& words) {
+  if (words == Arguments{"commands"}) {
+    printOptions();
+    return kDone;
+  }
   StandardOutput out;
   out.write(
       "# Columns\n\n"

@@ -20,6 +20,10 @@
 namespace palpate::commands {
 namespace po = boost::program_options;
 
+void sayLine(std::string_view message) {
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
+}
+
 std::string detail::longName(const std::string& name) { return name.substr(0, name.find(',')); }
 
 namespace {
@@ -74,7 +78,7 @@ std::size_t hangingIndent(const std::string& line) {
 }
 
 // Lines of at most kHelpWidth columns; further ones are indented like the text of the first. A
-// number stays beside its unit.
+// number stays next to its unit.
 std::string wrapped(const std::string& line) {
   if (line.size() <= kHelpWidth) return line + "\n";
   const bool indented = line.front() == ' ';

@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -21,6 +22,9 @@
 #include <palpate/core/progress.h>
 
 namespace palpate::commands {
+
+// Prints one line on standard error.
+void sayLine(std::string_view message);
 
 // The command was used in a wrong way: exit code 2.
 class UsageError : public std::runtime_error {
@@ -67,7 +71,7 @@ OptionSpec boundChoice(const std::string& name,
                        const Words& words,
                        const std::optional<std::string>& usual = {});
 // Options whose value the command asks for by CommandLine::number() or integer() with the same
-// range, or by chosen() with the same words; CommandLine checks them, too.
+// range, or by chosen() with the same words; CommandLine also checks them.
 OptionSpec ranged(const std::string& name,
                   std::string value,
                   std::string help,

@@ -16,7 +16,6 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 
 #include "commands/command_line.h"
 #include "commands/recording_list.h"
@@ -43,7 +42,8 @@ void commandsShowHelp() {
          "                          [--theme dark|light] [FILE | --demo]\n"
          "  palpate COMMAND ...     work without a window\n"
          "  palpate help COMMAND    explain a command, as 'palpate COMMAND --help'\n"
-         "  palpate help columns    explain every column of every table\n\n"
+         "  palpate help columns    explain every column of every table\n"
+         "  palpate help commands   explain every option of every command\n\n"
          "Commands:\n\n";
   for (const auto& [heading, group] : kGroups) {
     std::cout << heading << ":\n";
@@ -105,7 +105,7 @@ int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthe
       // Only a calibration has kinds.
       if (!rest.empty() && words[1] != "calibrate")
         throw UsageError("help explains one command: '" + rest.front() + "' is too many");
-      if (words[1] == "columns") return others("help", {"columns"});
+      if (words[1] == "columns" || words[1] == "commands") return others("help", {words[1]});
       rest.emplace_back("--help");
       for (const Command& command : allCommands())
         if (words[1] == command.name) return runCommand(command, rest);
@@ -129,7 +129,7 @@ int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthe
 }
 
 int fail(int code, std::string_view message) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
+  sayLine(message);
   return code;
 }
 

@@ -2,7 +2,6 @@
 // frame, as CSV; with --average the average of a signal over grasps or recordings.
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -82,11 +81,9 @@ double offsetOfGrasps(const CommandLine& given, const TimedRecording& a, const T
   const double offsetS = *offsetBetween(timedA, timedB, Alignment::kGrasp);
   const auto both = graspsInCommon(timedA, ranges[0], timedB, ranges[1], offsetS);
   if (both && !given.quiet())
-    std::fprintf(stderr,
-                 "palpate: both grasps last from time_s %s to %s; the rows are of all frames that "
-                 "both recordings have\n",
-                 fixedText(both->fromS, kMicroseconds).c_str(),
-                 fixedText(both->toS, kMicroseconds).c_str());
+    sayLine("both grasps last from time_s " + fixedText(both->fromS, kMicroseconds) + " to " +
+            fixedText(both->toS, kMicroseconds) +
+            "; the rows are of all frames that both recordings have");
   return offsetS;
 }
 
@@ -233,7 +230,7 @@ int compareCommand(const Arguments& words) {
            "With --average, the grasps of all files are aligned where they begin. For every "
            "moment it prints the mean of a signal with mean -+ standard deviation (n - 1), or "
            "the median with percentiles, then the value of every grasp: "
-           "time_s,curves,mean,low,high,.. The column curves tells how many have a value.",
+           "time_s,curves,mean,low,high,.. The column curves is the number of grasps with a value.",
        .options = withOneTableOptions(
            {worded("align",
                    "HOW",
@@ -242,12 +239,12 @@ int compareCommand(const Arguments& words) {
                    "contact"),
             {"grasp",
              "I:J",
-             "instead: where grasp I of A and grasp J of B begin, numbers from 1; says on standard "
+             "align where grasp I of A and grasp J of B begin, numbers from 1; print on standard "
              "error where both last"},
-            ranged("offset", "S", "instead: when B begins, from A's first frame", kOffsetS),
+            ranged("offset", "S", "begin B at this time after A's first frame", kOffsetS),
             {"average",
              "SIGNAL",
-             "the average of a signal: m1_mean, hand_sum, m5_x2_y9, angle3, or a formula as for "
+             "average a signal: m1_mean, hand_sum, m5_x2_y9, angle3, or a formula as for "
              "derive"},
             boundChoice("of",
                         "WHAT",
@@ -262,18 +259,18 @@ int compareCommand(const Arguments& words) {
             {"percentiles", "LOW,HIGH", "default 10,90"},
             bound("margin",
                   "S",
-                  "before and after each grasp",
+                  "time to include before and after each grasp",
                   choices.marginS,
                   {0.0, kFurthestS, "s"}),
             bound("step",
                   "S",
-                  "of the time base",
+                  "interval of the time base",
                   choices.average.stepS,
                   AverageOptions::kStepS,
                   "the longest median interval"),
             bound("least",
                   "N",
-                  "values that a mean needs",
+                  "minimum number of values for a mean",
                   choices.average.least,
                   AverageOptions::kLeast)}),
        .example = "palpate compare run_1.dsa run_2.dsa > differences.csv",

@@ -34,7 +34,7 @@ std::string movedText(std::size_t stamps) {
          " time stamps moved behind the one before: whole milliseconds must grow";
 }
 
-// Names the files of further series that lie beside a .csv.
+// Names the files of further series next to a .csv.
 std::string besideText(const std::vector<fs::path>& files) {
   std::string text;
   for (const fs::path& file : files) text += (text.empty() ? "; series in " : ", ") + file.string();
@@ -77,9 +77,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
                     .c_str());
   const int code = reportOpened(in, profile, given.quiet());
   if (recording.damage.events == 0) return code;
-  std::fprintf(stderr,
-               "palpate: %s\n",
-               escapedLine(in + ": " + eventsLeftOutText(recording.damage.events)).c_str());
+  sayLine(in + ": " + eventsLeftOutText(recording.damage.events));
   return kPartlyDone;
 }
 
@@ -150,13 +148,13 @@ int convertCommand(const Arguments& words) {
       {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM\n"
                    "       palpate convert PATH... [--each-grasp] -o TEMPLATE",
        .purpose = "Converts a recording. The ending of OUT chooses the format: .dsa, .palpate, "
-                  ".csv (with OUT.angles.csv and such files of other series beside it), .npz (for "
+                  ".csv (with OUT.angles.csv and such files of other series next to it), .npz (for "
                   "NumPy), .h5, .mat, .mcap (docs/manual/files.md) or .jsonl (frames as "
                   "schunk_sdh/TactileSensor). Of a FOLDER it converts every recording below it, "
                   "into OUTFOLDER under the same names with the ending of FORM, and prints a line "
                   "per file. If one fails, the others are still converted: exit code 3.",
        .options = withBatchOptions(withExportOptions(withFilterOptions(withFrameOptions(
-           {{"each-grasp", "", "a file for each grasp, as -o out/{name}_{n}.palpate"},
+           {{"each-grasp", "", "write a file for each grasp, as -o out/{name}_{n}.palpate"},
             worded("to-form", "FORM", "of a folder", formWords()),
             timeOption(),
             topicOption()})))),

@@ -84,7 +84,9 @@ class DemoTour {
     hands_.clear();
     step("replay", "The ball's recording is played as a hand and compared.", &DemoTour::replay);
     step("export", "The same recording as a .dsa.", &DemoTour::exportBall);
-    step("slip", "Where the recorded pen slips, beside its true motion.", &DemoTour::findSlip);
+    step("slip",
+         "Where the recorded pen slips, compared with its true motion.",
+         &DemoTour::findSlip);
     step("recognition", "A model names the objects from the recordings.", &DemoTour::recognise);
     step("window", "The window is drawn without a display, on the ball.", &DemoTour::drawWindow);
     report_.set("held", grips_).set("version", PALPATE_VERSION).set("steps", steps_);

@@ -22,7 +22,7 @@ struct DemoTruthFrame {
   std::vector<MatrixTruth> matrices;
 };
 
-// A result beside the truth: one line of text, and its part of report.json.
+// A result compared with the truth: one line of text, and its part of report.json.
 struct DemoFinding {
   std::string text;
   Json json;

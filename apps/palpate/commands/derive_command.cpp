@@ -1,7 +1,6 @@
 // The command `palpate derive FILE NAME=FORMULA..` prints curves that formulas make of the signals
 // of a recording as CSV.
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -9,7 +8,6 @@
 
 #include "palpate/calibration/pressure_reader.h"
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/curve_rows.h"
 #include "palpate/signals/formula.h"
@@ -31,7 +29,7 @@ struct NamedFormula {
 
 // "rate=der(hand_sum)"; without NAME= the formula is its own name.
 NamedFormula namedFormula(const std::string& word) {
-  // The first = that is no comparison parts the name.
+  // The first = that is not part of a comparison ends the name.
   const auto equals = word.find('=');
   const bool named = equals != std::string::npos && equals > 0 &&
                      std::string("!<>").find(word[equals - 1]) == std::string::npos &&
@@ -44,7 +42,7 @@ NamedFormula namedFormula(const std::string& word) {
 }
 
 // Says what the forces assume; returns whether forces that a formula names aren't known, which is
-// said with --quiet, too.
+// reported with --quiet as well.
 bool sayAssumptions(const ComputedOptions& computed,
                     const std::vector<NamedFormula>& formulas,
                     bool quiet) {
@@ -56,8 +54,7 @@ bool sayAssumptions(const ComputedOptions& computed,
   const PressureReader reader(
       *computed.counts, *computed.calibration, computed.pressure, computed.tare);
   for (const std::string& sentence : reader.assumptions())
-    if (!quiet || (unknown && sentence == kUnknownAreaText))
-      std::fprintf(stderr, "palpate: %s\n", escapedLine(sentence).c_str());
+    if (!quiet || (unknown && sentence == kUnknownAreaText)) sayLine(sentence);
   return unknown;
 }
 
@@ -123,8 +120,8 @@ int deriveCommand(const Arguments& words) {
     }
   }
   line.wipe();
-  writeTable(given, *curveTable(std::move(curves), from, to));
-  return unknown ? kPartlyDone : kDone;
+  const int code = writeTable(given, *curveTable(std::move(curves), from, to));
+  return unknown ? kPartlyDone : code;
 }
 
 }  // namespace palpate::commands

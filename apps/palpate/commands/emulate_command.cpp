@@ -150,7 +150,7 @@ CommandSpec emulateSpec() {
             "NAME|FILE.json",
             "objects and events around the hand: " + joinedSceneNames() +
                 " (default empty), or a file; for a stream the default touches every matrix"},
-           {"replay", "FILE", "plays a recording: each frame once, then nothing"},
+           {"replay", "FILE", "play a recording: each frame once, then nothing"},
            {"faults",
             "SPEC",
             "faults to simulate, with commas and without blanks between them: crc=RATE drop=RATE "
@@ -238,9 +238,7 @@ void emulateStream(const CommandLine& given, Interruption& interruption) {
   {
     EmulatedStream stream(std::move(model), options, observer);
     if (stream.isOpenToOthers())
-      std::fprintf(stderr,
-                   "palpate: any machine that reaches this address can connect to %s\n",
-                   stream.name().c_str());
+      sayLine("any machine that reaches this address can connect to " + stream.name());
     printReady("stream=" + stream.name());
     waitForEnd(stream, interruption);
   }

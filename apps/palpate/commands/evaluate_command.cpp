@@ -137,11 +137,14 @@ PipelineOptions pipelineGiven(const CommandLine& given, FeatureSet set) {
 }
 
 // JSON, or the table to a file of -o that ends in .csv.
-void printResult(const CommandLine& given, const Json& json, ResultTable& table) {
+int printResult(const CommandLine& given,
+                const Json& json,
+                ResultTable& table,
+                const FeatureTable& features) {
   if (given.has("output") && formOf(given) == TableForm::kCsv)
-    writeTable(given, table);
-  else
-    printJson(given, json);
+    return std::max(writeTable(given, table), codeFor(features));
+  printJson(given, json);
+  return codeFor(features);
 }
 
 int crossValidation(const CommandLine& given, const CrossValidation& how) {
@@ -191,8 +194,7 @@ int crossValidation(const CommandLine& given, const CrossValidation& how) {
   if (given.has("learning-curve")) json.set("learning_curve", curveJson(curve));
   if (given.has("eliminate")) json.set("elimination", eliminationJson(samples, steps));
   if (given.has("unknown")) json.set("unknown", unknownJson(given, samples, options, table.set));
-  printResult(given, json, *classTable(report.confusion));
-  return codeFor(table);
+  return printResult(given, json, *classTable(report.confusion), table);
 }
 
 Json answersJson(const ModelEvaluation& evaluation,
@@ -252,8 +254,7 @@ int withModel(const CommandLine& given, EvaluationOptions options) {
   json.set("calibration_error", expectedCalibrationError(answers))
       .set("coverage_curve", coverageJson(coverageCurve(answers)))
       .set("verdicts", answersJson(evaluation, table, samples));
-  printResult(given, json, *verdictTable(evaluation, table, samples));
-  return codeFor(table);
+  return printResult(given, json, *verdictTable(evaluation, table, samples), table);
 }
 
 }  // namespace
@@ -272,13 +273,11 @@ int evaluateCommand(const Arguments& words) {
       bound("seed", "N", "seed of protocol S", how.seed, kSeedOption),
       {"confidence",
        "",
-       "calibrate probabilities, too: adds their calibration error and the coverage curve"},
-      {"weights", "", "adds how much the classifier depends on each feature"},
-      {"learning-curve",
-       "",
-       "adds the accuracy for different numbers of training grasps per class"},
-      {"eliminate", "", "adds recursive feature elimination"},
-      {"unknown", "", "adds how well unknown objects are detected: each class left out in turn"},
+       "also calibrate probabilities: add their calibration error and the coverage curve"},
+      {"weights", "", "add how much the classifier depends on each feature"},
+      {"learning-curve", "", "add the accuracy for different numbers of training grasps per class"},
+      {"eliminate", "", "add recursive feature elimination"},
+      {"unknown", "", "add how well unknown objects are detected: each class left out in turn"},
       {"later", "PATH2", "with --unknown: the same on these grasps of another session (gauss)"},
       {"model", "M.json", "test this model instead (protocol X)"},
       bound("adapt",
@@ -301,7 +300,7 @@ int evaluateCommand(const Arguments& words) {
            "with a folder of recordings per class.\n\nWithout --model it uses cross-validation: "
            "everything (scaling, discriminant analysis, classifier) is fitted to the training part "
            "of each split alone. The default classifier is svm with C = 100, for the set best it "
-           "is gauss, as in `train`; the default is no discriminant analysis. Both protocols stay "
+           "is gauss, as in `train`; by default without discriminant analysis. Both protocols stay "
            "within the recordings: they don't show the accuracy in another session.\n\nWith "
            "--model it tests the model on other recordings. The candidates are all classes of the "
            "model; the answer unknown counts as wrong. Grasps more than 8 hours apart are "

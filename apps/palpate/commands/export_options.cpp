@@ -8,8 +8,8 @@ OptionSpec unitsRowOption() { return {"units-row", "", "a second row with the un
 
 std::vector<OptionSpec> withExportOptions(std::vector<OptionSpec> options) {
   options.push_back(
-      {"no-signals", "", "of .h5, .mat and .mcap: without the characteristic signals"});
-  options.push_back({"no-slip", "", "of .h5, .mat and .mcap: without the slip"});
+      {"no-signals", "", "leave the characteristic signals out of .h5, .mat and .mcap"});
+  options.push_back({"no-slip", "", "leave the slip out of .h5, .mat and .mcap"});
   options.push_back(worded("compression", "KIND", "of .mcap", kMcapCompressionWords, "zstd"));
   options.push_back(
       worded("images", "KIND", "of .mcap: sensor_msgs/Image or RawImage", kMcapImagesWords, "ros"));

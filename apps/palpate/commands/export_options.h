@@ -1,5 +1,5 @@
-// What exports to other programs write beside the recording: options that leave series out, and the
-// row with the units.
+// What exports to other programs write in addition to the recording: options that leave series out,
+// and the row with the units.
 #pragma once
 
 #include <filesystem>

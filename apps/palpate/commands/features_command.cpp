@@ -1,9 +1,7 @@
 // The command `palpate features PATH...` prints the features of the grasps in recordings as CSV.
-#include <cstdio>
 #include <filesystem>
 
 #include "palpate/batch/batch_task.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
 #include "palpate/recognition/feature_table.h"
 #include "palpate/recording/result_file.h"
@@ -16,10 +14,6 @@
 
 namespace palpate::commands {
 namespace {
-
-void sayFeatures(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
-}
 
 FeatureTable gather(const CommandLine& given, const FeatureExtractionOptions& options) {
   Interruption interruption;
@@ -67,16 +61,16 @@ int featuresCommand(const Arguments& words) {
   FeatureTable table = gather(given, options);
 
   if (table.set == FeatureSet::kSession && !given.quiet())
-    sayFeatures(std::string(sessionSetWarning()));
-  for (const std::string& problem : table.problems) sayFeatures(problem);
+    sayLine(std::string(sessionSetWarning()));
+  for (const std::string& problem : table.problems) sayLine(problem);
   if (table.rows.empty()) {
-    sayFeatures("no grasp with features in " + std::to_string(table.numFiles) +
-                (table.numFiles == 1 ? " recording" : " recordings"));
+    sayLine("no grasp with features in " + std::to_string(table.numFiles) +
+            (table.numFiles == 1 ? " recording" : " recordings"));
     return kFailed;
   }
   const bool isWhole = table.problems.empty();
-  writeTable(given, *featureTable(std::move(table)));
-  return isWhole ? kDone : kPartlyDone;
+  const int code = writeTable(given, *featureTable(std::move(table)));
+  return isWhole ? code : kPartlyDone;
 }
 
 }  // namespace palpate::commands

@@ -46,7 +46,7 @@ int filterCommand(const Arguments& words) {
                    {"recipe",
                     "R.json",
                     "a recipe, as the Filter dock saves it, before every --filter"},
-                   {"save-recipe", "R.json", "write the filters as a recipe, too"},
+                   {"save-recipe", "R.json", "also write the filters as a recipe"},
                    {"list", "", "list all filters with options, ranges and sources"},
                    timeOption(),
                    {"force", "", "replace OUT and R.json"}},
@@ -96,9 +96,7 @@ int filterCommand(const Arguments& words) {
                 fullRecipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
   if (recording.damage.events == 0) return kDone;
-  std::fprintf(stderr,
-               "palpate: %s\n",
-               escapedLine(in + ": " + eventsLeftOutText(recording.damage.events)).c_str());
+  sayLine(in + ": " + eventsLeftOutText(recording.damage.events));
   return kPartlyDone;
 }
 

@@ -1,10 +1,8 @@
 #include "commands/filter_options.h"
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 #include "commands/commands.h"
@@ -77,9 +75,8 @@ void takeTimes(const CommandLine& given,
                const std::filesystem::path& file,
                const Progress& progress) {
   if (timeChoiceOf(given) == TimeChoice::kArrival) return;
-  const std::string said = takeFittedTimes(recording, file, progress);
-  if (given.quiet()) return;
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(file.string() + ": " + said).c_str());
+  const std::string text = takeFittedTimes(recording, file, progress);
+  if (!given.quiet()) sayLine(file.string() + ": " + text);
 }
 
 std::vector<OptionSpec> withFrameOptions(std::vector<OptionSpec> options) {

@@ -29,8 +29,8 @@ std::vector<std::pair<std::string, SignalKind>> signalWords();
 // --time, and what it chooses. Throws UsageError.
 OptionSpec timeOption();
 TimeChoice timeChoiceOf(const CommandLine& given);
-// Takes the times that --time chooses (takeFittedTimes()), and says on standard error what is known
-// of the clocks, unless quiet.
+// Takes the times that --time chooses (takeFittedTimes()), and reports on standard error what is
+// known of the clocks, unless quiet.
 void takeTimes(const CommandLine& given,
                Recording& recording,
                const std::filesystem::path& file,

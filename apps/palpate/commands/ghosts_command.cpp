@@ -120,7 +120,7 @@ Profile lookedAtOver(double belowCounts,
       }))
     throw FileError(file,
                     "--below needs the characteristics of the hand's taxels and the temperatures "
-                    "beside its matrices");
+                    "next to its matrices");
   const std::vector<MatrixCharacteristics>& matrices = hand.file->characteristics->matrices;
   ProfileBuilder builder(profile.hand());
   TactileFrame frame;
@@ -210,10 +210,11 @@ int ghostsCommand(const Arguments& words) {
            withFilterOptions(
                {{"deg",
                  "DEGC",
-                 "emulated: temperature of the hand, default 30 and 45; several times"},
+                 "temperature of the emulated hand, default 30 and 45; may be repeated"},
                 {"below",
                  "COUNTS",
-                 "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
+                 "set thresholds this far below the noise floor, emulated 0, 2, 3 and 5; may be "
+                 "repeated"},
                 bound("frames", "N", "emulated: frames", make.frames, make.kFrames),
                 bound("seed",
                       "N",
@@ -222,7 +223,7 @@ int ghostsCommand(const Arguments& words) {
                       {0, kFrameOption.maximum}),
                 bound("above",
                       "COUNTS",
-                      "a filtered value above it is active",
+                      "count filtered values above it as active",
                       options.activeAboveCounts,
                       options.kActiveAboveCounts)}),
            "full reports, per matrix and per contact, as one object"),

@@ -91,15 +91,16 @@ CommandSpec graspSpec(GraspChoices& choices) {
                  std::to_string(request.limitCounts)),
            {"object",
             "NAME",
-            "of 'reactive' and 'slip': the object; where grasps of it touched is remembered"},
+            "of 'reactive' and 'slip': name of the object; the program remembers where grasps "
+            "touch it"},
            bound("object-size",
                  "MM",
-                 "its width: the hand closes fast until it is this narrow",
+                 "width of the object: close fast to this width",
                  choices.objectMm,
                  {0.1, kLargestObjectMm, "mm"}),
            {"quick",
             "",
-            "closes at V deg/s all the way and stays where it stops: the limit isn't kept"},
+            "close at V deg/s all the way and stay where the hand stops; doesn't keep the limit"},
            {"finger-limits", "N0,N1,..", "instead of --limit: a limit for each finger, in counts"},
            {"force-limit",
             "F[,F1,..]",
@@ -109,7 +110,7 @@ CommandSpec graspSpec(GraspChoices& choices) {
            {"calibration", "FILE", "the calibration that measures --force-limit"},
            bound("most",
                  "N",
-                 "of 'slip': the limit rises up to N counts",
+                 "of 'slip': maximum of the rising limit",
                  choices.mostLimitCounts,
                  GraspRequest::kLimitCounts,
                  std::to_string(holding.maxLimitCounts)),
@@ -121,15 +122,13 @@ CommandSpec graspSpec(GraspChoices& choices) {
                  "until Ctrl-C"),
            bound("calm",
                  "S",
-                 "of 'slip': after this time without slip the limit falls again",
+                 "of 'slip': lower the limit again after this time without slip",
                  holding.noSlipS,
                  HoldingOptions::kNoSlipS),
-           bound("loosen",
-                 "of 'slip': the hand may open slowly to a limit that fell",
-                 holding.loosen),
+           bound("loosen", "of 'slip': let the hand open slowly to a lower limit", holding.loosen),
            bound("object-mass",
                  "KG",
-                 "of 'slip': opens slowly once, until it slips, and measures the friction",
+                 "of 'slip': open slowly once, until the object slips, and measure the friction",
                  choices.massKg,
                  HoldingOptions::kMassKg,
                  ""),
@@ -141,7 +140,7 @@ CommandSpec graspSpec(GraspChoices& choices) {
                  ""),
            {"sequence",
             "FILE",
-            "instead of a grasp: the steps of a table that the window saved (dock Hand)"},
+            "run the steps that the window saved (dock Hand), instead of a grasp"},
            bound("wait",
                  "S",
                  "give up when the hand doesn't answer",
@@ -182,7 +181,7 @@ void fingerLimitsOf(const CommandLine& given, GraspRequest& request) {
     for (const double limit : numbersOf(*limits, "finger-limits", numMovableFingers())) {
       if (limit != std::floor(limit) || limit < kMinGraspLimitCounts ||
           limit > kMaxGraspLimitCounts)
-        throw UsageError("--finger-limits: " + numberText(limit) + " is no count in " +
+        throw UsageError("--finger-limits: " + numberText(limit) + " is not a count in " +
                          std::to_string(kMinGraspLimitCounts) + ".." +
                          std::to_string(kMaxGraspLimitCounts));
       request.fingerLimitCounts.push_back(static_cast<int>(limit));
@@ -288,7 +287,7 @@ void showState(const StateLines& lines, std::string_view state, const std::strin
   lines.show(state, text.starts_with(begin) ? text.substr(begin.size()) : text);
 }
 
-// Shows the condition of the hand when it is another one, before the line that tells why: the last
+// Shows the condition of the hand when it changes, before the line with the reason: the last
 // line is how the grasp ended.
 void showHand(const StateLines& lines,
               const ExplainedCondition& now,
@@ -362,9 +361,7 @@ void remember(const GraspReport& report) {
     TouchMemory touches = loadTouches(touchesFile());
     if (touches.learn(report)) saveTouches(touches, touchesFile());
   } catch (const Error& error) {
-    std::fprintf(stderr,
-                 "palpate: where the object was touched is not remembered: %s\n",
-                 escapedLine(error.what()).c_str());
+    sayLine(std::string("where the object was touched is not remembered: ") + error.what());
   }
 }
 
@@ -449,8 +446,7 @@ int graspCommand(const Arguments& words) {
         " needs --dsa PORT: it stops by the readings of the taxels");
   std::optional<Calibration> calibration;
   if (const auto file = given.text("calibration")) calibration = loadCalibration(*file);
-  if (const std::string problem = stopProgramProblem(); !problem.empty())
-    std::fprintf(stderr, "palpate: %s\n", escapedLine(problem).c_str());
+  if (const std::string problem = stopProgramProblem(); !problem.empty()) sayLine(problem);
   const StateLines lines(given.quiet());
   Interruption interruption;
   CaptureSession session(std::make_unique<LiveHand>(std::move(ports)));
@@ -461,7 +457,7 @@ int graspCommand(const Arguments& words) {
   lines.show("connecting");
   session.start();
   awaitHand(control, request, choices.waitS, interruption);
-  // Nothing was asked for yet: what is said of the motion is that the hand moved when it was found.
+  // Nothing was requested yet: the motion reported is that of the hand when it was found.
   for (const Event& event : session.takeEvents())
     if (event.kind == "motion") showState(lines, "stopped", event.text);
   const bool feelsObject = !sequence && request.mode != GraspMode::kPlain;

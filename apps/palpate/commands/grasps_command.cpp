@@ -25,7 +25,7 @@ int graspsCommand(const Arguments& words) {
            "of its frames without a saturated taxel\n  1 - min(1, sd / mean) of the sum of all "
            "taxels over the middle half of its frames (1: held steadily)\n  1, 1/2 or 1/4 if both, "
            "one or none of its ends are inside the recording (not at its first or last frame, nor "
-           "beside a gap)",
+           "next to a gap)",
        .options = withTableOptions(withFilterOptions(
            {boundChoice("rule", "RULE", "", options.segments.rule, kGraspRuleWords),
             timeColumnOption()})),

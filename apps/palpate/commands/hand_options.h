@@ -22,7 +22,7 @@ std::vector<double> numbersOf(const std::string& text,
                               std::size_t count);
 
 // The option --hand NAME|FOLDER, and the hand that it names (nothing without the option). Throws
-// Error that lists the known hands, or says what is wrong in the hand's files.
+// Error that lists the known hands, or names what is wrong in the hand's files.
 OptionSpec handOption();
 std::optional<HandDescription> handOf(const CommandLine& given);
 

@@ -2,6 +2,8 @@
 // hand.
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
+#include "palpate/core/result_table.h"
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/kinematics/stl_mesh.h"
 #include "palpate/model/hand_file.h"
@@ -17,6 +20,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/hand_options.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -83,14 +87,67 @@ std::vector<std::string> checkHand(const HandDescription& hand) {
   return meshFaults(geometry.description());
 }
 
+// Those that can be read.
+std::unique_ptr<ResultTable> handTable(const std::vector<ListedHand>& hands) {
+  const auto text = [](const char* name, const char* meaning, auto of) {
+    return columnOf<ListedHand>(name, "", meaning, of);
+  };
+  std::vector<ColumnOf<ListedHand>> columns{
+      text("key", "name for --hand", &ListedHand::key),
+      text("name", "", [](const ListedHand& each) { return each.hand.name; }),
+      text("maker", "", [](const ListedHand& each) { return each.hand.maker; }),
+      text("unit", "of its taxels", [](const ListedHand& each) { return each.hand.unit; }),
+      text("matrices",
+           "rows and columns of each",
+           [](const ListedHand& each) { return sizesText(*each.hand.layout); }),
+      text("taxels", "", [](const ListedHand& each) { return each.hand.layout->numTaxels(); }),
+      text("axes", "", [](const ListedHand& each) { return each.hand.axes.size(); }),
+      text("temperature_sensors",
+           "",
+           [](const ListedHand& each) { return each.hand.temperatureSensors.size(); }),
+      text("geometry",
+           "whether the places of its taxels in space are known",
+           [](const ListedHand& each) { return hasGeometry(each.hand); }),
+      text("source", "built in, or its folder", &ListedHand::source)};
+  std::vector<ListedHand> rows;
+  std::copy_if(hands.begin(), hands.end(), std::back_inserter(rows), [](const auto& each) {
+    return each.fault.empty();
+  });
+  return std::make_unique<RowTable<ListedHand>>("hands", std::move(columns), std::move(rows));
+}
+
+// Exit code 3 where the others are listed.
+int showHands(const CommandLine& given, const std::vector<ListedHand>& hands) {
+  int code = kDone;
+  if (formOf(given) == TableForm::kJson) {
+    printJson(given, Json::object().set("hands", jsonList(hands, handJson)));
+  } else if (given.has("output")) {
+    code = writeTable(given, *handTable(hands));
+  } else {
+    for (const ListedHand& each : hands)
+      if (each.fault.empty())
+        std::printf("%-18s %-46s %s (%s)\n",
+                    escapedLine(each.key).c_str(),
+                    escapedLine(each.hand.name).c_str(),
+                    sizesText(*each.hand.layout).c_str(),
+                    escapedLine(each.source).c_str());
+  }
+  for (const ListedHand& each : hands) {
+    if (each.fault.empty()) continue;
+    sayLine(each.fault);
+    code = kPartlyDone;
+  }
+  return code;
+}
+
 int checkFolders(const std::vector<std::string>& folders) {
-  int failed = 0;
+  std::size_t failed = 0;
   bool inPart = false;
   for (const std::string& folder : folders) {
     try {
       const HandDescription hand = readHandFolder(folder);
       for (const std::string& fault : checkHand(hand)) {
-        std::fprintf(stderr, "palpate: %s\n", escapedLine(folder + ": " + fault).c_str());
+        sayLine(folder + ": " + fault);
         inPart = true;
       }
       const std::string readings = readingsText(*hand.layout);
@@ -103,24 +160,26 @@ int checkFolders(const std::vector<std::string>& folders) {
                   hand.axes.size(),
                   hasGeometry(hand) ? "with geometry" : "without geometry");
     } catch (const std::exception& error) {
-      std::fprintf(stderr, "palpate: %s\n", escapedLine(error.what()).c_str());
+      sayLine(error.what());
       ++failed;
     }
   }
-  return failed > 0 ? kFailed : inPart ? kPartlyDone : kDone;
+  if (failed == folders.size()) return kFailed;
+  return inPart || failed > 0 ? kPartlyDone : kDone;
 }
 
 }  // namespace
 
 int handsCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate hands [--json]\npalpate hands check FOLDER..",
+      {.synopsis = "palpate hands [--json] [-o OUT.csv]\n       palpate hands check FOLDER..",
        .purpose =
            "Lists the known hands: the built-in ones, and those in "
            "~/.local/share/palpate/hands. With check: reads the hand.json, URDF and meshes "
            "of each FOLDER, and prints what does not fit together. A mesh that can't be read "
            "is replaced by a box: exit code 3.",
-       .options = {{"json", "", "one object of JSON, with a list of the hands"}},
+       .options = withOutputOptions(
+           {{"json", "", "one object of JSON instead of lines; -o: by the ending"}}, "OUT.csv"),
        .example = "palpate hands check my_hand",
        .minArguments = 0},
       words);
@@ -129,26 +188,11 @@ int handsCommand(const Arguments& words) {
     if (given.words().front() != "check")
       throw UsageError("hands takes no argument but: check FOLDER..");
     if (given.words().size() < 2) throw UsageError("hands check needs the folder of a hand");
-    if (given.has("json")) throw UsageError("--json can't be used with check");
+    if (given.options().size() > std::size_t{given.quiet()})
+      throw UsageError("hands check prints no list: leave out its options");
     return checkFolders({given.words().begin() + 1, given.words().end()});
   }
-  const std::vector<ListedHand> hands = listHands();
-  if (given.has("json"))
-    std::printf("%s\n", Json::object().set("hands", jsonList(hands, handJson)).text(-1).c_str());
-  bool failed = false;
-  for (const ListedHand& listed : hands) {
-    if (!given.has("json") && listed.fault.empty()) {
-      std::printf("%-18s %-46s %s (%s)\n",
-                  escapedLine(listed.key).c_str(),
-                  escapedLine(listed.hand.name).c_str(),
-                  sizesText(*listed.hand.layout).c_str(),
-                  escapedLine(listed.source).c_str());
-    }
-    if (listed.fault.empty()) continue;
-    std::fprintf(stderr, "palpate: %s\n", escapedLine(listed.fault).c_str());
-    failed = true;
-  }
-  return failed ? kFailed : kDone;
+  return showHands(given, listHands());
 }
 
 }  // namespace palpate::commands

@@ -99,7 +99,7 @@ ImportMapping importMappingOf(const CommandLine& given) {
   return mapping;
 }
 
-// NAME and what stands behind it of "NAME=..".
+// NAME and the rest of "NAME=..".
 std::pair<std::string, std::string> namedValue(const char* option, const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
@@ -259,15 +259,15 @@ int importCommand(const Arguments& words) {
                   "a folder with a file per frame or per matrix. A row is a frame. Columns "
                   "are found by names and shapes, or chosen: NAME, A..B, #3..#86 (by position, "
                   "from 1), left*, m{m}[{y}][{x}] (matrix, row, column), table[0]..table[5]. Other "
-                  "columns of numbers become series beside the frames. Rows "
+                  "columns of numbers become series in addition to the frames. Rows "
                   "that can't be used are left out and counted, and so are values outside of the "
                   "hand's range: exit code 3.",
        .options =
            {handOption(),
             {"output,o", "OUT.palpate", "default: DATA with the ending .palpate"},
             {"map", "M.json", "the mapping of an earlier import; other options override it"},
-            {"save-map", "M.json", "saves the mapping"},
-            {"preview", "", "shows columns, first rows and the mapping; writes nothing"},
+            {"save-map", "M.json", "save the mapping"},
+            {"preview", "", "show columns, first rows and the mapping; write nothing"},
             {"json", "", "the report as JSON"},
             {"matrix",
              "[M=]COLUMNS",
@@ -298,14 +298,15 @@ int importCommand(const Arguments& words) {
              "date of the first row (2026-11-22T10:31:05Z); the day of times of day"},
             {"series",
              "NAME=FILE",
-             "another table becomes the series NAME, with the times of its rows; may be repeated"},
+             "import another table as the series NAME, with the times of its rows; may be "
+             "repeated"},
             {"series-rate",
              "NAME=HZ",
              "rows of that table at equal intervals, where it has no times"},
             worded("delimiter", "NAME", "", delimiterWords(), "detect"),
             worded("decimal", "NAME", "", kDecimalWords, "point"),
             worded("header", "WORD", "a line of names", kHeaderWords, "detect"),
-            {"strict", "", "the first row that can't be used, or has a NaN, is an error"},
+            {"strict", "", "fail at the first row that can't be used or has a NaN"},
             {"force", "", "replace OUT, and the file of --save-map"}},
        .example = "palpate import pad.csv --hand flat_pad_16x16 -o pad.palpate",
        .minArguments = 1,
@@ -353,8 +354,7 @@ int importCommand(const Arguments& words) {
       std::printf("note: %s\n", escapedLine(note).c_str());
   }
   if (!report.isPartial()) return kDone;
-  std::fprintf(
-      stderr, "palpate: %s\n", escapedLine(data.string() + ": " + report.lossText()).c_str());
+  sayLine(data.string() + ": " + report.lossText());
   return kPartlyDone;
 }
 

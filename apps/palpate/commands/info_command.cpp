@@ -1,4 +1,4 @@
-// The command `palpate info PATH... [--json]` describes the content of one or several recordings.
+// The command `palpate info PATH...` describes the content of one or several recordings.
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -21,6 +21,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/recording_list.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -139,7 +140,7 @@ std::vector<std::string> lossTexts(const std::vector<Event>& events) {
   return texts;
 }
 
-// The series beside those of the hand.
+// The series in addition to those of the hand.
 Json furtherSeriesJson(const Profile& profile) {
   Json all = Json::array();
   for (std::size_t i = kHandSeries; i < profile.series().size(); ++i) {
@@ -352,52 +353,40 @@ std::string tableRow(const std::filesystem::path& file,
                   joinedTexts(lossTexts(recording.events))});
 }
 
-int infoOfOne(const RecordingList& recordings,
-              bool quiet,
-              bool json,
-              const std::vector<std::string>& topics) {
-  return writeReadableTexts(
-      recordings,
-      quiet,
-      {},
-      [&](const std::filesystem::path& file,
-          const Recording& recording,
-          const TextSink& write,
-          const Progress& progress) {
-        const TimingReport timing = timingOf(recording.profile);
-        const ValueReport values = valuesOf(recording.profile, progress);
-        write(json ? infoJsonOf(Json::object(), recording, timing, values).text() + "\n"
-                   : plainText(file.string(), recording, timing, values));
-      },
-      topics);
-}
-
-// Prints a table with one row, or one object with one item, for each recording while they are read.
-int infoOfSeveral(const RecordingList& recordings,
-                  bool quiet,
-                  bool json,
-                  const std::vector<std::string>& topics) {
-  StandardOutput out;
-  if (!recordings.files.empty()) out.write(json ? "{\"recordings\": [" : kTableHeader);
-  out.finish();
+// Of one recording a report, of several (or into a .csv) a table with a row each, or JSON.
+int writeInfo(const CommandLine& given, const RecordingList& recordings) {
+  const bool json = formOf(given) == TableForm::kJson;
+  const bool table = !json && (recordings.several || given.has("output"));
+  const bool list = json && recordings.several;
+  const bool any = !recordings.files.empty();
+  ResultOutput out(given);
+  if (any && table) out.write(kTableHeader);
+  if (any && list) out.write("{\"recordings\": [");
+  out.flush();
   const int code = writeReadableTexts(
       recordings,
-      quiet,
-      json ? TextFrame{.begin = "\n", .between = ",\n"} : TextFrame{},
+      given.quiet(),
+      list ? TextFrame{.begin = "\n", .between = ",\n"} : TextFrame{},
+      out,
       [&](const std::filesystem::path& file,
           const Recording& recording,
           const TextSink& write,
           const Progress& progress) {
         const TimingReport timing = timingOf(recording.profile);
         const ValueReport values = valuesOf(recording.profile, progress);
-        write(json
-                  ? infoJsonOf(Json::object().set("file", file.string()), recording, timing, values)
-                        .text(-1)
-                  : tableRow(file, recording, timing, values));
+        Json first = Json::object();
+        if (list) first.set("file", file.string());
+        write(table  ? tableRow(file, recording, timing, values)
+              : list ? infoJsonOf(first, recording, timing, values).text(-1)
+              : json ? infoJsonOf(first, recording, timing, values).text() + "\n"
+                     : plainText(file.string(), recording, timing, values));
       },
-      topics);
-  if (json && !recordings.files.empty()) out.write("\n]}\n");
-  out.finish();
+      given.texts("topic"));
+  if (any && list) out.write("\n]}\n");
+  if (code == kFailed)
+    out.flush();
+  else
+    out.finish();
   return code;
 }
 
@@ -405,26 +394,29 @@ int infoOfSeveral(const RecordingList& recordings,
 
 int infoCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate info PATH... [--json] [--topic TOPIC]..",
+      {.synopsis = "palpate info PATH... [--json] [-o OUT.csv] [--topic TOPIC]..",
        .purpose =
            "Shows what a recording contains: frames, rates, gaps, matrices, angles, temperatures, "
            "largest value, what was entered before recording (operator, object, run, notes), "
            "labels and events (of a .dsa those of its notes). The rate comes from the median "
-           "interval; a gap is longer than max(1 s, 5 median intervals), and only of frames; what "
-           "the events tell of lost frames, angles and temperatures stands beside it. Of several "
+           "interval; a gap is longer than max(1 s, 5 median intervals), and only of frames; the "
+           "losses of frames, angles and temperatures that the events report are listed "
+           "separately. For several "
            "PATHs or a folder (every recording below it) it prints a table as CSV, a row each; a "
            "file that can't be read is reported, and the others are printed: exit code 3. Of a "
            "damaged "
-           "recording it shows what can be read and what is missing: exit code 3, too.",
-       .options = {{"json", "", "one JSON object; of several: with a list, recordings"},
-                   topicOption()},
+           "recording it shows what can be read and what is missing: also exit code 3.",
+       .options = withOutputOptions(
+           {{"json",
+             "",
+             "one object of JSON, for several with the list recordings; -o: by the ending"},
+            topicOption()},
+           "OUT.csv"),
        .example = "palpate info foam_ball.dsa --json",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  const RecordingList recordings = recordingsIn(given.words());
-  return (recordings.several ? infoOfSeveral : infoOfOne)(
-      recordings, given.quiet(), given.has("json"), given.texts("topic"));
+  return writeInfo(given, recordingsIn(given.words()));
 }
 
 }  // namespace palpate::commands

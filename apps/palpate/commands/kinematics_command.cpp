@@ -56,7 +56,7 @@ int kinematicsCommand(const Arguments& words) {
        .options =
            withOneTableOptions({anglesOption(),
                                 handOption(),
-                                rangedWhole("matrix", "M", "this matrix only", kMatrixOption),
+                                rangedWhole("matrix", "M", "only this matrix", kMatrixOption),
                                 {"point", "M,X_MM,Y_MM", "one point"},
                                 fingertipOption()}),
        .example = "palpate kinematics --angles 60,-20,40,-20,40,-20,40 --matrix 1",

@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_file.h"
 #include "palpate/recording/event_store.h"
@@ -17,10 +16,6 @@
 
 namespace palpate::commands {
 namespace {
-
-void sayLabels(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
-}
 
 int importLabels(const CommandLine& given, const std::string& file, const std::string& from) {
   const std::string csv = readTextFile(from, kMaxLabelTableBytes);
@@ -50,8 +45,8 @@ int importLabels(const CommandLine& given, const std::string& file, const std::s
                       ? "; " + counted(table.numOthers, "row") + " of other recordings not taken"
                       : ""))
                     .c_str());
-  for (const std::string& problem : table.problems) sayLabels(from + ": " + problem);
-  if (table.more) sayLabels(from + ": has more wrong rows; the rest was not read");
+  for (const std::string& problem : table.problems) sayLine(from + ": " + problem);
+  if (table.more) sayLine(from + ": has more wrong rows; the rest was not read");
   if (table.problems.empty()) return kDone;
   return table.events.empty() ? kFailed : kPartlyDone;
 }
@@ -67,7 +62,7 @@ int labelsCommand(const Arguments& words) {
            "text, matrix. PATH is a recording, or a folder: every recording below it. With several "
            "recordings a last column names the file.\n\nWith --import the labels of such a table "
            "are added to FILE, which keeps its own; a label that FILE already has isn't added "
-           "again. Columns may stand in any order. begin_s and text are required; a row without "
+           "again. Columns may be in any order. begin_s and text are required; a row without "
            "end_s is a moment, a row without kind is a label. Where a column names the file, only "
            "the rows of FILE are added. Wrong rows are left out and named by "
            "their line number; then the exit code is 3, or 1 if all rows are wrong.",

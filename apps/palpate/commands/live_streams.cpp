@@ -1,7 +1,6 @@
 #include "commands/live_streams.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "palpate/calibration/calibration.h"
@@ -73,9 +72,10 @@ void addFoxglove(const CommandLine& given, StreamTargets& targets) {
 }  // namespace
 
 std::vector<OptionSpec> foxgloveOptions() {
-  return {{"listen", "ADDRESS", "of the WebSocket, default 127.0.0.1: only this machine"},
-          {"origin", "URL", "a web page that may connect beside https://app.foxglove.dev"},
-          worded("image", "FORM", "of the WebSocket's heat maps", kFoxgloveImageWords, "values")};
+  return {
+      {"listen", "ADDRESS", "address of the WebSocket, default 127.0.0.1: only this machine"},
+      {"origin", "URL", "allow this web page to connect, in addition to https://app.foxglove.dev"},
+      worded("image", "FORM", "of the WebSocket's heat maps", kFoxgloveImageWords, "values")};
 }
 
 StreamTargets streamTargetsOf(const CommandLine& given, const std::string& option) {
@@ -109,9 +109,7 @@ void warnAboutTargets(const StreamTargets& targets) {
   if (!targets.foxglove) return;
   const NetworkPlace place{targets.foxglove->server.address, targets.foxglove->server.port};
   if (place.isOpenToOthers())
-    std::fprintf(stderr,
-                 "palpate: %s: any machine that reaches this address can read the hand\n",
-                 escapedLine(place.text()).c_str());
+    sayLine(place.text() + ": any machine that reaches this address can read the hand");
 }
 
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given) {
@@ -145,9 +143,7 @@ LiveStreams::LiveStreams(CaptureSession& session,
   for (const StreamTarget& target : targets_.datagrams) stream_.switchOn(target.kind, target.port);
   if (targets_.foxglove) {
     FoxgloveOptions options = *targets_.foxglove;
-    options.server.onRefusedOrigin = [](const std::string& why) {
-      std::fprintf(stderr, "palpate: foxglove: %s\n", escapedLine(why).c_str());
-    };
+    options.server.onRefusedOrigin = [](const std::string& why) { sayLine("foxglove: " + why); };
     stream_.switchOn(std::move(options));
   }
   chain_.connect(session);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -10,11 +11,13 @@
 
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
+#include "palpate/core/result_table.h"
 #include "palpate/device/port_list.h"
 #include "palpate/device/port_probe.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 namespace {
@@ -126,47 +129,61 @@ std::string adviceText(const std::vector<Row>& rows) {
          (motion ? " --sdh " + escapedLine(*motion) : "") + "\n";
 }
 
-std::string portsJsonText(const std::vector<Row>& rows) {
-  Json list = Json::array();
-  for (const Row& row : rows) {
-    const PortInfo& info = row.info;
-    Json port = Json::object();
-    port.set("port", info.name)
-        .set("by_id", info.stableName == info.name ? Json() : Json(info.stableName))
-        .set("description", info.description)
-        .set("usb", info.usb)
-        .set("answer", row.probe ? row.probe->answerName() : "not_asked")
-        .set("firmware", row.probe ? row.probe->firmware : "")
-        .set("serial", row.probe ? row.probe->serial : "")
-        .set("message", row.probe ? row.probe->message : "");
-    list.push(port);
-  }
-  return Json::object().set("ports", list).text() + "\n";
+std::unique_ptr<ResultTable> portTable(std::vector<Row> rows) {
+  const auto column = [](const char* name, const char* meaning, auto of) {
+    return columnOf<Row>(name, "", meaning, of);
+  };
+  const auto ofProbe = [](std::string PortProbe::*field) {
+    return [field](const Row& row) { return row.probe ? (*row.probe).*field : std::string(); };
+  };
+  std::vector<ColumnOf<Row>> columns{
+      column("port", "", [](const Row& row) { return row.info.name; }),
+      column("by_id",
+             "name under /dev/serial/by-id",
+             [](const Row& row) {
+               return row.info.stableName == row.info.name ? std::optional<std::string>()
+                                                           : row.info.stableName;
+             }),
+      column("description", "", [](const Row& row) { return row.info.description; }),
+      column("usb", "", [](const Row& row) { return row.info.usb; }),
+      column("answer",
+             "what is there",
+             [](const Row& row) {
+               return std::string(row.probe ? row.probe->answerName() : "not_asked");
+             }),
+      column("firmware", "", ofProbe(&PortProbe::firmware)),
+      column("serial", "", ofProbe(&PortProbe::serial)),
+      column("message", "the answer in words", ofProbe(&PortProbe::message))};
+  return std::make_unique<RowTable<Row>>("ports", std::move(columns), std::move(rows));
 }
 
 }  // namespace
 
 int portsCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate ports [PORT...] [--json] [--no-probe]",
+      {.synopsis = "palpate ports [PORT...] [--json] [-o OUT.csv] [--no-probe]",
        .purpose =
            "Lists the serial ports and the device at each: the hand's motion controller, its "
            "tactile controller, or neither. With PORTs (also ptys and tcp:HOST:PORT) only these "
            "are asked. A port that another program uses is not opened. Every other port is sent a "
            "few bytes: give --no-probe if devices are attached that these bytes could disturb.",
-       .options = {{"json", "", "one JSON object"}, {"no-probe", "", "list only, send nothing"}},
+       .options = withOutputOptions(
+           {{"json", "", "one object of JSON instead of lines; -o: by the ending"},
+            {"no-probe", "", "list only, send nothing"}},
+           "OUT.csv"),
        .example = "palpate ports"},
       words);
   if (given.helpShown()) return kDone;
   std::vector<Row> rows = rowsOf(given.words());
   if (!given.has("no-probe")) probe(rows);
-  StandardOutput out;
-  if (given.has("json")) {
-    out.write(portsJsonText(rows));
-  } else {
-    out.write(tableText(rows));
-    if (!given.quiet()) out.write(adviceText(rows));
+  if (formOf(given) == TableForm::kJson) {
+    printJson(given, Json::object().set("ports", rowsJson(*portTable(std::move(rows)))));
+    return kDone;
   }
+  if (given.has("output")) return writeTable(given, *portTable(std::move(rows)));
+  StandardOutput out;
+  out.write(tableText(rows));
+  if (!given.quiet()) out.write(adviceText(rows));
   out.finish();
   return kDone;
 }

@@ -1,12 +1,10 @@
 #include "commands/recognition_work.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
@@ -15,10 +13,6 @@
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
-
-void sayLine(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
-}
 
 void runInterruptibly(const CommandLine& given,
                       const std::string& label,
@@ -52,7 +46,7 @@ FeatureTable extractFeatureTable(const CommandLine& given,
 OptionSpec zeroOptionSpec() {
   return {"empty-hand-zero",
           "FILE",
-          "recording of the empty hand that closes until its pads touch, of the same day"};
+          "recording of the same day in which the empty hand closes until its pads touch"};
 }
 
 std::optional<EmptyHandZero> zeroGiven(const CommandLine& given) {
@@ -103,7 +97,7 @@ std::vector<OptionSpec> pipelineOptionSpecs() {
   return {worded("classifier", "NAME", "", kClassifierWords),
           rangedWhole("lda",
                       "N",
-                      "components of a discriminant analysis before it (not for gauss)",
+                      "components of a discriminant analysis before the classifier (not for gauss)",
                       PipelineOptions::kComponents),
           ranged("c", "C", "cost of the svm", SvmOptions::kC, numberText(SvmOptions{}.c)),
           {"shrinkage",

@@ -24,9 +24,6 @@
 
 namespace palpate::commands {
 
-// Prints one line on standard error.
-void sayLine(const std::string& message);
-
 // Runs `work` with a progress line; Ctrl-C cancels it (throws Cancelled).
 void runInterruptibly(const CommandLine& given,
                       const std::string& label,

@@ -112,8 +112,8 @@ RecordingOptions recordingOptions(const CommandLine& given, const RecordChoices&
   return options;
 }
 
-// Waits for frames of so many seconds and takes them as the sensor at rest. Throws Error when it
-// is interrupted, when no frame arrives in time, and when the hand has no readings.
+// Waits for frames of this number of seconds and takes them as the sensor at rest. Throws Error
+// when it is interrupted, when no frame arrives in time, and when the hand has no readings.
 void takeBaseline(CaptureSession& session,
                   Interruption& interruption,
                   double seconds,
@@ -255,7 +255,7 @@ CommandSpec recordSpec(RecordChoices& choices) {
           "its end, or a stream or a series lost some.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
-                  {"output,o", "OUT.palpate", "where to record"},
+                  {"output,o", "OUT.palpate", "record to this file"},
                   bound("duration",
                         "S",
                         "stop at this time after the first frame",
@@ -268,23 +268,23 @@ CommandSpec recordSpec(RecordChoices& choices) {
                         StartLimits::kFirstFrameS),
                   {"operator", "NAME", "who records"},
                   {"object", "NAME", "what is grasped"},
-                  {"run", "TEXT", "which run"},
+                  {"run", "TEXT", "number or name of the run"},
                   {"notes", "TEXT", "any other notes"},
                   bound("baseline",
                         "S",
-                        "takes the readings of the first S seconds for those at rest, before the "
+                        "take the readings of the first S seconds as those at rest, before the "
                         "recording begins",
                         choices.capture.baselineS,
                         CaptureOptions::kBaselineS,
                         ""),
                   bound("split-minutes",
                         "M",
-                        "a new file after this time: NAME_002.palpate, ..",
+                        "begin a new file after this time: NAME_002.palpate, ..",
                         choices.limits.splitMinutes,
                         Limits::kSplitMinutes),
                   bound("split-mb",
                         "N",
-                        "a new file at about this size",
+                        "begin a new file at about this size",
                         choices.limits.splitMb,
                         Limits::kSplitMb),
                   bound("start-on-contact",
@@ -298,16 +298,16 @@ CommandSpec recordSpec(RecordChoices& choices) {
                         RecordingOptions::kStopWithoutContactS),
                   bound("contact-threshold",
                         "N",
-                        "contact: a taxel above N counts",
+                        "treat a taxel above N counts as contact",
                         recording.contact.threshold,
                         ContactTriggerOptions::kThreshold),
-                  {"mcap", "", "write OUT.mcap beside it, too: for Foxglove and ROS 2"},
+                  {"mcap", "", "also write OUT.mcap: for Foxglove and ROS 2"},
                   remoteOption(),
                   socketOption(),
                   {"to",
                    "STREAM",
                    "signals, tactile or foxglove, live to other programs: 'stream --help'"},
-                  {"calibration", "C.json", "with --to signals: also pressures and forces"},
+                  {"calibration", "C.json", "with --to signals: also send pressures and forces"},
                   {"json", "", "report as JSON"}},
       .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
       .maxArguments = 0};
@@ -367,14 +367,12 @@ int recordCommand(const Arguments& words) {
                                              : lineText(report, device);
   if (given.has("json") || !given.quiet()) std::printf("%s\n", text.c_str());
   if (!report.mcapFailure.empty())
-    std::fprintf(stderr,
-                 "palpate: the MCAP file stopped before the end: %s\n",
-                 escapedLine(report.mcapFailure).c_str());
+    sayLine("the MCAP file stopped before the end: " + report.mcapFailure);
   const std::string leftOut = leftOutText(report, streamOf(session));
-  if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
+  if (!leftOut.empty()) sayLine(leftOut);
   const std::string seriesLeftOut = seriesLeftOutText(report, session);
-  if (!seriesLeftOut.empty()) std::fprintf(stderr, "palpate: %s\n", seriesLeftOut.c_str());
-  if (!report.complete) std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
+  if (!seriesLeftOut.empty()) sayLine(seriesLeftOut);
+  if (!report.complete) sayLine(report.message);
   return report.complete && report.mcapFailure.empty() && leftOut.empty() && seriesLeftOut.empty()
              ? kDone
              : kPartlyDone;

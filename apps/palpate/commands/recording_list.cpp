@@ -28,10 +28,6 @@ namespace {
 
 std::atomic<bool> lossReported = false;
 
-void sayRecordingList(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
-}
-
 std::string countText(std::size_t part, std::size_t whole) {
   return std::to_string(part) + " of " + std::to_string(whole);
 }
@@ -55,7 +51,7 @@ class ListRun {
   }
 
   int through(const FileWork& work) {
-    for (const std::string& problem : list_.problems) sayRecordingList(problem);
+    for (const std::string& problem : list_.problems) sayLine(problem);
     for (index_ = 0; index_ < list_.files.size(); ++index_) {
       if (interrupted()) return endInterrupted();
       const fs::path& file = list_.files[index_];
@@ -71,7 +67,7 @@ class ListRun {
         std::fflush(stdout);  // each line at once, also into a pipe
       }
       if (outcome->problem.empty()) continue;
-      sayRecordingList(outcome->problem);
+      sayLine(outcome->problem);
       ++inPart_;
     }
     return end();
@@ -81,7 +77,7 @@ class ListRun {
   void note(const std::string& message) {
     if (quiet_) return;
     line_.wipe();
-    sayRecordingList(message);
+    sayLine(message);
   }
   // Stops showing progress when rows go to a terminal: they would appear behind the percentage, and
   // they show the progress themselves.
@@ -125,13 +121,13 @@ class ListRun {
 
   void fail(const std::string& message) {
     line_.wipe();
-    sayRecordingList(message);
+    sayLine(message);
     ++failed_;
   }
 
   int end() const {
     const std::size_t all = list_.files.size();
-    if (failed_ > 1) sayRecordingList(countText(failed_, all) + " recordings failed");
+    if (failed_ > 1) sayLine(countText(failed_, all) + " recordings failed");
     if (failed_ == all) return kFailed;
     return failed_ + inPart_ + list_.problems.size() > 0 ? kPartlyDone : kDone;
   }
@@ -139,8 +135,7 @@ class ListRun {
   int endInterrupted() {
     line_.wipe();
     const std::size_t done = index_ - failed_;
-    sayRecordingList("interrupted: " + countText(done, list_.files.size()) +
-                     " recordings are done");
+    sayLine("interrupted: " + countText(done, list_.files.size()) + " recordings are done");
     return done > 0 ? kPartlyDone : kFailed;
   }
 
@@ -159,7 +154,7 @@ class ListRun {
 // Of a small recording more text than this isn't kept until its turn comes.
 constexpr std::size_t kMostTextAhead = 4u << 20;
 constexpr std::size_t kPieceOfRows = 1u << 16;  // bytes
-// Why a recording can't stand in a table whose columns and units are those of an earlier one.
+// Why a recording can't be in a table whose columns and units are those of an earlier one.
 constexpr const char* kOtherColumns =
     "its columns or units differ from those of the recordings before; write it to another table";
 class TooMuchText {};
@@ -207,15 +202,15 @@ std::string joined(std::string text, const std::vector<std::string>& more) {
 }
 
 // Runs `work` for each file: ahead of its turn for small recordings, whose text is kept until then;
-// otherwise at its turn, straight to standard output.
+// otherwise at its turn, straight to `out`.
 int writeTexts(const RecordingList& list,
                bool quiet,
                const TextForm& form,
                Reading reading,
                const std::vector<std::string>& topics,
+               ResultOutput& out,
                const TextWork& work) {
   ListRun run(list, quiet);
-  StandardOutput out;
   bool begun = false, written = false;
   std::string firstHead;
   const auto read = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
@@ -286,7 +281,7 @@ int writeTexts(const RecordingList& list,
       } catch (const OutputError&) {
         throw;
       } catch (...) {
-        out.finish();
+        out.flush();
         throw;
       }
     } else {
@@ -298,40 +293,14 @@ int writeTexts(const RecordingList& list,
       }
     }
     // The rows of each recording at once.
-    out.finish();
+    out.flush();
     if (result.failure) std::rethrow_exception(result.failure);
     return FileOutcome{.problem =
                            result.damage.empty() ? "" : file.string() + ": " + result.damage};
   });
   if (begun) out.write(form.end);
-  out.finish();
+  out.flush();
   return code;
-}
-
-// Texts that all stand behind the same beginning.
-int writeFramedTexts(const RecordingList& list,
-                     bool quiet,
-                     const TextFrame& frame,
-                     Reading reading,
-                     const std::vector<std::string>& topics,
-                     const OpenedText& work) {
-  return writeTexts(list,
-                    quiet,
-                    {.between = frame.between},
-                    reading,
-                    topics,
-                    [&](const fs::path& file,
-                        const Recording& recording,
-                        TextTarget& target,
-                        const Progress& progress) {
-                      bool first = true;
-                      const auto write = [&](const std::string& text) {
-                        if (std::exchange(first, false)) target.head(frame.begin);
-                        target.write(text);
-                      };
-                      work(file, recording, write, progress);
-                      write({});
-                    });
 }
 
 }  // namespace
@@ -362,10 +331,10 @@ std::string lostLine(const fs::path& file, const Profile& profile) {
 
 int reportOpened(const fs::path& file, const Profile& profile, bool quiet) {
   if (!quiet)
-    for (const std::string& line : notedWarnings(file, profile, false)) sayRecordingList(line);
+    for (const std::string& line : notedWarnings(file, profile, false)) sayLine(line);
   const std::string lost = lostLine(file, profile);
   if (lost.empty()) return kDone;
-  sayRecordingList(lost);
+  sayLine(lost);
   lossReported = true;
   return kPartlyDone;
 }
@@ -410,30 +379,43 @@ int forEachOpened(const RecordingList& list, bool quiet, const OpenedWork& work)
   });
 }
 
-int writeOpenedTexts(const RecordingList& list,
-                     bool quiet,
-                     const TextFrame& frame,
-                     const OpenedText& work) {
-  return writeFramedTexts(list, quiet, frame, Reading::kWhole, {}, work);
-}
-
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,
+                       ResultOutput& out,
                        const OpenedText& work,
                        const std::vector<std::string>& topics) {
-  return writeFramedTexts(list, quiet, frame, Reading::kAsFarAsReadable, topics, work);
+  return writeTexts(list,
+                    quiet,
+                    {.between = frame.between},
+                    Reading::kAsFarAsReadable,
+                    topics,
+                    out,
+                    [&](const fs::path& file,
+                        const Recording& recording,
+                        TextTarget& target,
+                        const Progress& progress) {
+                      bool first = true;
+                      const auto write = [&](const std::string& text) {
+                        if (std::exchange(first, false)) target.head(frame.begin);
+                        target.write(text);
+                      };
+                      work(file, recording, write, progress);
+                      write({});
+                    });
 }
 
 int writeTables(const RecordingList& list, bool quiet, const TableRun& run) {
   TableTextOptions options = run.text;
   if (list.several) options.addedName = "file";
   const bool isJson = options.form == TableForm::kJson;
+  ResultOutput out;
   return writeTexts(list,
                     quiet,
                     {.end = isJson ? kJsonTableEnd : "", .startsWithComma = isJson},
                     run.readable ? Reading::kAsFarAsReadable : Reading::kWhole,
                     {},
+                    out,
                     [&](const fs::path& file,
                         const Recording& recording,
                         TextTarget& target,
@@ -456,7 +438,7 @@ int writeTables(const RecordingList& list, bool quiet, const TableRun& run) {
 
 void reportLeftOut(const Profile& profile, const std::filesystem::path& out) {
   const std::string text = leftOutText(profile, out);
-  if (!text.empty()) sayRecordingList(out.string() + ": " + text);
+  if (!text.empty()) sayLine(out.string() + ": " + text);
 }
 
 }  // namespace palpate::commands

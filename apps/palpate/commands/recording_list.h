@@ -15,6 +15,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/table_command.h"
 
 namespace palpate::commands {
 
@@ -45,7 +46,7 @@ using OpenedWork =
 using VerifyWork =
     std::function<FileOutcome(const std::filesystem::path& file, const VerifyReport&)>;
 
-// Writes text to standard output, in the order of the recordings. Throws OutputError.
+// Writes text, in the order of the recordings. Throws OutputError.
 using TextSink = std::function<void(const std::string& text)>;
 // These are called from several threads at once, each with another file.
 using OpenedText = std::function<void(
@@ -83,18 +84,14 @@ int forEachVerified(const RecordingList& list, bool quiet, const VerifyWork& wor
 // prints which recordings are unfinished or still being written.
 int forEachOpened(const RecordingList& list, bool quiet, const OpenedWork& work);
 
-// As forEachOpened(), for work that writes text. Of small recordings the work is done several at a
-// time, too; the output and the messages are the same as if it were done one after the other. What
-// a recording wrote before it failed is kept.
-int writeOpenedTexts(const RecordingList& list,
-                     bool quiet,
-                     const TextFrame& frame,
-                     const OpenedText& work);
-// The same with every recording read completely; of a damaged one the readable part is used, and
-// the rest is reported. `topics`: ReadOptions::topics.
+// As forEachOpened(), for work that writes text to `out`, with every recording read completely; of
+// a damaged one the readable part is used, and the rest is reported. Of small recordings the work
+// is done several at a time, too; the output and the messages are the same as if it were done one
+// after the other. What a recording wrote before it failed is kept. `topics`: ReadOptions::topics.
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,
+                       ResultOutput& out,
                        const OpenedText& work,
                        const std::vector<std::string>& topics = {});
 
@@ -107,9 +104,9 @@ struct TableRun {
   // Every recording is read completely; of a damaged one the readable part is used.
   bool readable = false;
 };
-// As writeOpenedTexts(): one table of all recordings, in whose last column `file` each row of
-// several recordings names its own. A recording with other columns or units than the first one
-// fails.
+// As writeReadableTexts(): one table of all recordings on standard output, in whose last column
+// `file` each row of several recordings names its own. A recording with other columns or units than
+// the first one fails.
 int writeTables(const RecordingList& list, bool quiet, const TableRun& run);
 
 // Says on standard error, before a profile is saved as `out`, what will be missing there.

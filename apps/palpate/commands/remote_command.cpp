@@ -62,7 +62,7 @@ int remoteCommand(const Arguments& words) {
   if (!answer.at("ok").asBool())
     throw Error("refused (" + answer.at("error").asString() + "): " + message);
   if (!isPart(answer)) return kDone;
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
+  sayLine(message);
   return kPartlyDone;
 }
 

@@ -61,7 +61,7 @@ void sayRemoteRecording(const RecordingReport& report, bool json) {
 }  // namespace
 
 OptionSpec remoteOption() {
-  return {"remote", "", "other programs start and stop recordings: 'palpate remote --help'"};
+  return {"remote", "", "let other programs start and stop recordings: 'palpate remote --help'"};
 }
 
 OptionSpec socketOption() {
@@ -86,7 +86,7 @@ int recordRemotely(const CommandLine& given,
     leftOut += (leftOut.empty() || series.empty() ? "" : "; ") + series;
     if ((!report.complete || !leftOut.empty()) && !report.paths.empty()) whole = false;
     if (given.has("json") || !given.quiet()) sayRemoteRecording(report, given.has("json"));
-    if (!leftOut.empty()) std::fprintf(stderr, "palpate: %s\n", leftOut.c_str());
+    if (!leftOut.empty()) sayLine(leftOut);
   };
   session.start();
   {

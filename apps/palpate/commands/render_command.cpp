@@ -130,8 +130,8 @@ gui::FramePictures::Paint painterOf(const CommandLine& given,
   const std::string view = given.text("view").value_or("matrices");
   if (view == "hand") return handPainter(given, profile, span, options);
   if (view != "both") return FramePainter(profile, options);
-  // The hand beside the matrices, each in one half, below one title; the colour bar of the matrices
-  // is that of both.
+  // The hand next to the matrices, each in one half, below one title; the colour bar of the
+  // matrices is that of both.
   constexpr double kMargin = 12.0;  // [px]
   const double titleHeight = QFontMetricsF(gui::pictureFont(options)).height();
   const double top = titleHeight + 0.6 * kMargin;
@@ -234,7 +234,7 @@ int drawSeries(const CommandLine& given,
   if (!report.failure.empty())
     throw Error(report.failure + (report.written > 0 ? "; " + count : std::string()));
   if (report.cancelled) {
-    std::fprintf(stderr, "palpate: interrupted: %s\n", escapedLine(count).c_str());
+    sayLine("interrupted: " + count);
     return kPartlyDone;
   }
   if (!given.quiet())

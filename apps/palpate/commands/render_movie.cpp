@@ -81,7 +81,7 @@ int drawMovie(const CommandLine& given,
     };
     movie = writeChosenMovie(options, out, profile, span, paint, paper, overwrite, goOn);
   } catch (const Cancelled&) {
-    std::fprintf(stderr, "palpate: interrupted: %s was not written\n", escapedLine(out).c_str());
+    sayLine("interrupted: " + out + " was not written");
     return kPartlyDone;
   }
   if (!given.quiet()) printMovie(out, movie);

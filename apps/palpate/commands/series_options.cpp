@@ -1,6 +1,5 @@
 #include "commands/series_options.h"
 
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -22,9 +21,7 @@ std::pair<std::string, std::string> seriesValue(const std::string& option,
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-void printSeries(const std::string& text) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(text).c_str());
-}
+void printSeries(const std::string& text) { sayLine(text); }
 
 std::int64_t lostOf(const RecordingReport& report, const RecordedSeries& series) {
   return report.counter(seriesCounter(series.name, "lost")) + series.lost;
@@ -33,13 +30,13 @@ std::int64_t lostOf(const RecordingReport& report, const RecordedSeries& series)
 }  // namespace
 
 std::vector<OptionSpec> seriesOptions() {
-  return {
-      {"series",
-       "NAME=SOURCE",
-       "also rows of numbers of another sensor, SOURCE as for --stream, or PORT@BAUD; repeatable"},
-      {"series-columns",
-       "NAME=COLUMNS",
-       "what its numbers are, as 'time_ms,fx[N],fy[N]', where no header says it"}};
+  return {{"series",
+           "NAME=SOURCE",
+           "also record rows of numbers of another sensor, SOURCE as for --stream, or PORT@BAUD; "
+           "may be repeated"},
+          {"series-columns",
+           "NAME=COLUMNS",
+           "what its numbers are, as 'time_ms,fx[N],fy[N]', where no header says it"}};
 }
 
 void addSeriesSources(const CommandLine& given, CaptureSession& session) {
@@ -85,7 +82,7 @@ void SeriesNotice::show() {
     shown.place = shown.place || !place.empty();
     const PortStatus port = source.status().port;
     const bool comes = port.state == PortState::kStreaming;
-    // Who is awaited at a port of this machine was told above.
+    // Programs that must connect to a port of this machine were named above.
     const bool isSaid = port.message.empty() || port.message.starts_with("looking for") ||
                         (source.localPort() && port.items == 0);
     if (!comes && !isSaid && (!shown.missed || port.state != shown.state)) {

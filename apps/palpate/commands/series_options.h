@@ -1,5 +1,5 @@
 // The options of commands that record further series: --series NAME=SOURCE, --series-columns
-// NAME=COLUMNS, both repeatable; and what is said of the series.
+// NAME=COLUMNS, both repeatable; and the messages about the series.
 #pragma once
 
 #include <string>

@@ -47,7 +47,7 @@ int signalsCommand(const Arguments& words) {
             timeOption(),
             timeColumnOption(),
             bound("centre",
-                  "instead: the centre of force of each matrix that is touched",
+                  "print the centre of force of each touched matrix instead",
                   options.centres),
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}})),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",

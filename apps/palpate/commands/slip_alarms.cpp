@@ -38,7 +38,7 @@ Json slipAlarms(const std::filesystem::path& folder, bool quiet) {
     const std::filesystem::path path = folder / below;
     if (!std::filesystem::is_directory(path))
       throw Error(path.string() +
-                  ": is no folder; FOLDER must hold slip-detection and grasps_by_class");
+                  ": is not a folder; FOLDER must contain slip-detection and grasps_by_class");
     const int code = forEachOpened(
         recordingsIn({path.string()}),
         quiet,

@@ -68,7 +68,7 @@ int slipBenchmarkCommand(const Arguments& words) {
             bound("trials", "N", "contacts per shape", options.trials, options.kTrials),
             {"recordings",
              "FOLDER",
-             "also scores alarms on real recordings: FOLDER/slip-detection slips, "
+             "also score alarms on real recordings: FOLDER/slip-detection slips, "
              "FOLDER/grasps_by_class doesn't"}}),
        .example = "palpate slip-benchmark --noise 20",
        .maxArguments = 0},

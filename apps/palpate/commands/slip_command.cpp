@@ -65,8 +65,9 @@ int slipCommand(const Arguments& words) {
                   "threshold of the rotation",
                   rule.rotationDeg,
                   rule.kRotationDeg),
-            bound(
-                "segments", "a row per slip: frames, matrix, length of the path", options.segments),
+            bound("segments",
+                  "print a row per slip: frames, matrix, length of the path",
+                  options.segments),
             timeOption(),
             timeColumnOption()})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",

@@ -1,7 +1,6 @@
 // The command `palpate spectrum FILE` prints the short-time Fourier transform of a taxel or a
 // matrix signal as CSV.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -156,25 +155,11 @@ std::string tooShort(const SpectrumReport& report, const SpectrumOptions& option
          " samples, a window takes " + std::to_string(options.window) + ": take a smaller --window";
 }
 
-Json peaksJson(const std::vector<SpectralPeak>& peaks) {
-  return jsonList(peaks, [](const SpectralPeak& peak) {
-    return Json::object()
-        .set("frequency_hz", peak.frequencyHz)
-        .set("psd", peak.psd)
-        .set("amplitude", peak.amplitude)
-        .set("width_hz", peak.widthHz)
-        .set("prominence_db", peak.prominenceDb);
-  });
-}
-
 void sayGrid(const CommandLine& given, const SpectrumReport& report) {
   if (given.quiet()) return;
-  std::fprintf(stderr,
-               "palpate: intervals vary by %s %%: resampled to %s Hz; nothing above %s Hz can be "
-               "seen\n",
-               fixedText(report.jitter * kPercent, 0).c_str(),
-               fixedText(report.rateHz, 2).c_str(),
-               fixedText(report.nyquistHz, 2).c_str());
+  sayLine("intervals vary by " + fixedText(report.jitter * kPercent, 0) + " %: resampled to " +
+          fixedText(report.rateHz, 2) + " Hz; nothing above " + fixedText(report.nyquistHz, 2) +
+          " Hz can be seen");
 }
 
 // --welch and --peaks.
@@ -202,14 +187,14 @@ int writeMeanSpectrum(const CommandLine& given,
                   .set("segments", spectrum.mean.segments)
                   .set("psd", jsonList(spectrum.mean.psd))
                   .set("magnitude", jsonList(spectrum.mean.magnitude))
-                  .set("peaks", peaksJson(peaks)));
+                  .set("peaks", rowsJson(*peakTable(peaks, unit))));
     return kDone;
   }
-  writeTable(
+  const int code = writeTable(
       given,
       *(given.has("peaks") ? peakTable(peaks, unit) : meanSpectrumTable(spectrum.mean, unit)));
   sayGrid(given, spectrum.report);
-  return kDone;
+  return code;
 }
 
 int writeCoherence(const CommandLine& given,
@@ -243,14 +228,13 @@ int writeCoherence(const CommandLine& given,
                   .set("phase_deg", jsonList(found.phaseDeg)));
     return kDone;
   }
-  writeTable(given, *coherenceTable(found, unitOf(profile, signalA), unitOf(profile, signalB)));
+  const int code =
+      writeTable(given, *coherenceTable(found, unitOf(profile, signalA), unitOf(profile, signalB)));
   sayGrid(given, found.report);
   if (!given.quiet())
-    std::fprintf(stderr,
-                 "palpate: of independent noise 5 %% of the bins are above %s (%zu segments)\n",
-                 fixedText(found.level95(), 3).c_str(),
-                 found.segments);
-  return kDone;
+    sayLine("of independent noise 5 % of the bins are above " + fixedText(found.level95(), 3) +
+            " (" + std::to_string(found.segments) + " segments)");
+  return code;
 }
 
 }  // namespace
@@ -279,11 +263,13 @@ int spectrumCommand(const Arguments& words) {
                  "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
                  "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
                  "m5_x2_y9, angle3, m1_sum-m3_sum"},
-                {"welch", "", "the mean over all segments as one spectrum (Welch)"},
-                {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
+                {"welch", "", "print one spectrum, the mean over all segments (Welch)"},
+                {"peaks",
+                 "",
+                 "print the peaks of this spectrum: frequency, density, amplitude, width"},
                 {"coherence",
                  "A,B",
-                 "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
+                 "print coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
                  "m5_x2_y9,m5_x3_y9"},
                 rangedWhole("window",
                             "N",
@@ -299,12 +285,12 @@ int spectrumCommand(const Arguments& words) {
                  "--peaks, --coherence"},
                 worded("detrend",
                        "HOW",
-                       "what is subtracted from each segment first",
+                       "subtract this from each segment first",
                        kDetrendWords,
                        "mean"),
                 worded("rate",
                        "HOW",
-                       "of the intervals: sampling rate after interpolation",
+                       "interval that sets the sampling rate after interpolation",
                        kGridRateWords,
                        "mean"),
                 timeOption()})),
@@ -343,10 +329,10 @@ int spectrumCommand(const Arguments& words) {
 
   line.setLabel("transforming " + file);
   if (formOf(given) == TableForm::kCsv) {
-    writeTable(given, *spectraTable(std::move(run), unit, line.callback()));
+    const int code = writeTable(given, *spectraTable(std::move(run), unit, line.callback()));
     line.wipe();
     sayGrid(given, plan);
-    return kDone;
+    return code;
   }
   MeanSpectrumCollector collector(plan);
   const auto visit = [&](const SpectrumSink& sink) {

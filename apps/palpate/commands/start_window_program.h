@@ -18,7 +18,7 @@ int startWindowProgram(const std::string& name, const Arguments& words);
 // ending of such a file or ends so. To read HDF5 is the work of palpate_hdf5.
 bool needsHdf5(const Arguments& words);
 
-// Where palpate_window lies: beside `program` in a build folder, otherwise where the installation
+// Where palpate_window lies: next to `program` in a build folder, otherwise where the installation
 // has it. `program` is the path of this executable, links followed.
 std::filesystem::path windowProgramOf(const std::filesystem::path& program);
 

@@ -80,8 +80,8 @@ CommandSpec streamSpec() {
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"to", "STREAM", "what to send, and to which port; may be repeated"},
                   {"foxglove", "[PORT]", "the same as --to foxglove[:PORT]; PORT 0: any free one"},
-                  {"lines", "", "lines on standard output instead of datagrams"},
-                  {"calibration", "C.json", "also pressures and forces"},
+                  {"lines", "", "print lines on standard output instead of sending datagrams"},
+                  {"calibration", "C.json", "also send pressures and forces"},
                   ranged("duration", "S", "stop after this time", RecordingLimits::kStopAfterS)},
       .example = "palpate stream --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1",
       .maxArguments = 1};
@@ -124,7 +124,7 @@ Recording streamedRecording(const CommandLine& given, std::string& damage) {
 // Prints the damage of the recording. Returns the exit code of work that is otherwise done.
 int endOf(const std::string& damage) {
   if (damage.empty()) return kDone;
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(damage).c_str());
+  sayLine(damage);
   return kPartlyDone;
 }
 
@@ -277,9 +277,8 @@ int streamLines(const CommandLine& given, const StreamTargets& targets) {
   if (const std::string failure = chain.failure(); !failure.empty()) throw Error(failure);
   const ChainStats stats = chain.stats();
   if (stats.skipped == 0) return kDone;
-  std::fprintf(stderr,
-               "palpate: %llu frames were skipped: the program that reads them is too slow\n",
-               static_cast<unsigned long long>(stats.skipped));
+  sayLine(std::to_string(stats.skipped) +
+          " frames were skipped: the program that reads them is too slow");
   return kPartlyDone;
 }
 

@@ -1,6 +1,5 @@
 #include "commands/stream_options.h"
 
-#include <cstdio>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -51,9 +50,8 @@ std::unique_ptr<StreamDevice> streamSourceOf(const CommandLine& given) {
   try {
     auto stream = std::make_unique<StreamDevice>(std::move(options));
     if (stream->isOpenToOthers())
-      std::fprintf(stderr,
-                   "palpate: %s: any machine that reaches this address can send frames\n",
-                   escapedLine(given.text("stream").value()).c_str());
+      sayLine(given.text("stream").value() +
+              ": any machine that reaches this address can send frames");
     return stream;
   } catch (const std::invalid_argument& wrong) {
     throw UsageError("--stream: " + escapedLine(wrong.what()));
@@ -72,14 +70,11 @@ const StreamDevice* streamOf(const CaptureSession& session) {
 
 void StreamNotice::show() {
   if (stream_ == nullptr) return;
-  const auto print = [](const std::string& text) {
-    std::fprintf(stderr, "palpate: %s\n", escapedLine(text).c_str());
-  };
   const std::string place = placeShown_ ? std::string() : stream_->notice();
-  if (!place.empty()) print(place);
+  if (!place.empty()) sayLine(place);
   placeShown_ = placeShown_ || !place.empty();
   const std::vector<std::string> remarks = stream_->remarks();
-  for (; remarksShown_ < remarks.size(); ++remarksShown_) print(remarks[remarksShown_]);
+  for (; remarksShown_ < remarks.size(); ++remarksShown_) sayLine(remarks[remarksShown_]);
 }
 
 std::string leftOutText(FrameLosses losses, const StreamDevice* stream) {

@@ -63,7 +63,8 @@ int synthesizeCommand(const Arguments& words) {
            "empty hand for palpate adapt --empty-hand-zero.",
        .options = {{"output,o",
                     "OUT",
-                    "where to write it: .palpate, .dsa and the other endings of palpate convert"},
+                    "write the recording to this file: .palpate, .dsa and the other endings of "
+                    "palpate convert"},
                    {"scene", "NAME", "of data/scenes, or a JSON file"},
                    bound("duration",
                          "S",

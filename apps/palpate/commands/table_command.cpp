@@ -1,10 +1,11 @@
 #include "commands/table_command.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_name.h"
@@ -27,15 +28,11 @@ constexpr const char* kOptionsOfTheRun[] = {
 constexpr const char* kUnitsOfJson =
     "--units-row is a row of CSV; JSON has the units of its columns";
 
-void sayOfTable(const std::string& line) {
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(line).c_str());
-}
-
 Overwrite overwriteOf(const CommandLine& given) {
   return given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
 }
 
-// A value of another option can be a file, too: a model, a calibration.
+// The value of another option can also be a file: a model, a calibration.
 void checkOutput(const CommandLine& given) {
   const auto out = given.text("output");
   if (!out) return;
@@ -70,8 +67,9 @@ std::vector<OptionSpec> withOneTableOptions(std::vector<OptionSpec> options,
 }
 
 OptionSpec timeColumnOption() {
-  return {
-      "time-column", "s|utc", "in addition to time_ms; s: seconds from the first frame; utc: date"};
+  return {"time-column",
+          "s|utc",
+          "add a column next to time_ms; s: seconds from the first frame; utc: date"};
 }
 
 std::unique_ptr<ResultTable> withTimeColumn(const CommandLine& given,
@@ -134,10 +132,12 @@ ResultOutput::ResultOutput(const CommandLine& given, bool outputTaken) : quiet_(
 }
 
 void ResultOutput::write(const std::string& text) {
-  if (file_)
+  if (!file_) return out_.write(text);
+  try {
     file_->write(text);
-  else
-    out_.write(text);
+  } catch (const FileError& error) {
+    throw OutputError(error.what());
+  }
 }
 
 void ResultOutput::flush() { out_.finish(); }
@@ -148,6 +148,23 @@ void ResultOutput::finish() {
     if (!quiet_) out_.write(escapedLine(file_->path().string()) + "\n");
   }
   out_.finish();
+}
+
+Json rowsJson(ResultTable& table) {
+  const auto valueOf = [](const auto& value) -> Json {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::monostate>)
+      return {};
+    else
+      return value;
+  };
+  Json rows = Json::array();
+  for (std::vector<Cell> cells; table.next(cells);) {
+    Json row = Json::object();
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      row.set(table.columns()[i].name, std::visit(valueOf, cells[i]));
+    rows.push(std::move(row));
+  }
+  return rows;
 }
 
 void printJson(const CommandLine& given, const Json& json, bool outputTaken) {
@@ -186,9 +203,9 @@ int writeTable(const CommandLine& given, ResultTable& table) {
   out.add(table);
   out.finish();
   if (!given.quiet())
-    for (const std::string& note : table.notes()) sayOfTable(note);
+    for (const std::string& note : table.notes()) sayLine(note);
   const std::vector<std::string> problems = table.problems();
-  for (const std::string& problem : problems) sayOfTable(problem);
+  for (const std::string& problem : problems) sayLine(problem);
   return problems.empty() ? kDone : kPartlyDone;
 }
 

@@ -44,7 +44,7 @@ std::string choicesText(const CommandLine& given);
 TableForm formOf(const CommandLine& given);
 // How the options want a table as text. Throws UsageError.
 TableTextOptions tableTextOf(const CommandLine& given);
-// The template that -o gives, whose ending says the form. Throws UsageError, also for --json and
+// The template that -o gives, whose ending chooses the form. Throws UsageError, also for --json and
 // --units-row that don't fit it.
 BatchTemplate tableTemplateOf(const CommandLine& given);
 
@@ -52,18 +52,21 @@ BatchTemplate tableTemplateOf(const CommandLine& given);
 // names on standard output.
 class ResultOutput {
  public:
+  ResultOutput() = default;  // standard output
   // Throws FileError, also when the file exists and --force is missing. `outputTaken`: -o is
   // something else, the result goes to standard output.
   explicit ResultOutput(const CommandLine& given, bool outputTaken = false);
-  void write(const std::string& text);  // throws OutputError, FileError
+  void write(const std::string& text);  // throws OutputError
   void flush();                         // what is for standard output
-  void finish();
+  void finish();                        // without it there is no file
 
  private:
-  const bool quiet_;
+  bool quiet_ = false;
   StandardOutput out_;
   std::optional<OutputFile> file_;
 };
+// The rows of a table as a list of objects.
+Json rowsJson(ResultTable& table);
 // An object as the whole result.
 void printJson(const CommandLine& given, const Json& json, bool outputTaken = false);
 
@@ -81,7 +84,7 @@ class TableOutput {
 };
 // Writes one table, then its notes (unless quiet) and problems to standard error. Returns
 // kPartlyDone after a problem.
-int writeTable(const CommandLine& given, ResultTable& table);
+[[nodiscard]] int writeTable(const CommandLine& given, ResultTable& table);
 
 // Runs a command that makes a table of each recording. Returns the exit code. Throws UsageError.
 int runTableCommand(const CommandLine& given, const RecordingTable& table);

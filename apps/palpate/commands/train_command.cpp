@@ -59,7 +59,7 @@ Json reportOf(const TrainedModel& model,
 int trainCommand(const Arguments& words) {
   std::optional<FeatureSet> asked;
   std::vector<OptionSpec> options = {
-      {"output,o", "MODEL.json", "write the model there"},
+      {"output,o", "MODEL.json", "write the model to this file"},
       boundChoice("set", "SET", "", asked, kFeatureSetWords, kDefaultFeatureSetText),
       zeroOptionSpec(),
       {"force", "", "replace MODEL.json"},

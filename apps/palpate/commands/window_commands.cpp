@@ -19,7 +19,7 @@ int runWindowCommand(const std::string& name, const Arguments& words) {
       {"emulate", &emulateCommand},
       {"evaluate", &evaluateCommand},
       {"grasp", &graspCommand},
-      {"help", &columnsCommand},  // of columns
+      {"help", &columnsCommand},  // columns, commands
       {"import", &importCommand},
       {"record", &recordCommand},
       {"render", &renderCommand},
