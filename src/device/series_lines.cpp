@@ -143,61 +143,50 @@ std::vector<Column> columnsOf(std::string_view text) {
   return columns;
 }
 
-SeriesLines::SeriesLines(std::vector<Column> given) : isGiven_(!given.empty()) {
+SeriesLines::SeriesLines(std::vector<Column> given)
+    : splitter_(kLongestSeriesLine), isGiven_(!given.empty()) {
   if (isGiven_) learn(std::move(given), /*isNamed=*/true, /*isSure=*/true);
 }
 
 void SeriesLines::beginConnection(bool startsInside) {
-  pending_.clear();
-  skipping_ = false;
+  splitter_.restart();
   isInside_ = startsInside;
 }
 
 void SeriesLines::push(std::span<const std::byte> bytes, const Sink& sink) {
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  while (!text.empty()) {
-    const std::size_t end = text.find_first_of("\r\n");
-    const std::string_view piece = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (!skipping_ && pending_.size() + piece.size() > kLongestSeriesLine) {
-      ++lines_;
-      refuse("longer than " + std::to_string(kLongestSeriesLine) + " bytes");
-      skippedBytes_ += pending_.size();
-      pending_.clear();
-      skipping_ = true;
-    }
-    if (skipping_)
-      skippedBytes_ += piece.size();
-    else
-      pending_.append(piece);
-    if (end != std::string_view::npos) endLine(sink);
-  }
+  splitter_.push(bytes, [&](const SplitLine& line) { takeSplit(line, sink); });
 }
 
 void SeriesLines::endLine(const Sink& sink) {
-  const bool isWhole = !std::exchange(skipping_, false);
-  const std::string line = std::exchange(pending_, {});
-  if (isWhole && !trimmed(line).empty()) takeLine(line, sink);
-  if (!isWhole || !line.empty()) isInside_ = false;
+  splitter_.endLine([&](const SplitLine& line) { takeSplit(line, sink); });
 }
 
 void SeriesLines::cutOff(const Sink& sink) {
-  const std::string_view line = trimmed(pending_);
-  if (!line.empty() && !line.ends_with('}') && !line.ends_with(']') && !line.starts_with('#')) {
-    ++lines_;
-    refuse("the last line has no end: its last number may be cut off");
-    pending_.clear();
+  splitter_.cutOff([&](const SplitLine& line) { takeSplit(line, sink); });
+}
+
+void SeriesLines::takeSplit(const SplitLine& line, const Sink& sink) {
+  line_ = line.number;
+  switch (line.kind) {
+    case SplitLine::Kind::kWhole:
+      takeLine(line.text, sink);
+      break;
+    case SplitLine::Kind::kTooLong:
+      refuse("longer than " + std::to_string(splitter_.longest()) + " bytes");
+      break;
+    case SplitLine::Kind::kCutOff:
+      refuse("the last line has no end: its last number may be cut off");
+      break;
   }
-  endLine(sink);
+  if (line.kind != SplitLine::Kind::kWhole || !line.text.empty()) isInside_ = false;
 }
 
 void SeriesLines::refuse(const std::string& why) {
   ++refused_;
-  lastFault_ = "line " + std::to_string(lines_) + ": " + why;
+  lastFault_ = "line " + std::to_string(line_) + ": " + why;
 }
 
 void SeriesLines::takeLine(std::string_view line, const Sink& sink) {
-  ++lines_;
   if (line.starts_with(kSeriesByteOrderMark)) line.remove_prefix(kSeriesByteOrderMark.size());
   line = trimmed(line, " ");
   if (line.empty() || line.front() == '#') return;
@@ -253,7 +242,7 @@ void SeriesLines::takeCells(std::string_view line, const Sink& sink) {
     return takeHeader(std::move(header), isSure);
   }
   if (isInside_) {
-    skippedBytes_ += line.size();
+    insideBytes_ += line.size();
     return;
   }
   numbers_.clear();

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "palpate/device/line_splitter.h"
 #include "palpate/model/series.h"
 
 namespace palpate {
@@ -42,12 +43,15 @@ class SeriesLines {
   const std::vector<Column>& columns() const noexcept { return columns_; }
   std::uint64_t refused() const noexcept { return refused_; }
   // Bytes of lines that are too long, or that may lack their beginning.
-  std::uint64_t skippedBytes() const noexcept { return skippedBytes_; }
-  std::size_t pendingBytes() const noexcept { return pending_.size(); }
-  // "line 812: 5 numbers instead of 6"; lines that are not empty are counted, from 1.
+  std::uint64_t skippedBytes() const noexcept {
+    return splitter_.counts().skippedBytes + insideBytes_;
+  }
+  std::size_t pendingBytes() const noexcept { return splitter_.pendingBytes(); }
+  // "line 812: 5 numbers instead of 6"; all lines are counted, from 1.
   const std::string& lastFault() const noexcept { return lastFault_; }
 
  private:
+  void takeSplit(const SplitLine& line, const Sink& sink);
   void takeLine(std::string_view line, const Sink& sink);
   bool split(std::string_view line);
   void takeCells(std::string_view line, const Sink& sink);
@@ -59,6 +63,7 @@ class SeriesLines {
   bool learn(std::vector<Column> all, bool isNamed, bool isSure);
   void refuse(const std::string& why);
 
+  LineSplitter splitter_;
   bool isGiven_;
   std::vector<Column> all_;      // what each number of a row is; empty: not known yet
   std::vector<Column> columns_;  // all_ without the time
@@ -69,14 +74,12 @@ class SeriesLines {
   bool isOther_ = false;   // the last header named other columns
   bool hasRows_ = false;   // a row was delivered: the columns stay
   bool isInside_ = false;  // the present line may lack its beginning
-  bool skipping_ = false;  // until the end of a line that is too long
-  std::string pending_;    // a line without its end yet
   std::vector<std::string_view> cells_;
   std::vector<double> numbers_;  // of the present row
   std::vector<double> values_;   // the same without the time
-  std::uint64_t lines_ = 0;
+  std::uint64_t line_ = 0;       // number of the present one
   std::uint64_t refused_ = 0;
-  std::uint64_t skippedBytes_ = 0;
+  std::uint64_t insideBytes_ = 0;  // of a first line that was not used
   std::string lastFault_;
 };
 

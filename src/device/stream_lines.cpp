@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -107,131 +106,57 @@ void readTactileMatrices(const Json& matrices,
 
 bool hasZeros(std::string_view line) { return line.find('\0') != std::string_view::npos; }
 
-// Finds the ends of lines. The next '\n' is kept, so that each byte is looked at twice at most,
-// whatever ends the lines.
-class LineEnds {
- public:
-  LineEnds(const char* begin, const char* end) : end_(end), feed_(find('\n', begin, end)) {}
-  // The next end of a line at or behind `at`, which must not go back; the end of all when there is
-  // none.
-  const char* next(const char* at) {
-    if (feed_ < at) feed_ = find('\n', at, end_);
-    return find('\r', at, feed_);
-  }
-
- private:
-  // `end` when there is none.
-  static const char* find(char c, const char* at, const char* end) {
-    const void* const found = std::memchr(at, c, static_cast<std::size_t>(end - at));
-    return found != nullptr ? static_cast<const char*>(found) : end;
-  }
-  const char* end_;
-  const char* feed_;
-};
-
 }  // namespace
 
 StreamLineParser::StreamLineParser(StreamShape shape, const StreamLineOptions& options)
     : shape_(std::move(shape)),
       options_(options),
-      longestLine_(kShortestLimit + kBytesPerNumber * (shape_.numPlaces() + shape_.numAxes() +
-                                                       shape_.numTemperatures())),
-      skipping_(options.startsInside),
+      splitter_(kShortestLimit + kBytesPerNumber * (shape_.numPlaces() + shape_.numAxes() +
+                                                    shape_.numTemperatures()),
+                options.startsInside),
       numbers_(std::max({shape_.numPlaces(), shape_.numAxes(), shape_.numTemperatures()}) + 1),
       values_(shape_.numPlaces()),
       rowsBegin_(!options.startsInside),
       padLengths_(shape_.layout().numMatrices()) {}
 
 void StreamLineParser::push(std::span<const std::byte> bytes, const Sink& sink) {
-  if (bytes.empty()) return;
-  const char* at = reinterpret_cast<const char*>(bytes.data());
-  const char* const end = at + bytes.size();
-  LineEnds ends(at, end);
-  while (at != end) {
-    if (continuesEnd(*at, sink)) {
-      ++at;
-      continue;
-    }
-    const char* const stop = ends.next(at);
-    const bool ended = stop != end;
-    if (ended) lastEnd_ = *stop;
-    takePiece({at, static_cast<std::size_t>(stop - at)}, ended, sink);
-    at = ended ? stop + 1 : end;
-  }
-}
-
-// Whether `c` belongs to the end of the line before: "\r\n", "\n\r" and "\r\r\n" end one line. What
-// follows a second '\r' says whether it was an empty line.
-bool StreamLineParser::continuesEnd(char c, const Sink& sink) {
-  const char last = std::exchange(lastEnd_, '\0');
-  if (std::exchange(heldReturn_, false) && c != '\n') takeLine({}, sink);
-  if (last == '\0' || (c != '\n' && c != '\r') || (c == '\n' && last == '\n')) return false;
-  if (c == last) {
-    lastEnd_ = c;
-    heldReturn_ = true;
-  }
-  ++stats_.lineBytes;
-  return true;
-}
-
-// Takes a line, or the part of it that came, without its end.
-void StreamLineParser::takePiece(std::string_view piece, bool ended, const Sink& sink) {
-  if (!skipping_ && pending_.size() + piece.size() > longestLine_) {
-    refuse(stats_.lines + 1,
-           "longer than " + std::to_string(longestLine_) + " bytes: no line of this hand is");
-    stats_.skippedBytes += pending_.size();
-    pending_.clear();
-    skipping_ = true;
-  }
-  if (skipping_) {
-    stats_.skippedBytes += piece.size() + (ended ? 1 : 0);
-    if (!ended) return;
-    ++stats_.lines;
-    skipping_ = false;
-  } else if (!ended) {
-    pending_.append(piece);
-  } else if (pending_.empty()) {
-    stats_.lineBytes += piece.size() + 1;
-    takeLine(piece, sink);
-  } else {
-    pending_.append(piece);
-    stats_.lineBytes += pending_.size() + 1;
-    takeLine(pending_, sink);
-    pending_.clear();
-  }
+  splitter_.push(bytes, [&](const SplitLine& line) { takeSplit(line, sink); });
+  countLines();
 }
 
 void StreamLineParser::endLine(const Sink& sink) {
-  lastEnd_ = '\0';
-  if (std::exchange(heldReturn_, false)) takeLine({}, sink);
-  if (skipping_) {
-    ++stats_.lines;
-    skipping_ = false;
-  } else if (!pending_.empty()) {
-    stats_.lineBytes += pending_.size();
-    takeLine(pending_, sink);
-    pending_.clear();
-  }
+  splitter_.endLine([&](const SplitLine& line) { takeSplit(line, sink); });
+  countLines();
 }
 
 void StreamLineParser::cutOff(const Sink& sink) {
-  const std::string_view line = trimmed(pending_, " \t");
-  // An object and a list have an end of their own.
-  if (skipping_ || line.empty() || line.front() == '#' || hasZeros(line) ||
-      std::string_view("}])").find(line.back()) != std::string_view::npos) {
-    endLine(sink);
-  } else {
-    lastEnd_ = '\0';
-    ++stats_.lines;
-    stats_.lineBytes += pending_.size();
-    pending_.clear();
-    refuse("the last line has no end: its last number may be cut off");
-  }
+  splitter_.cutOff([&](const SplitLine& line) { takeSplit(line, sink); });
+  countLines();
   releaseHeld(sink);
 }
 
+void StreamLineParser::countLines() {
+  const LineCounts& counts = splitter_.counts();
+  stats_.lines = counts.lines;
+  stats_.lineBytes = counts.lineBytes;
+  stats_.skippedBytes = counts.skippedBytes;
+}
+
+void StreamLineParser::takeSplit(const SplitLine& line, const Sink& sink) {
+  countLines();
+  switch (line.kind) {
+    case SplitLine::Kind::kWhole:
+      return takeLine(line.text, sink);
+    case SplitLine::Kind::kTooLong:
+      return refuse(
+          line.number,
+          "longer than " + std::to_string(longestLine()) + " bytes: no line of this hand is");
+    case SplitLine::Kind::kCutOff:
+      return refuse("the last line has no end: its last number may be cut off");
+  }
+}
+
 void StreamLineParser::takeLine(std::string_view line, const Sink& sink) {
-  ++stats_.lines;
   if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   line = trimmed(line, " \t");
   if (line.empty()) return separateRows();

@@ -92,6 +92,27 @@ TEST(SeriesSource, RowsHaveTheirTimeOfArrivalAndTheSendersBesideIt) {
   EXPECT_EQ(bench.link->status().state, PortState::kStreaming);
 }
 
+// Two rows at 1 kHz that came in one read can't be told apart: one wake-up per row is what true
+// times cost.
+TEST(SeriesSource, EachRowOfAFastSeriesIsDeliveredAtItsTimeOfArrival) {
+  Bench bench;
+  bench.send("f[N]\n");
+  const std::int64_t beginUs = bench.time.nowUs();
+  std::vector<std::int64_t> arrivalUs;
+  std::int64_t afterUs = 0;
+  for (int i = 0; i < 1000; ++i) {
+    afterUs += 700 + 37 * (i % 17);  // near 1 kHz, not evenly
+    bench.line->arrive(textBytes(std::to_string(i) + "\n"), afterUs);
+    arrivalUs.push_back(beginUs + afterUs);
+  }
+  for (std::size_t i = 0; i < arrivalUs.size(); ++i) {
+    bench.link->step();
+    ASSERT_EQ(bench.sink.rows().size(), i + 1);
+    EXPECT_EQ(bench.time.nowUs(), arrivalUs[i]);
+    EXPECT_EQ(bench.sink.rows()[i].hostUs, arrivalUs[i]);
+  }
+}
+
 TEST(SeriesSource, ASilenceIsAGapOfTheSeries) {
   Bench bench;
   for (int i = 0; i < 100; ++i) bench.send("1,2\n");

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <palpate/core/option_check.h>
+#include <palpate/device/line_splitter.h>
 #include <palpate/device/stream_shape.h>
 
 namespace palpate {
@@ -87,7 +88,7 @@ class StreamLineParser {
   // Takes labels that come in another order than in an earlier connection by their names.
   void knowLabelsOf(const StreamLineParser& earlier) { knownLabels_ = earlier.knownLabels_; }
   const StreamLineStats& stats() const noexcept { return stats_; }
-  std::size_t pendingBytes() const noexcept { return pending_.size(); }
+  std::size_t pendingBytes() const noexcept { return splitter_.pendingBytes(); }
   // What is wrong with the last refused line, and which it is: "line 812: 255 numbers instead of
   // 256". Lines are counted from 1. Empty when none was refused.
   const std::string& lastFault() const noexcept { return lastFault_; }
@@ -98,7 +99,7 @@ class StreamLineParser {
   // What else was guessed: which lines are frames, and which taxel each value is.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
   // Longest line that is read [bytes], enough for the hand's values with 25 characters each.
-  std::size_t longestLine() const noexcept { return longestLine_; }
+  std::size_t longestLine() const noexcept { return splitter_.longest(); }
 
  private:
   // What a line of numbers begins with.
@@ -134,8 +135,8 @@ class StreamLineParser {
       return true;
     }
   };
-  bool continuesEnd(char c, const Sink& sink);
-  void takePiece(std::string_view piece, bool ended, const Sink& sink);
+  void takeSplit(const SplitLine& line, const Sink& sink);
+  void countLines();
   void takeLine(std::string_view line, const Sink& sink);
   void takeText(std::string_view line, const Sink& sink);
   void readNumbers(std::string_view line, const Sink& sink);
@@ -203,16 +204,12 @@ class StreamLineParser {
 
   StreamShape shape_;
   StreamLineOptions options_;
-  std::size_t longestLine_;
+  LineSplitter splitter_;
   StreamLineStats stats_;
   std::string lastFault_;
   std::string lastOutOfRange_;
   std::string guess_;
   std::vector<std::string> notes_;
-  std::string pending_;           // a line without its end yet; never longer than longestLine_
-  bool skipping_ = false;         // until the end of a line that is not used
-  char lastEnd_ = '\0';           // '\n' or '\r' directly before, of which no pair was made yet
-  bool heldReturn_ = false;       // a second '\r' came, which may belong to "\r\r\n"
   std::string plain_;             // the present line without its brackets
   std::vector<double> numbers_;   // of the present line, as many as an item has at most
   std::string_view firstNumber_;  // as it was written
