@@ -360,13 +360,17 @@ std::string lostLine(const fs::path& file, const Profile& profile) {
   return lost.empty() ? lost : file.string() + ": " + lost;
 }
 
+void reportLoss(const std::string& line) {
+  sayRecordingList(line);
+  lossReported = true;
+}
+
 int reportOpened(const fs::path& file, const Profile& profile, bool quiet) {
   if (!quiet)
     for (const std::string& line : notedWarnings(file, profile, false)) sayRecordingList(line);
   const std::string lost = lostLine(file, profile);
   if (lost.empty()) return kDone;
-  sayRecordingList(lost);
-  lossReported = true;
+  reportLoss(lost);
   return kPartlyDone;
 }
 
