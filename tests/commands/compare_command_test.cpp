@@ -171,7 +171,11 @@ TEST_F(CompareCommandTest, AveragesComputedSeries) {
             std::string::npos);
   // Of an indenter without area pressures are known, forces not.
   const std::string known = folder_ / "c.json";
-  saveCalibration(testing::linearCalibration({}), known, Overwrite::kRefuse);
+  Calibration calibration = testing::linearCalibration({});
+  for (std::size_t i = 0; i < calibration.samples.size(); ++i)  // 35 deg C is assumed
+    calibration.samples[i].nearestDegC = 28.0 + 8.0 * static_cast<double>(i % 3);
+  calibration.pressure = fitPressureModel(calibration.samples, {});
+  saveCalibration(calibration, known, Overwrite::kRefuse);
   const auto pressure = averageOf("m1_pressure_kpa", {"--calibration", known});
   EXPECT_EQ(pressure.exitCode, 0) << pressure.err;
   EXPECT_NE(pressure.out.find("\n0.000000,2,"), std::string::npos) << pressure.out;
