@@ -158,7 +158,7 @@ TEST_F(CompareCommandTest, PrintsTheAverageOverGrasps) {
 
 // The four taxels are those of columns 2 and 3, 3.4 mm apart.
 TEST_F(CompareCommandTest, AveragesComputedSeries) {
-  const auto a = recording("a.dsa", 10, 2, 500.0F), b = recording("b.dsa", 12, 5, 300.0F);
+  const auto a = recording("a.dsa", 10, 2, 1500.0F), b = recording("b.dsa", 12, 5, 1300.0F);
   const auto averageOf = [&](const std::string& signal, std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"compare", a, b, "--of", "recordings", "--average", signal});
     return palpate(more);
