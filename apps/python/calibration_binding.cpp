@@ -19,10 +19,32 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/calibrations.h"
 #include "python/interruption.h"
 
 namespace palpate::python {
 namespace py = pybind11;
+
+PressureMapOptions pressureOptionsOf(const ForceChoice& choice,
+                                     const Calibration& calibration,
+                                     const Profile& profile) {
+  PressureMapOptions options{.compensateDrift = choice.drift, .serial = profile.info().serial};
+  if (choice.sensitivity || choice.threshold) {
+    SensorSettings settings = calibration.settings;
+    settings.sensitivity = choice.sensitivity.value_or(settings.sensitivity);
+    settings.thresholdCounts = choice.threshold.value_or(settings.thresholdCounts);
+    options.settings.push_back(settings);
+  }
+  return options;
+}
+
+std::optional<Tare> tareOf(const ForceChoice& choice,
+                           const Profile& profile,
+                           const Progress& progress) {
+  if (!choice.tare) return std::nullopt;
+  return findTare(profile, {}, progress);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,18 +170,13 @@ py::dict applyTo(const Calibration& calibration,
                  std::optional<double> threshold,
                  bool tare,
                  bool drift) {
-  PressureMapOptions options;
-  options.compensateDrift = drift;
-  if (sensitivity || threshold) {
-    SensorSettings settings = calibration.settings;
-    settings.sensitivity = sensitivity.value_or(settings.sensitivity);
-    settings.thresholdCounts = threshold.value_or(settings.thresholdCounts);
-    options.settings.push_back(settings);
-  }
+  const ForceChoice chosen{sensitivity, threshold, tare, drift};
   const ForceSeries series = unlocked([&](const Progress& progress) {
-    std::optional<Tare> zero;
-    if (tare) zero = findTare(profile, {}, progress);
-    return forceSeries(profile, calibration, options, zero, progress);
+    return forceSeries(profile,
+                       calibration,
+                       pressureOptionsOf(chosen, calibration, profile),
+                       tareOf(chosen, profile, progress),
+                       progress);
   });
   const std::size_t frames = series.timeS.size(), matrices = series.numMatrices;
   py::dict table;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -57,6 +58,9 @@ Table compare(const py::object& a,
     auto table = comparisonTable(timedA, timedB, *foundS, partOf(progress, 0.4, 1.0));
     if (!commonSpan(timedA, timedB, *foundS))
       table->note("the two have no moment in common at this alignment");
+    for (const auto& [name, profile] : {std::pair("a", &profileA), std::pair("b", &profileB)})
+      if (const std::string lost = lostText(*profile); !lost.empty())
+        table->note(std::string(name) + ": " + lost);
     return table;
   });
 }
@@ -127,7 +131,8 @@ void bindCommands(py::module_& module) {
       "mean_b (of the touched taxels), difference_mean, difference_rms (of a - b over the taxels "
       "that are touched in either): a row per frame of a and matrix that both have. align: "
       "'contact' (first lasting contacts), 'start', 'clock' (host time); or offset: when b begins "
-      "[s from a's first frame]. Error where they can't be aligned.");
+      "[s from a's first frame]. The notes of the table list what was lost when a or b was read. "
+      "Error where they can't be aligned.");
   module.def("labels",
              &labels,
              py::arg("path"),

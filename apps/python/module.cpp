@@ -57,12 +57,12 @@ PYBIND11_MODULE(palpate, module) {
   bindArrays(module);
   bindHands(module);
   bindFilters(module);
+  bindCalibration(module);  // derive() takes a Calibration
   bindSignals(module);
   bindKinematics(module);
   bindContact(module);
   bindSlip(module);
   bindSteps(module);
-  bindCalibration(module);
   bindMoments(module);
   bindFeatures(module);
   bindModels(module);

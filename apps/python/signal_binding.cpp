@@ -4,6 +4,7 @@
 
 #include <pybind11/stl.h>
 
+#include "palpate/computed/computed_series.h"
 #include "palpate/core/progress.h"
 #include "palpate/model/timing.h"
 #include "palpate/signals/coherence.h"
@@ -16,6 +17,7 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/calibrations.h"
 #include "python/interruption.h"
 #include "python/result_binding.h"
 
@@ -161,11 +163,28 @@ py::dict coherence(const Numbers& timeS,
   return result;
 }
 
-DoubleArray derive(const Profile& profile, const std::string& text) {
+DoubleArray derive(const Profile& profile,
+                   const std::string& text,
+                   const std::optional<Calibration>& calibration,
+                   std::optional<double> sensitivity,
+                   std::optional<double> threshold,
+                   bool tare,
+                   bool drift) {
   const Formula formula(text);
+  const ForceChoice chosen{sensitivity, threshold, tare, drift};
+  if (!calibration && (sensitivity || threshold || tare || !drift))
+    throw py::value_error("sensitivity, threshold, tare and drift need a calibration");
   const Series series = unlocked([&](const Progress& progress) {
-    return formulaSeries(
-        profile, formula, 0.0, static_cast<double>(profile.durationUs()) / kUsPerS + 1.0, progress);
+    ComputedOptions options{.calibration = calibration};
+    if (calibration) {
+      options.pressure = pressureOptionsOf(chosen, *calibration, profile);
+      options.tare = tareOf(chosen, profile, progress);
+    }
+    return formulaSeries(withComputedSeries(profile, options),
+                         formula,
+                         0.0,
+                         static_cast<double>(profile.durationUs()) / kUsPerS + 1.0,
+                         progress);
   });
   return arrayOf(series.values);
 }
@@ -237,11 +256,23 @@ void bindSignals(py::module_& module) {
              &derive,
              py::arg("profile"),
              py::arg("formula"),
-             "derive(profile, formula) -> array\n\n"
-             "A curve that a formula makes of signals, at every frame (T,): 'm1_sum - m3_sum', "
-             "'der(hand_sum)', 'abs(m5_x2_y9) / max(1, m5_max)'; angle3 [deg] and temperature4 "
-             "[deg C] are interpolated, t [s] is the time from the first frame. ValueError for a "
-             "text that is no formula, and for a signal that isn't there.");
+             py::kw_only(),
+             py::arg("calibration") = py::none(),
+             py::arg("sensitivity") = py::none(),
+             py::arg("threshold") = py::none(),
+             py::arg("tare") = false,
+             py::arg("drift") = true,
+             "derive(profile, formula, *, calibration=None, ..) -> array\n\n"
+             "The values of a formula, or of a single signal, at every frame: (T,). Signals have "
+             "the names that the command derive knows: 'm1_sum - m3_sum', 'der(hand_sum)', "
+             "'abs(m5_x2_y9) / max(1, m5_max)'; angle3 [deg] and temperature4 [deg C] are "
+             "interpolated, t [s] is the time from the first frame. 'm1_centroid_x_mm', "
+             "'hand_sphere_diameter_mm', 'm1_slip_mm' and others are computed from the frames; "
+             "'hand_force_n', 'm1_force_n' [N] and 'm1_pressure_kpa' [kPa] need a Calibration, and "
+             "are those of its apply() with the same sensitivity, threshold, tare and drift. NaN: "
+             "not known. spectrum(profile.time_s, derive(profile, 'm1_slip_mm')) is the spectrum "
+             "of such a signal. ValueError for a text that isn't a formula, and for a signal that "
+             "the recording doesn't have.");
   module.def("strongest_taxel",
              &strongest,
              py::arg("profile"),
