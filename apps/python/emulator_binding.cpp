@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -45,10 +46,9 @@ py::tuple synthesized(double duration,
   options.seed = seed;
   SyntheticTruth truth;
   Profile profile = unlocked([&](const Progress&) { return synthesize(options, &truth); });
-  py::list found;
-  for (const SyntheticGrasp& grasp : truth.grasps)
-    found.append(py::make_tuple(grasp.begin, grasp.end));
-  return py::make_tuple(std::move(profile), found);
+  return py::make_tuple(std::move(profile), listOf(truth.grasps, [](const SyntheticGrasp& grasp) {
+                          return py::make_tuple(grasp.begin, grasp.end);
+                        }));
 }
 
 Scene sceneOf(const py::object& scene) {
@@ -96,27 +96,23 @@ py::dict noisyContacts(std::uint64_t seed,
                                      .belowCounts = below,
                                      .contacts = contacts};
   const NoisyContacts made = unlocked([&](const Progress&) { return makeNoisyContacts(options); });
-  py::list list;
-  for (const NoisyContact& contact : made.contacts) {
+  py::dict result;
+  result["profile"] = made.profile;
+  for (const auto& [name, wanted] :
+       {std::pair("touched", CellTruth::kTouched), std::pair("nothing", CellTruth::kNothing)})
+    result[name] = grid<bool>(
+        made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
+          return made.truth[i][place] == wanted;
+        });
+  result["contacts"] = listOf(made.contacts, [](const NoisyContact& contact) {
     py::dict one;
     one["size"] = std::string(nameOf(contact.size));
     one["matrix"] = contact.matrix;
     one["begin"] = contact.begin;
     one["end"] = contact.end;
     one["peak_kpa"] = contact.peakKpa;
-    list.append(one);
-  }
-  py::dict result;
-  result["profile"] = made.profile;
-  result["touched"] = grid<bool>(
-      made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
-        return made.truth[i][place] == CellTruth::kTouched;
-      });
-  result["nothing"] = grid<bool>(
-      made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
-        return made.truth[i][place] == CellTruth::kNothing;
-      });
-  result["contacts"] = list;
+    return one;
+  });
   result["threshold_counts"] = made.thresholdCounts;
   return result;
 }

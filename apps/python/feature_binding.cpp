@@ -177,11 +177,7 @@ void bindTable(py::module_& module) {
           "float64 (grasps, features), finite.")
       .def_property_readonly(
           "classes",
-          [](const FeatureTable& table) {
-            std::vector<std::string> names;
-            for (const FeatureRow& row : table.rows) names.push_back(row.className);
-            return names;
-          },
+          [](const FeatureTable& table) { return membersOf(table.rows, &FeatureRow::className); },
           "Class of each grasp ('' where it isn't known): list of str.")
       .def_property_readonly(
           "files",

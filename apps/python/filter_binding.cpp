@@ -53,8 +53,13 @@ Profile filter(const Profile& profile,
 }
 
 py::dict describe(const FilterKind& kind) {
-  py::list options;
-  for (const FilterOption& option : kind.options) {
+  py::dict result;
+  result["name"] = kind.name;
+  result["title"] = kind.title;
+  result["domain"] = kind.domain == FilterDomain::kSpatial    ? "spatial"
+                     : kind.domain == FilterDomain::kTemporal ? "temporal"
+                                                              : "spatio-temporal";
+  result["options"] = listOf(kind.options, [](const FilterOption& option) {
     py::dict one;
     one["key"] = option.key;
     one["unit"] = option.unit;
@@ -67,26 +72,15 @@ py::dict describe(const FilterKind& kind) {
             : py::object(py::float_(option.defaultValue));
     one["choices"] = option.choices;
     one["purpose"] = option.purpose;
-    options.append(one);
-  }
-  py::dict result;
-  result["name"] = kind.name;
-  result["title"] = kind.title;
-  result["domain"] = kind.domain == FilterDomain::kSpatial    ? "spatial"
-                     : kind.domain == FilterDomain::kTemporal ? "temporal"
-                                                              : "spatio-temporal";
-  result["options"] = options;
+    return one;
+  });
   result["purpose"] = kind.purpose;
   result["border"] = kind.border;
   result["source"] = kind.source;
   return result;
 }
 
-py::list filters() {
-  py::list list;
-  for (const FilterKind& kind : filterKinds()) list.append(describe(kind));
-  return list;
-}
+py::list filters() { return listOf(filterKinds(), &describe); }
 
 py::dict recipes() {
   py::dict presets;
@@ -151,20 +145,18 @@ py::dict ghosts(const Profile& profile, const py::args& specs, double aboveCount
   const GhostingReport report = unlocked([&](const Progress& progress) {
     return measureGhosting(profile, recipe, {}, options, progress);
   });
-  py::list matrices;
-  for (const MatrixGhosting& matrix : report.matrices) {
+  py::dict result;
+  result["frames"] = report.frames;
+  result["frames_with_false"] = countsOf(report.framesWithFalse);
+  result["false_taxels"] = countsOf(report.total().falseTaxels);
+  result["matrices"] = listOf(report.matrices, [](const MatrixGhosting& matrix) {
     py::dict one;
     one["false_taxels"] = countsOf(matrix.falseTaxels);
     one["scattered"] = countsOf(matrix.scattered);
     one["frames_with_false"] = countsOf(matrix.framesWithFalse);
     one["frames_whole"] = countsOf(matrix.framesWhole);
-    matrices.append(one);
-  }
-  py::dict result;
-  result["frames"] = report.frames;
-  result["frames_with_false"] = countsOf(report.framesWithFalse);
-  result["false_taxels"] = countsOf(report.total().falseTaxels);
-  result["matrices"] = matrices;
+    return one;
+  });
   result["latency_frames"] = report.latencyFrames;
   return result;
 }

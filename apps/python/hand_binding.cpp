@@ -31,17 +31,6 @@ HandDescription handGiven(const py::object& given) {
 
 namespace {
 
-using FloatValues = py::array_t<float, py::array::c_style | py::array::forcecast>;
-
-FloatValues floatValuesOf(const py::handle& given, const std::string& name) {
-  const auto array = FloatValues::ensure(given);
-  if (!array) {
-    PyErr_Clear();
-    throw py::type_error(name + " takes numbers");
-  }
-  return array;
-}
-
 py::list matricesOf(const HandDescription& hand) {
   py::list list;
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m) {
@@ -62,22 +51,14 @@ py::list matricesOf(const HandDescription& hand) {
 }
 
 py::list axesOf(const HandDescription& hand) {
-  py::list list;
-  for (const AxisDescription& axis : hand.axes) {
+  return listOf(hand.axes, [](const AxisDescription& axis) {
     py::dict one;
     one["name"] = axis.name;
     one["unit"] = axis.unit();
     one["minimum"] = axis.minimumDeg;
     one["maximum"] = axis.maximumDeg;
-    list.append(one);
-  }
-  return list;
-}
-
-py::list temperatureSensorsOf(const HandDescription& hand) {
-  py::list list;
-  for (const auto& sensor : hand.temperatureSensors) list.append(sensor.name);
-  return list;
+    return one;
+  });
 }
 
 py::dict knownHands() {
@@ -90,13 +71,13 @@ py::dict knownHands() {
 // or a list of an array (T, rows, columns) per matrix.
 struct FrameRows {
   std::size_t count = 0;
-  std::vector<FloatValues> parts;
+  std::vector<Floats> parts;
 };
 
 FrameRows frameRowsOf(const py::object& frames, const HandDescription& hand) {
   FrameRows rows;
   const bool several = py::isinstance<py::list>(frames) || py::isinstance<py::tuple>(frames);
-  const auto isMatrix = [&](const FloatValues& part, std::size_t m) {
+  const auto isMatrix = [&](const Floats& part, std::size_t m) {
     return part.ndim() == 3 && part.shape(1) == hand.layout->matrix(m).rows &&
            part.shape(2) == hand.layout->matrix(m).columns;
   };
@@ -104,7 +85,7 @@ FrameRows frameRowsOf(const py::object& frames, const HandDescription& hand) {
   if (several && py::len(frames) == matrices && matrices > 0 &&
       py::hasattr(frames[py::int_(0)], "shape")) {
     for (std::size_t m = 0; m < matrices; ++m) {
-      rows.parts.push_back(floatValuesOf(frames[py::int_(m)], "frames"));
+      rows.parts.push_back(ensured<Floats>(frames[py::int_(m)], "frames"));
       if (!isMatrix(rows.parts.back(), m))
         throw py::value_error("frames[" + std::to_string(m) + "] has shape " +
                               shapeText(rows.parts.back()) + "; it takes (T, " +
@@ -112,8 +93,8 @@ FrameRows frameRowsOf(const py::object& frames, const HandDescription& hand) {
                               std::to_string(hand.layout->matrix(m).columns) + ")");
     }
   } else {
-    rows.parts.push_back(floatValuesOf(frames, "frames"));
-    const FloatValues& part = rows.parts.back();
+    rows.parts.push_back(ensured<Floats>(frames, "frames"));
+    const Floats& part = rows.parts.back();
     const bool whole = matrices == 1 && isMatrix(part, 0);
     if (!whole && part.ndim() != 2)
       throw py::value_error("frames has shape " + shapeText(part) + "; it takes (T, " +
@@ -121,7 +102,7 @@ FrameRows frameRowsOf(const py::object& frames, const HandDescription& hand) {
                             "), or a list with an array (T, rows, columns) per matrix");
   }
   rows.count = static_cast<std::size_t>(rows.parts.front().shape(0));
-  for (const FloatValues& part : rows.parts)
+  for (const Floats& part : rows.parts)
     if (static_cast<std::size_t>(part.shape(0)) != rows.count)
       throw py::value_error("the matrices have different numbers of frames");
   return rows;
@@ -184,7 +165,7 @@ Profile record(const py::object& frames,
   std::vector<float> values(shape.numPlaces());
   for (std::size_t i = 0; i < rows.count; ++i) {
     std::size_t width = 0;
-    for (const FloatValues& part : rows.parts) {
+    for (const Floats& part : rows.parts) {
       const std::size_t of = static_cast<std::size_t>(part.size()) / rows.count;
       if (width + of <= values.size()) std::copy_n(part.data() + i * of, of, values.data() + width);
       width += of;
@@ -234,7 +215,11 @@ void bindHands(py::module_& module) {
       .def_property_readonly(
           "axes", &axesOf, "Its joints: list of dicts name, unit (deg, mm), minimum, maximum.")
       .def_property_readonly(
-          "temperature_sensors", &temperatureSensorsOf, "Names of its temperature sensors.")
+          "temperature_sensors",
+          [](const HandDescription& hand) {
+            return membersOf(hand.temperatureSensors, &TemperatureSensorDescription::name);
+          },
+          "Names of its temperature sensors.")
       .def_property_readonly(
           "has_geometry",
           [](const HandDescription& hand) { return hasGeometry(hand); },

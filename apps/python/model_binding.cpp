@@ -102,7 +102,9 @@ TrainedModel adapted(const TrainedModel& model, const py::object& source) {
   });
 }
 
-void bindModel(py::module_& module) {
+}  // namespace
+
+void bindModels(py::module_& module) {
   py::class_<TrainedModel>(
       module,
       "Model",
@@ -207,16 +209,8 @@ void bindModel(py::module_& module) {
           "What it was made with: dict.")
       .def_property_readonly(
           "inputs",
-          [](const TrainedModel& m) {
-            std::vector<std::string> files;
-            for (const ModelInput& input : m.inputs) files.push_back(input.file);
-            return files;
-          },
+          [](const TrainedModel& m) { return membersOf(m.inputs, &ModelInput::file); },
           "Recordings it learnt from: list of str.");
 }
-
-}  // namespace
-
-void bindModels(py::module_& module) { bindModel(module); }
 
 }  // namespace palpate::python

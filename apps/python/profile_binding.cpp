@@ -26,36 +26,43 @@ namespace {
 
 using Stop = std::optional<std::int64_t>;
 
-FloatArray frames(const Profile& profile, std::int64_t start, Stop stop) {
+// `shape` of each of the frames start..stop: what begin(frame) points to.
+template <typename Begin>
+FloatArray copied(const Profile& profile,
+                  std::int64_t start,
+                  Stop stop,
+                  std::vector<std::size_t> shape,
+                  const Begin& begin) {
   const auto [first, last] = sliceOf(start, stop, profile.numFrames());
-  FloatArray array({last - first, profile.layout().numCells()});
+  std::size_t count = 1;
+  for (const std::size_t side : shape) count *= side;
+  shape.insert(shape.begin(), last - first);
+  FloatArray array(shape);
   float* out = array.mutable_data();
   const py::gil_scoped_release unlocked;
   TactileFrame frame;
   for (std::size_t i = first; i < last; ++i) {
     profile.readFrame(i, frame);
-    out = std::copy(frame.allValues().begin(), frame.allValues().end(), out);
+    out = std::copy_n(begin(frame.allValues().data()), count, out);
   }
   return array;
+}
+
+FloatArray frames(const Profile& profile, std::int64_t start, Stop stop) {
+  return copied(profile, start, stop, {profile.layout().numCells()}, [](const float* values) {
+    return values;
+  });
 }
 
 FloatArray matrix(const Profile& profile, std::int64_t index, std::int64_t start, Stop stop) {
   const SensorLayout& layout = profile.layout();
   const std::size_t m = checkedIndex("matrix", index, layout.numMatrices());
-  const auto [first, last] = sliceOf(start, stop, profile.numFrames());
   const MatrixLayout& shape = layout.matrix(m);
-  FloatArray array({last - first,
-                    static_cast<std::size_t>(shape.rows),
-                    static_cast<std::size_t>(shape.columns)});
-  float* out = array.mutable_data();
-  const py::gil_scoped_release unlocked;
-  TactileFrame frame;
-  for (std::size_t i = first; i < last; ++i) {
-    profile.readFrame(i, frame);
-    const float* values = frame.allValues().data() + layout.offset(m);
-    out = std::copy(values, values + shape.numCells(), out);
-  }
-  return array;
+  return copied(profile,
+                start,
+                stop,
+                {static_cast<std::size_t>(shape.rows), static_cast<std::size_t>(shape.columns)},
+                [&](const float* values) { return values + layout.offset(m); });
 }
 
 FloatArray taxel(const Profile& profile,
@@ -66,21 +73,11 @@ FloatArray taxel(const Profile& profile,
                  Stop stop) {
   const SensorLayout& layout = profile.layout();
   const std::size_t m = checkedIndex("matrix", index, layout.numMatrices());
-  const MatrixLayout& shape = layout.matrix(m);
-  const std::size_t column = checkedIndex("column", x, static_cast<std::size_t>(shape.columns)),
-                    row = checkedIndex("row", y, static_cast<std::size_t>(shape.rows));
-  const auto [first, last] = sliceOf(start, stop, profile.numFrames());
-  FloatArray array(static_cast<py::ssize_t>(last - first));
-  float* out = array.mutable_data();
-  const std::size_t place =
-      layout.offset(m) + row * static_cast<std::size_t>(shape.columns) + column;
-  const py::gil_scoped_release unlocked;
-  TactileFrame frame;
-  for (std::size_t i = first; i < last; ++i) {
-    profile.readFrame(i, frame);
-    *out++ = frame.allValues()[place];
-  }
-  return array;
+  const auto columns = static_cast<std::size_t>(layout.matrix(m).columns),
+             rows = static_cast<std::size_t>(layout.matrix(m).rows);
+  const std::size_t column = checkedIndex("column", x, columns), row = checkedIndex("row", y, rows);
+  const std::size_t place = layout.offset(m) + row * columns + column;
+  return copied(profile, start, stop, {}, [&](const float* values) { return values + place; });
 }
 
 // Host times divided by `unitUs`.
@@ -162,12 +159,6 @@ py::object deviceTimes(const SeriesOfProfile& series) {
   return any ? py::object(times) : py::none();
 }
 
-std::vector<std::string> textsOf(const SeriesOfProfile& series, std::string Column::*text) {
-  std::vector<std::string> texts;
-  for (const Column& column : series.description().columns) texts.push_back(column.*text);
-  return texts;
-}
-
 py::list matrices(const Profile& profile) {
   py::list list;
   for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m) {
@@ -196,13 +187,12 @@ py::list matrices(const Profile& profile) {
 
 py::dict timing(const Profile& profile) {
   const TimingReport report = timingOf(profile);
-  py::list gaps;
-  for (const Gap& gap : report.gaps) gaps.append(py::make_tuple(gap.frame, gap.seconds));
   py::dict result;
   result["duration_s"] = report.durationS;
   result["rate_hz"] = report.rateHz;
   result["mean_rate_hz"] = report.meanRateHz;
-  result["gaps"] = gaps;
+  result["gaps"] =
+      listOf(report.gaps, [](const Gap& gap) { return py::make_tuple(gap.frame, gap.seconds); });
   return result;
 }
 
@@ -407,11 +397,15 @@ void bindSeries(py::module_& module) {
           "The samples: float64 (n, columns); NaN where a value is not known.")
       .def_property_readonly(
           "columns",
-          [](const SeriesOfProfile& s) { return textsOf(s, &Column::name); },
+          [](const SeriesOfProfile& s) {
+            return membersOf(s.description().columns, &Column::name);
+          },
           "Names of the columns: list of str.")
       .def_property_readonly(
           "units",
-          [](const SeriesOfProfile& s) { return textsOf(s, &Column::unit); },
+          [](const SeriesOfProfile& s) {
+            return membersOf(s.description().columns, &Column::unit);
+          },
           "Units of the columns, '' where none is known: list of str.")
       .def_property_readonly(
           "role",
@@ -454,18 +448,12 @@ void bindProfile(py::module_& module) {
                              "static_mask, dynamic_mask (bool (rows, columns)).")
       .def_property_readonly(
           "axes",
-          [](const Profile& p) {
-            std::vector<std::string> names;
-            for (const AxisDescription& axis : p.hand().axes) names.push_back(axis.name);
-            return names;
-          },
+          [](const Profile& p) { return membersOf(p.hand().axes, &AxisDescription::name); },
           "Names of the joints, in the order of `angles`.")
       .def_property_readonly(
           "temperature_sensors",
           [](const Profile& p) {
-            std::vector<std::string> names;
-            for (const auto& sensor : p.hand().temperatureSensors) names.push_back(sensor.name);
-            return names;
+            return membersOf(p.hand().temperatureSensors, &TemperatureSensorDescription::name);
           },
           "Names of the sensors, in the order of `temperatures`.")
       .def_property_readonly(

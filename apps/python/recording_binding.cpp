@@ -22,8 +22,7 @@ namespace palpate::python {
 namespace py = pybind11;
 
 py::list toPython(const std::vector<Event>& events) {
-  py::list list;
-  for (const Event& event : events) {
+  return listOf(events, [](const Event& event) {
     py::dict one;
     one["t_us"] = event.tUs;
     one["t1_us"] = event.t1Us;
@@ -31,9 +30,8 @@ py::list toPython(const std::vector<Event>& events) {
     one["matrix"] = event.matrix;
     one["text"] = event.text;
     one["json"] = event.json;
-    list.append(one);
-  }
-  return list;
+    return one;
+  });
 }
 
 std::vector<Event> eventsFrom(const py::object& events) {
@@ -112,19 +110,16 @@ py::dict details(const fs::path& path) {
   result["run"] = found.run;
   result["notes"] = found.notes;
   result["labels"] = found.labels;
-  py::list series;
-  for (const SeriesDetails& each : found.series) {
+  result["series"] = listOf(found.series, [](const SeriesDetails& each) {
     py::dict entry;
     entry["name"] = each.name;
     entry["samples"] = each.samples;
     entry["rate_hz"] = each.rateHz;
-    py::list columns;
-    for (const Column& column : each.columns)
-      columns.append(py::make_tuple(column.name, column.unit));
-    entry["columns"] = std::move(columns);
-    series.append(std::move(entry));
-  }
-  result["series"] = std::move(series);
+    entry["columns"] = listOf(each.columns, [](const Column& column) {
+      return py::make_tuple(column.name, column.unit);
+    });
+    return entry;
+  });
   return result;
 }
 

@@ -112,17 +112,15 @@ py::dict spectrum(const Numbers& timeS,
   result["magnitude"] = table(found.magnitude);
   result["mean_psd"] = arrayOf(found.mean.psd);
   result["mean_magnitude"] = arrayOf(found.mean.magnitude);
-  py::list peaks;
-  for (const SpectralPeak& peak : spectralPeaks(found.mean)) {
+  result["peaks"] = listOf(spectralPeaks(found.mean), [](const SpectralPeak& peak) {
     py::dict one;
     one["frequency_hz"] = peak.frequencyHz;
     one["psd"] = peak.psd;
     one["amplitude"] = peak.amplitude;
     one["width_hz"] = peak.widthHz;
     one["prominence_db"] = peak.prominenceDb;
-    peaks.append(one);
-  }
-  result["peaks"] = peaks;
+    return one;
+  });
   result["strongest_hz"] = found.mean.strongestHz();
   result["rate_hz"] = found.report.rateHz;
   result["nyquist_hz"] = found.report.nyquistHz;

@@ -44,12 +44,7 @@ SlipRowsOptions slipOptionsOf(const Profile& profile,
   if (matrix)
     options.matrix =
         static_cast<std::int64_t>(checkedIndex("matrix", *matrix, profile.layout().numMatrices()));
-  if (!slipMethodNamed(method)) {
-    std::string known;
-    for (const SlipMethod each : slipMethods())
-      known += (known.empty() ? "" : ", ") + std::string(nameOf(each));
-    throw py::value_error("method is '" + method + "'; it is one of " + known);
-  }
+  named("method", method, slipMethods(), [](SlipMethod each) { return nameOf(each); });
   setSlipMethod(options, method);
   SlipDetectorOptions& detector = options.pass.detector;
   detector.rule.stepTaxels = step;
@@ -128,11 +123,7 @@ py::dict momentsOf(const Numbers& values) {
 }
 
 SlipShape shapeNamed(const std::string& name) {
-  if (const auto shape = slipShapeNamed(name)) return *shape;
-  std::string known;
-  for (const SlipShape each : slipShapes())
-    known += (known.empty() ? "" : ", ") + std::string(nameOf(each));
-  throw py::value_error("shape is '" + name + "'; it is one of " + known);
+  return named("shape", name, slipShapes(), [](SlipShape each) { return nameOf(each); });
 }
 
 py::dict slipBenchmark(double noise,
@@ -207,17 +198,21 @@ FloatArray syntheticContact(const Numbers& x,
 
 void bindSlip(py::module_& module) {
   const SlipRuleOptions rule;
-  module.def(
-      "slip",
+  const auto def = [&](const char* name, auto function, const char* meaning) {
+    module.def(name,
+               function,
+               py::arg("profile"),
+               py::arg("matrix") = py::none(),
+               py::arg("method") = nameOf(SlipDetectorOptions{}.method),
+               py::kw_only(),
+               py::arg("reference") = "first",
+               py::arg("step") = rule.stepTaxels,
+               py::arg("limit") = rule.referenceTaxels,
+               py::arg("rotation") = rule.rotationDeg,
+               meaning);
+  };
+  def("slip",
       &slipRows<false>,
-      py::arg("profile"),
-      py::arg("matrix") = py::none(),
-      py::arg("method") = nameOf(SlipDetectorOptions{}.method),
-      py::kw_only(),
-      py::arg("reference") = "first",
-      py::arg("step") = rule.stepTaxels,
-      py::arg("limit") = rule.referenceTaxels,
-      py::arg("rotation") = rule.rotationDeg,
       "How contacts move over a matrix (None: over all), and whether that is slip: dict of "
       "columns, a row per frame and matrix that is touched. Taxels (x right, y down) and deg "
       "(from x towards y).\n\n"
@@ -230,19 +225,11 @@ void bindSlip(py::module_& module) {
       "'phase', 'phase-normalized'. reference: 'first' (first frame with an active taxel), "
       "'rest' (each contact when it rests), or a frame. step, limit [taxels], rotation [deg]: "
       "thresholds per frame, since the reference, and of turning.");
-  module.def("slip_segments",
-             &slipRows<true>,
-             py::arg("profile"),
-             py::arg("matrix") = py::none(),
-             py::arg("method") = nameOf(SlipDetectorOptions{}.method),
-             py::kw_only(),
-             py::arg("reference") = "first",
-             py::arg("step") = rule.stepTaxels,
-             py::arg("limit") = rule.referenceTaxels,
-             py::arg("rotation") = rule.rotationDeg,
-             "Where it slips: dict of columns, a row per slip: begin, end (frames, both "
-             "inclusive), begin_ms, end_ms [ms since 1970], matrix, path_taxels, rotation_deg, "
-             "confidence (0..1). Arguments as of slip().");
+  def("slip_segments",
+      &slipRows<true>,
+      "Where it slips: dict of columns, a row per slip: begin, end (frames, both "
+      "inclusive), begin_ms, end_ms [ms since 1970], matrix, path_taxels, rotation_deg, "
+      "confidence (0..1). Arguments as of slip().");
   module.def("contact_moments",
              &momentsOf,
              py::arg("values"),

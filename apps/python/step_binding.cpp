@@ -1,5 +1,4 @@
 // Binds palpate.fit_step(), step_response() and calibrate_step().
-#include <stdexcept>
 #include <string>
 
 #include <pybind11/stl.h>
@@ -103,14 +102,6 @@ DoubleArray response(const Numbers& t,
                         [&](std::size_t i) { return stepResponse(parameters, times[i]); });
 }
 
-SignalKind signalNamed(const std::string& name) {
-  if (const auto kind = signalKindNamed(name)) return *kind;
-  std::string known;
-  for (const SignalKind kind : kAllSignalKinds)
-    known += (known.empty() ? "" : ", ") + std::string(signalName(kind));
-  throw std::invalid_argument("signal is '" + name + "'; it is one of " + known);
-}
-
 py::object calibrateStep(const Profile& profile,
                          std::int64_t matrix,
                          const std::string& signal,
@@ -120,7 +111,7 @@ py::object calibrateStep(const Profile& profile,
                          double least) {
   const std::size_t m = checkedIndex("matrix", matrix, profile.layout().numMatrices());
   StepReportOptions options;
-  options.steps.signal = signalNamed(signal);
+  options.steps.signal = named("signal", signal, kAllSignalKinds, signalName);
   options.steps.aboveCounts = above;
   options.steps.minDurationS = least;
   options.fit = fitOptions(loss, damping);
