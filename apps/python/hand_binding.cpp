@@ -115,7 +115,8 @@ std::vector<std::int64_t> recordTimesUs(const py::object& timeMs,
     throw py::value_error("give either time_ms or rate, the frames per second");
   std::vector<std::int64_t> us;
   if (rate) {
-    if (!(*rate > 0.0 && *rate <= 1e6)) throw py::value_error("rate is not in 0 .. 1000000 Hz");
+    if (!(*rate > 0.0 && *rate <= 1e6))
+      throw py::value_error("rate must be above 0 and at most 1000000 Hz");
     for (std::size_t i = 0; i < count; ++i)
       us.push_back(std::llround(static_cast<double>(i) * kUsPerS / *rate));
     return us;
@@ -125,7 +126,7 @@ std::vector<std::int64_t> recordTimesUs(const py::object& timeMs,
     throw py::value_error("time_ms has " + std::to_string(ms.size()) + " times, frames " +
                           std::to_string(count));
   for (const double one : ms) {
-    if (!(std::abs(one) < 1e15)) throw py::value_error("time_ms holds what is not a time");
+    if (!(std::abs(one) < 1e15)) throw py::value_error("time_ms has a value that is not a time");
     us.push_back(std::llround(one * kUsPerMs));
   }
   return us;
@@ -193,20 +194,19 @@ Profile record(const py::object& frames,
 }  // namespace
 
 void bindHands(py::module_& module) {
-  py::class_<HandDescription>(module, "Hand", "A hand as its description says: hand.json.")
+  py::class_<HandDescription>(module, "Hand", "A hand, as hand.json describes it.")
       .def(py::init([](const py::object& name) { return handGiven(name); }),
            py::arg("name"),
-           "A hand by its name (hands() lists those that are built in) or its folder. ValueError "
-           "says what is wrong in its files, Error lists what is known.")
+           "A hand by its name (hands() lists the built-in ones) or its folder. ValueError says "
+           "what is wrong in its files; Error, for an unknown name, lists the known ones.")
       .def_readonly("name", &HandDescription::name, "Name of the hand.")
-      .def_readonly("maker", &HandDescription::maker, "Who makes it; may be empty.")
+      .def_readonly("maker", &HandDescription::maker, "Its manufacturer; may be empty.")
       .def_readonly("unit", &HandDescription::unit, "Unit of the taxels' values.")
       .def_readonly(
           "full_scale", &HandDescription::maximumCounts, "Largest value of a taxel of any matrix.")
       .def_readonly("saturation",
                     &HandDescription::saturationCounts,
-                    "From this value on a taxel is saturated, unless its matrix "
-                    "says otherwise.")
+                    "Value from which a taxel is saturated, unless its matrix has another one.")
       .def_property_readonly("matrices",
                              &matricesOf,
                              "Its matrices: list of dicts index, name, finger, rows, columns, "
@@ -223,17 +223,17 @@ void bindHands(py::module_& module) {
       .def_property_readonly(
           "has_geometry",
           [](const HandDescription& hand) { return hasGeometry(hand); },
-          "Whether its description says where its taxels are in space.")
+          "Whether its description has the positions of its taxels in space.")
       .def_property_readonly(
           "pinches",
           [](const HandDescription& hand) { return pinchHandOf(hand) != nullptr; },
-          "Whether two of its pads pinch, which the features 'best' need.")
+          "Whether two of its pads pinch; the features 'best' need that.")
       .def("__repr__", [](const HandDescription& hand) {
         return "<palpate.Hand '" + hand.name + "', " + std::to_string(hand.layout->numMatrices()) +
                (hand.layout->numMatrices() == 1 ? " matrix, " : " matrices, ") +
                std::to_string(hand.layout->numTaxels()) + " taxels>";
       });
-  module.def("hands", &knownHands, "The hands that are built in: dict name -> title for people.");
+  module.def("hands", &knownHands, "The built-in hands: dict name -> title.");
   module.def("record",
              &record,
              py::arg("frames"),
@@ -244,12 +244,12 @@ void bindHands(py::module_& module) {
              py::arg("angles") = py::none(),
              py::arg("temperatures") = py::none(),
              py::arg("serial") = "",
-             "A profile of any hand from arrays: frames (T, places) or (T, taxels) in the order of "
-             "the hand's description, (T, rows, columns) of a single matrix, or a list with an "
-             "array (T, rows, columns) per matrix; values from 0 to its full scale. hand: a Hand, "
-             "its name or folder. time_ms (T,) [ms since 1970], ascending, or rate [Hz] from 0 on; "
-             "angles (T, axes) [deg; mm], temperatures (T, sensors) [deg C] of the same times. "
-             "Profile.save() writes it. ValueError says which value doesn't fit.");
+             "Makes a profile of any hand from arrays: frames (T, places) or (T, taxels) in the "
+             "order of the hand's description, (T, rows, columns) of a single matrix, or a list "
+             "with an array (T, rows, columns) per matrix; values from 0 to its full scale. hand: "
+             "a Hand, its name or folder. time_ms (T,) [ms since 1970], ascending, or rate [Hz], "
+             "from time 0; angles (T, axes) [deg; mm], temperatures (T, sensors) [deg C] of the "
+             "same times. Profile.save() writes it. ValueError says which value doesn't fit.");
 }
 
 }  // namespace palpate::python

@@ -214,8 +214,9 @@ Profile sliced(const Profile& profile, const py::slice& slice) {
   if (!slice.compute(static_cast<py::ssize_t>(profile.numFrames()), &first, &stop, &step, &length))
     throw py::error_already_set();
   if (step != 1)
-    throw py::value_error("a profile has no steps: take frames()[::step], or slice without one");
-  if (length == 0) throw py::value_error("there are no frames in this slice");
+    throw py::value_error(
+        "a slice of a profile has no step: use frames()[::step], or leave the step out");
+  if (length == 0) throw py::value_error("the slice has no frames");
   return crop(profile, first, first + length - 1);
 }
 
@@ -266,8 +267,8 @@ void bindValues(ProfileClass& profile) {
       .def("__getitem__",
            &sliced,
            py::arg("frames"),
-           "profile[10:20]: these frames as a profile of its own, as crop(). ValueError for a step "
-           "or without frames.")
+           "profile[10:20]: these frames as a separate profile, as crop(). ValueError for a slice "
+           "with a step or without frames.")
       .def(
           "__iter__",
           [](const Profile& p) { return FrameIterator{p}; },
@@ -281,7 +282,7 @@ void bindValues(ProfileClass& profile) {
            py::arg("start") = 0,
            py::arg("stop") = py::none(),
            "All taxels of the frames start..stop (exclusive): float32 (T, places), matrix after "
-           "matrix, row by row (SDH-2: 486 places); counts, or what a filter made of them.")
+           "matrix, row by row (SDH-2: 486 places); counts, or filtered values.")
       .def("matrix",
            &matrix,
            py::arg("m"),
@@ -339,7 +340,7 @@ void bindTimes(ProfileClass& profile) {
       .def_property_readonly(
           "time_us",
           [](const Profile& p) { return frameTimes(p, 1); },
-          "The same, as exactly as it is known [us since 1970]: int64 (T,).")
+          "The same with the full resolution [us since 1970]: int64 (T,).")
       .def_property_readonly(
           "time_s", &secondsOf, "Time of each frame from the first one [s]: float64 (T,).")
       .def_property_readonly(
@@ -350,11 +351,11 @@ void bindTimes(ProfileClass& profile) {
           "temperature_time_ms",
           [](const Profile& p) { return sampleTimes(p, kTemperatureSeries, kUsPerMs); },
           "Host time of each sample of the temperatures [ms since 1970]: int64 (n,).")
-      .def(
-          "fitted_times",
-          &atFittedTimes,
-          "The same recording at the times of the senders' clocks, fitted to the times of arrival: "
-          "frames and each series by their own. ValueError without usable times of a sender.")
+      .def("fitted_times",
+           &atFittedTimes,
+           "The same recording with the times of the senders' clocks, fitted to the times of "
+           "arrival, separately for frames and each series. ValueError without usable times of a "
+           "sender.")
       .def("timing",
            &timing,
            "dict duration_s [s], rate_hz (from the median interval) and mean_rate_hz [Hz] (0 with "
@@ -371,10 +372,10 @@ void bindTimes(ProfileClass& profile) {
 }
 
 void bindSeries(py::module_& module) {
-  py::class_<SeriesOfProfile>(module,
-                              "Series",
-                              "Rows of numbers with stamps of their own beside the frames of a "
-                              "recording: from Profile.series.")
+  py::class_<SeriesOfProfile>(
+      module,
+      "Series",
+      "Rows of numbers with their times, recorded together with frames: from Profile.series.")
       .def("__len__", [](const SeriesOfProfile& s) { return s.profile.numSamples(s.index); })
       .def("__repr__",
            [](const SeriesOfProfile& s) {
@@ -410,12 +411,12 @@ void bindSeries(py::module_& module) {
       .def_property_readonly(
           "role",
           [](const SeriesOfProfile& s) { return s.description().role; },
-          "What it means to Palpate: 'joint_angles', 'temperatures', 'reference_force', 'trigger', "
-          "or ''.")
+          "Its role in Palpate: 'joint_angles', 'temperatures', 'reference_force', 'trigger', or "
+          "''.")
       .def_property_readonly(
           "source",
           [](const SeriesOfProfile& s) { return s.description().source; },
-          "Where it comes from, for people to read; or ''.");
+          "Where it comes from, as text; or ''.");
 }
 
 }  // namespace
@@ -432,20 +433,18 @@ void bindProfile(py::module_& module) {
       module,
       "Profile",
       "The data of one recording: frames of taxels and any number of series (joint angles, "
-      "temperatures, a load cell, ..), each with its own stamps. Read-only; several threads may "
-      "read one. "
-      "Arrays have memory of their own: they stay valid after the profile is deleted, and changing "
-      "one "
+      "temperatures, a load cell, ..), each with its own times. Read-only; several threads may "
+      "read one. Arrays are copies: they stay valid after the profile is deleted, and changing one "
       "changes nothing else. From load(), from_arrays(), filter(), synthesize() ..");
   bindValues(profile);
   bindTimes(profile);
   profile
-      .def_property_readonly("matrices",
-                             &matrices,
-                             "The matrices in wire order: list of dicts index, name, rows, "
-                             "columns, pitch_mm [mm] (a list [x, y] where the two differ), "
-                             "taxels, enabled (numbers of taxels that exist, that are scanned), "
-                             "static_mask, dynamic_mask (bool (rows, columns)).")
+      .def_property_readonly(
+          "matrices",
+          &matrices,
+          "The matrices in wire order: list of dicts index, name, rows, columns, pitch_mm [mm] (a "
+          "list [x, y] where the two differ), taxels (how many exist), enabled (how many are "
+          "scanned), static_mask, dynamic_mask (bool (rows, columns)).")
       .def_property_readonly(
           "axes",
           [](const Profile& p) { return membersOf(p.hand().axes, &AxisDescription::name); },
@@ -471,11 +470,13 @@ void bindProfile(py::module_& module) {
           },
           "'counts' (whole numbers) or 'float' (filtered).")
       .def_property_readonly(
-          "serial", [](const Profile& p) { return p.info().serial; }, "Of the tactile controller.")
+          "serial",
+          [](const Profile& p) { return p.info().serial; },
+          "Serial number of the tactile controller.")
       .def_property_readonly(
           "firmware",
           [](const Profile& p) { return p.info().firmware; },
-          "What wrote it, as it says itself.")
+          "Firmware of the tactile controller; in a .dsa the program that wrote it.")
       .def_property_readonly(
           "warnings",
           [](const Profile& p) { return p.info().warnings; },
@@ -485,15 +486,15 @@ void bindProfile(py::module_& module) {
            py::arg("begin"),
            py::arg("end"),
            "Frames begin..end, both inclusive, with the angles and temperatures that belong to "
-           "them, as a profile of its own. IndexError for a frame that isn't there.")
+           "them, as a separate profile. IndexError for a frame that doesn't exist.")
       .def("save",
            &save,
            py::arg("path"),
            py::kw_only(),
            py::arg("events") = py::list(),
            py::arg("force") = false,
-           "Saves it in the form of the path's ending: .dsa, .palpate, .csv or .npz, with events "
-           "as events() gives them. OSError when the file exists (unless force) or can't be "
+           "Saves it in the format of the path's ending: .dsa, .palpate, .csv or .npz, with events "
+           "as events() returns them. OSError when the file exists (unless force) or can't be "
            "written.");
 }
 
