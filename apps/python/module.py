@@ -180,7 +180,8 @@ def _program():
         if place.is_file():
             return str(place)
     missing = " or ".join(map(str, places))
-    raise Error(f"render() needs the program palpate, which isn't at {missing}: build or install it")
+    raise Error(f"render() needs the program palpate, which isn't at {missing}: "
+                "build or install it")
 
 
 def render(path, out, **options) -> None:
