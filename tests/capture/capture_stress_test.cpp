@@ -107,7 +107,7 @@ TEST(CaptureStress, everyFrameOfALongRunIsRecordedAndNothingGrows) {
   const TemporaryFolder folder;
   CaptureOptions options;
   options.recorder.queue.blockWhenFull = true;  // as fast as the disk takes it
-  options.recorder.queue.tactileItems = 256;    // a queue that fills late is not memory that grows
+  options.recorder.queue.tactileItems = 256;  // a queue that fills late is not memory that grows
   options.recorder.queue.motionItems = 256;
   auto owned = std::make_unique<EagerDevice>(frames);
   EagerDevice& device = *owned;
