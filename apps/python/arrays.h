@@ -26,8 +26,17 @@ using FloatArray = pybind11::array_t<float, pybind11::array::c_style>;
 using TimeArray = pybind11::array_t<std::int64_t, pybind11::array::c_style>;
 using FlagArray = pybind11::array_t<bool, pybind11::array::c_style>;
 // For arguments: any array or list of numbers.
+using Floats = pybind11::array_t<float, pybind11::array::c_style | pybind11::array::forcecast>;
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
+// What was given as an array; raises TypeError that names the argument.
+template <typename Array>
+Array ensured(const pybind11::handle& given, const char* name) {
+  const auto array = Array::ensure(given);
+  if (array) return array;
+  PyErr_Clear();
+  throw pybind11::type_error(std::string(name) + " takes numbers");
+}
 // These functions raise ValueError that names the argument and the required shape.
 std::vector<double> vectorOf(const Numbers& array, const char* name);
 // Shape (rows, columns).
@@ -61,6 +70,20 @@ pybind11::array_t<T> grid(std::size_t rows, std::size_t columns, const Of& of) {
     for (std::size_t j = 0; j < columns; ++j) *out++ = static_cast<T>(of(i, j));
   return array;
 }
+// A list of of(each).
+template <typename All, typename Of>
+pybind11::list listOf(const All& all, const Of& of) {
+  pybind11::list list;
+  for (const auto& each : all) list.append(of(each));
+  return list;
+}
+// The member `of` of each: names, mostly.
+template <typename T, typename Member>
+std::vector<Member> membersOf(const std::vector<T>& all, Member T::*of) {
+  std::vector<Member> members;
+  for (const T& each : all) members.push_back(each.*of);
+  return members;
+}
 // An array of texts: names[codes[i]].
 pybind11::object words(const std::vector<std::string>& names, const std::vector<int>& codes);
 
@@ -76,15 +99,20 @@ pybind11::object toPython(const Json& json);
 // Converts the value to JSON; raises TypeError for types that JSON does not have.
 Json toJson(const pybind11::object& value);
 
-// The value that belongs to a word; raises ValueError that lists the known words.
+// The value of `all` whose name is `word`; raises ValueError that lists the names.
+template <typename All, typename NameOf>
+auto named(const char* argument, const std::string& word, const All& all, const NameOf& nameOf) {
+  std::string list;
+  for (const auto& each : all) {
+    const std::string name(nameOf(each));
+    if (word == name) return each;
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  throw std::invalid_argument(std::string(argument) + " is '" + word + "'; it is one of " + list);
+}
 template <typename T>
 T choice(const char* name, const std::string& word, std::span<const OptionWord<T>> known) {
-  std::string list;
-  for (const auto& [text, value] : known) {
-    if (word == text) return value;
-    list += (list.empty() ? "" : ", ") + std::string(text);
-  }
-  throw std::invalid_argument(std::string(name) + " is '" + word + "'; it is one of " + list);
+  return named(name, word, known, [](const OptionWord<T>& each) { return each.first; }).second;
 }
 template <typename T>
 T choice(const char* name, const std::string& word, std::initializer_list<OptionWord<T>> known) {

@@ -18,7 +18,6 @@ namespace py = pybind11;
 namespace {
 
 using Times = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-using Values = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
 std::vector<std::int64_t> timesUsOf(const py::object& given, const char* name) {
   const auto any = py::array::ensure(given);
@@ -43,19 +42,10 @@ std::vector<std::int64_t> timesUsOf(const py::object& given, const char* name) {
   return us;
 }
 
-Values taxelValuesOf(const py::handle& given, const char* name) {
-  const auto array = Values::ensure(given);
-  if (!array) {
-    PyErr_Clear();
-    throw py::type_error(std::string(name) + " takes numbers");
-  }
-  return array;
-}
-
 // The taxel values: one array (T, places), or one array (T, rows, columns) for each matrix.
 struct Taxels {
   std::shared_ptr<const SensorLayout> layout;
-  std::vector<Values> parts;
+  std::vector<Floats> parts;
 };
 
 Taxels taxelsOf(const py::object& frames, const TaxelPitch& pitchMm, std::size_t numFrames) {
@@ -63,8 +53,8 @@ Taxels taxelsOf(const py::object& frames, const TaxelPitch& pitchMm, std::size_t
   if (py::isinstance<py::list>(frames) || py::isinstance<py::tuple>(frames)) {
     std::vector<MatrixLayout> matrices;
     for (const py::handle item : frames) {
-      taxels.parts.push_back(taxelValuesOf(item, "frames"));
-      const Values& part = taxels.parts.back();
+      taxels.parts.push_back(ensured<Floats>(item, "frames"));
+      const Floats& part = taxels.parts.back();
       if (part.ndim() != 3)
         throw py::value_error("a matrix of frames has shape " + shapeText(part) +
                               "; it takes (T, rows, columns)");
@@ -78,14 +68,14 @@ Taxels taxelsOf(const py::object& frames, const TaxelPitch& pitchMm, std::size_t
     taxels.layout = std::make_shared<const SensorLayout>(std::move(matrices));
   } else {
     taxels.layout = defaultHand().layout;
-    taxels.parts.push_back(taxelValuesOf(frames, "frames"));
-    const Values& part = taxels.parts.back();
+    taxels.parts.push_back(ensured<Floats>(frames, "frames"));
+    const Floats& part = taxels.parts.back();
     if (part.ndim() != 2 || static_cast<std::size_t>(part.shape(1)) != taxels.layout->numCells())
       throw py::value_error("frames has shape " + shapeText(part) + "; it takes (T, " +
                             std::to_string(taxels.layout->numCells()) +
                             "), or a list with an array (T, rows, columns) per matrix");
   }
-  for (const Values& part : taxels.parts)
+  for (const Floats& part : taxels.parts)
     if (static_cast<std::size_t>(part.shape(0)) != numFrames)
       throw py::value_error("frames has " + std::to_string(part.shape(0)) + " frames, time_ms " +
                             std::to_string(numFrames));
@@ -98,7 +88,7 @@ void addFrames(ProfileBuilder& builder,
   std::vector<float> values;
   for (std::size_t i = 0; i < timesUs.size(); ++i) {
     values.clear();
-    for (const Values& part : taxels.parts) {
+    for (const Floats& part : taxels.parts) {
       const std::size_t width = static_cast<std::size_t>(part.size()) / timesUs.size();
       values.insert(values.end(), part.data() + i * width, part.data() + (i + 1) * width);
     }
@@ -117,11 +107,7 @@ Samples samplesOf(const py::object& times, const py::object& given, const char* 
     throw py::value_error(std::string(name) + " and its times go together");
   if (given.is_none()) return samples;
   samples.timesUs = timesUsOf(times, name);
-  const auto array = Numbers::ensure(given);
-  if (!array) {
-    PyErr_Clear();
-    throw py::type_error(std::string(name) + " takes numbers");
-  }
+  const auto array = ensured<Numbers>(given, name);
   if (array.ndim() != 2 || static_cast<std::size_t>(array.shape(0)) != samples.timesUs.size())
     throw py::value_error(std::string(name) + " has shape " + shapeText(array) + "; it takes (" +
                           std::to_string(samples.timesUs.size()) + ", n)");

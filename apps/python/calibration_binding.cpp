@@ -19,10 +19,32 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/calibrations.h"
 #include "python/interruption.h"
 
 namespace palpate::python {
 namespace py = pybind11;
+
+PressureMapOptions pressureOptionsOf(const ForceChoice& choice,
+                                     const Calibration& calibration,
+                                     const Profile& profile) {
+  PressureMapOptions options{.compensateDrift = choice.drift, .serial = profile.info().serial};
+  if (choice.sensitivity || choice.threshold) {
+    SensorSettings settings = calibration.settings;
+    settings.sensitivity = choice.sensitivity.value_or(settings.sensitivity);
+    settings.thresholdCounts = choice.threshold.value_or(settings.thresholdCounts);
+    options.settings.push_back(settings);
+  }
+  return options;
+}
+
+std::optional<Tare> tareOf(const ForceChoice& choice,
+                           const Profile& profile,
+                           const Progress& progress) {
+  if (!choice.tare) return std::nullopt;
+  return findTare(profile, {}, progress);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,18 +170,13 @@ py::dict applyTo(const Calibration& calibration,
                  std::optional<double> threshold,
                  bool tare,
                  bool drift) {
-  PressureMapOptions options;
-  options.compensateDrift = drift;
-  if (sensitivity || threshold) {
-    SensorSettings settings = calibration.settings;
-    settings.sensitivity = sensitivity.value_or(settings.sensitivity);
-    settings.thresholdCounts = threshold.value_or(settings.thresholdCounts);
-    options.settings.push_back(settings);
-  }
+  const ForceChoice chosen{sensitivity, threshold, tare, drift};
   const ForceSeries series = unlocked([&](const Progress& progress) {
-    std::optional<Tare> zero;
-    if (tare) zero = findTare(profile, {}, progress);
-    return forceSeries(profile, calibration, options, zero, progress);
+    return forceSeries(profile,
+                       calibration,
+                       pressureOptionsOf(chosen, calibration, profile),
+                       tareOf(chosen, profile, progress),
+                       progress);
   });
   const std::size_t frames = series.timeS.size(), matrices = series.numMatrices;
   py::dict table;
@@ -213,7 +230,7 @@ py::dict pressureAt(const Calibration& calibration,
 void bindClass(py::module_& module) {
   py::class_<Calibration>(module,
                           "Calibration",
-                          "What turns counts of a hand into kilopascals and newtons: from "
+                          "Converts the counts of a hand to kilopascals and newtons: from "
                           "calibrate_pressure() or Calibration.load().")
       .def_static(
           "load",
@@ -221,7 +238,7 @@ void bindClass(py::module_& module) {
             return unlocked([&](const Progress&) { return loadCalibration(path); });
           },
           py::arg("path"),
-          "Reads a calibration file (JSON). OSError, ValueError (no calibration, damaged).")
+          "Reads a calibration file (JSON). OSError, ValueError (not a calibration, damaged).")
       .def(
           "save",
           [](const Calibration& calibration, const fs::path& path, bool force) {
@@ -231,11 +248,11 @@ void bindClass(py::module_& module) {
           py::arg("path"),
           py::kw_only(),
           py::arg("force") = false,
-          "Writes it. OSError when the file exists (unless force) or can't be written.")
+          "Writes it to a file. OSError when the file exists (unless force) or can't be written.")
       .def_property_readonly(
           "report",
           [](const Calibration& calibration) { return toPython(jsonOf(calibration)); },
-          "All of it, as `palpate calibrate pressure` prints it: dict K {c, rmse_kpa, "
+          "The whole calibration, as `palpate calibrate pressure` prints it: dict K {c, rmse_kpa, "
           "loo_rmse_kpa, ..}, m {..}, samples, settings, notes, ..")
       .def("apply",
            &applyTo,
@@ -246,19 +263,20 @@ void bindClass(py::module_& module) {
            py::arg("tare") = false,
            py::arg("drift") = true,
            "Pressures and forces of all frames: dict time_s (T,); (T, matrices): active, K "
-           "[counts], pressure_kpa, pressure_sd_kpa [kPa], force_n, force_sd_n [N], in_range (not "
-           "to be relied on where False), temperature_known, saturated; hand_force_n, "
+           "[counts], pressure_kpa, pressure_sd_kpa [kPa], force_n, force_sd_n [N], in_range (do "
+           "not rely on the values where it is False), temperature_known, saturated; hand_force_n, "
            "hand_force_sd_n (T,) [N]; assumptions. Forces are NaN where the calibration was made "
-           "without area, the area of the indenter [mm^2]. sensitivity, threshold [counts]: the "
-           "recording "
-           "was made with (default: as the calibration); tare: take off what the taxels read "
-           "unloaded; drift: take the creep out of contacts that last. Error for filtered values.")
+           "without area, the area of the indenter [mm^2]. sensitivity, threshold [counts]: "
+           "settings of the recording (default: those of the calibration); tare: subtract what the "
+           "taxels read unloaded; drift: correct the creep of long contacts. Error for filtered "
+           "values.")
       .def("pressure_at",
            &pressureAt,
            py::arg("K"),
            py::arg("temperature_c") = py::none(),
-           "Pressure of contacts with gains K (n,) [counts] at a temperature [deg C] (None: 35, "
-           "and a wider band): dict pressure_kpa, pressure_sd_kpa [kPa], in_range: (n,).");
+           "Pressure of contacts with gains K (n,) [counts] at a temperature [deg C] (None: 35 deg "
+           "C is assumed, and the band is wider): dict pressure_kpa, pressure_sd_kpa [kPa], "
+           "in_range: (n,).");
 }
 
 }  // namespace
@@ -279,7 +297,7 @@ void bindCalibration(py::module_& module) {
              py::arg("path"),
              py::kw_only(),
              py::arg("force") = false,
-             "Writes what calibrate_noise() gave: .xml as the prior program reads it, else JSON. "
+             "Writes the result of calibrate_noise(): .xml for the prior program, else JSON. "
              "OSError when the file exists (unless force).");
   module.def("calibrate_sensitivity",
              &calibrateSensitivity,
@@ -289,7 +307,7 @@ void bindCalibration(py::module_& module) {
              py::arg("threshold") = SensorSettings{}.thresholdCounts,
              "Gain K (n,) [counts] of one load against sensitivity (n,) [0..1]: dict points, "
              "slope, offset [counts], r2, .., as `palpate calibrate sensitivity` prints it. "
-             "threshold: setting meanwhile [counts], for the explanation.");
+             "threshold: the setting during the measurement [counts], for the explanation.");
   module.def("calibrate_tare",
              &calibrateTare,
              py::arg("profile"),
@@ -307,9 +325,9 @@ void bindCalibration(py::module_& module) {
              "Pressure from gain and temperature of loading steps: table is a CSV file "
              "(file,pressure_kpa[,temperature_c]) or a list of such tuples. matrix: the loaded one "
              "(None: the one with the largest readings); choices 'study': all terms and the "
-             "study's temperature; area of the stamp [mm^2] (0: not known); sensitivity, threshold "
-             "[counts] of the recordings. A recording that can't be used is a sample with used "
-             "False and says why.");
+             "study's temperature; area of the indenter [mm^2] (0: not known); sensitivity, "
+             "threshold [counts] of the recordings. A recording that can't be used becomes a "
+             "sample with used False and the reason.");
   module.def("fit_pressure",
              &fitPressure,
              py::arg("K"),
@@ -318,7 +336,7 @@ void bindCalibration(py::module_& module) {
              py::arg("temperature_c"),
              py::kw_only(),
              py::arg("study") = false,
-             "The same of steps that were fitted before: K (n,) [counts], m (n,) [counts/s], "
+             "The same from steps that are already fitted: K (n,) [counts], m (n,) [counts/s], "
              "pressure_kpa (n,) [kPa], temperature_c (n,) [deg C]: dict K {c, rmse_kpa, "
              "loo_rmse_kpa, ..}, m {..}. study: all terms.");
 }

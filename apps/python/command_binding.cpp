@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -43,7 +44,7 @@ Table compare(const py::object& a,
                                             {"clock", Alignment::kClock}});
   constexpr double kFurthestS = 1e9;
   if (offsetS && !(std::abs(*offsetS) <= kFurthestS))
-    throw py::value_error("offset is not a number of seconds in -1e9 .. 1e9");
+    throw py::value_error("offset is not in -1e9 .. 1e9 s");
   const Profile profileA = profileGiven(a), profileB = profileGiven(b);
   return tableOf([&](const Progress& progress) {
     const TimedProfile timedA = timedProfile(profileA, {}, partOf(progress, 0.0, 0.2)),
@@ -57,6 +58,9 @@ Table compare(const py::object& a,
     auto table = comparisonTable(timedA, timedB, *foundS, partOf(progress, 0.4, 1.0));
     if (!commonSpan(timedA, timedB, *foundS))
       table->note("the two have no moment in common at this alignment");
+    for (const auto& [name, profile] : {std::pair("a", &profileA), std::pair("b", &profileB)})
+      if (const std::string lost = lostText(*profile); !lost.empty())
+        table->note(std::string(name) + ": " + lost);
     return table;
   });
 }
@@ -114,45 +118,45 @@ py::dict convert(const fs::path& path,
 }  // namespace
 
 void bindCommands(py::module_& module) {
-  module.def(
-      "compare",
-      &compare,
-      py::arg("a"),
-      py::arg("b"),
-      py::kw_only(),
-      py::arg("align") = "contact",
-      py::arg("offset") = py::none(),
-      "Two recordings frame by frame: a, b are Profiles or paths. Table time_s [s from a's first "
-      "frame], frame_a, frame_b (at the same time, or the last one before it), matrix, mean_a, "
-      "mean_b (of the touched taxels), difference_mean, difference_rms (of a - b over the taxels "
-      "that are touched in either): a row per frame of a and matrix that both have. align: "
-      "'contact' (first lasting contacts), 'start', 'clock' (host time); or offset: when b begins "
-      "[s from a's first frame]. Error where they can't be aligned.");
+  module.def("compare",
+             &compare,
+             py::arg("a"),
+             py::arg("b"),
+             py::kw_only(),
+             py::arg("align") = "contact",
+             py::arg("offset") = py::none(),
+             "Compares two recordings frame by frame: a, b are Profiles or paths. Table time_s [s "
+             "from a's first frame], frame_a, frame_b (at the same time, or the last one before "
+             "it), matrix, mean_a, mean_b (of the touched taxels), difference_mean, difference_rms "
+             "(of a - b over the taxels that are touched in a or b): a row per frame of a and "
+             "matrix that both have. align: 'contact' (first lasting contacts), 'start', 'clock' "
+             "(host time); or offset: when b begins [s from a's first frame]. The notes of the "
+             "table list what was lost when a or b was read. Error where they can't be aligned.");
   module.def("labels",
              &labels,
              py::arg("path"),
-             "What a person has noted in a recording: Table begin_s, end_s [s from the first "
-             "frame], kind ('label', 'note', 'mark', 'segment'), text, matrix (NaN where one has "
-             "none). OSError, ValueError.");
-  module.def("convert",
-             &convert,
-             py::arg("path"),
-             py::arg("out"),
-             py::kw_only(),
-             py::arg("fitted_times") = false,
-             py::arg("signals") = true,
-             py::arg("slip") = true,
-             py::arg("units_row") = false,
-             py::arg("compression") = py::none(),
-             py::arg("images") = py::none(),
-             py::arg("force") = false,
-             "convert(path, out, *specs, fitted_times=False, ..) -> dict\n\n"
-             "Writes a recording in the form of the ending of `out` (.dsa, .palpate, .csv, .npz, "
-             ".h5, .mat, .mcap, .jsonl), through the filters of specs, with what was noted in it. "
-             "dict state ('whole', 'part': of a damaged one), message: what was written and what "
-             "the form has no place for. signals, slip: whether .h5, .mat and .mcap get them; "
-             "units_row: of .csv; compression: 'zstd', 'lz4', 'none', and images: 'ros', "
-             "'foxglove', of .mcap. OSError, ValueError.");
+             "The labels, notes and marks in a recording: Table begin_s, end_s [s from the first "
+             "frame], kind ('label', 'note', 'mark', 'segment'), text, matrix (NaN: of none). "
+             "OSError, ValueError.");
+  module.def(
+      "convert",
+      &convert,
+      py::arg("path"),
+      py::arg("out"),
+      py::kw_only(),
+      py::arg("fitted_times") = false,
+      py::arg("signals") = true,
+      py::arg("slip") = true,
+      py::arg("units_row") = false,
+      py::arg("compression") = py::none(),
+      py::arg("images") = py::none(),
+      py::arg("force") = false,
+      "convert(path, out, *specs, fitted_times=False, ..) -> dict\n\nConverts a recording to the "
+      "format of the ending of `out` (.dsa, .palpate, .csv, .npz, .h5, .mat, .mcap, .jsonl), "
+      "filtered by specs, with its events. dict state ('whole', 'part': the recording is damaged), "
+      "message: what was written, and what the format can't hold. signals, slip: whether to add "
+      "them to .h5, .mat and .mcap; units_row: of .csv; compression: 'zstd', 'lz4', 'none', and "
+      "images: 'ros', 'foxglove', of .mcap. OSError, ValueError.");
 }
 
 }  // namespace palpate::python

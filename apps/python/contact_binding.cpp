@@ -67,8 +67,8 @@ Table contactTableOf(const ContactCells& cells, std::size_t numMatrices) {
   for (const char* name : {"major_sd_mm", "minor_sd_mm"}) add(name, {name});
   if (cells.numUnusable > 0)
     table.note({std::to_string(cells.numUnusable) + " of " + std::to_string(cells.numFrames) +
-                " frames have no usable joint angles, and no place in space: " + cells.whyUnusable +
-                "; give some with angles_deg"});
+                " frames have no usable joint angles, so no position in space: " +
+                cells.whyUnusable + "; pass angles_deg to assume some"});
   return table.finish();
 }
 
@@ -82,7 +82,7 @@ Table contact(const Profile& profile,
   ContactRowsOptions options;
   if (anglesDeg) options.anglesDeg = vectorOf(*anglesDeg, "angles_deg");
   if (!options.anglesDeg && profile.numAngles() == 0)
-    throw py::value_error("this recording has no joint angles: assume some with angles_deg");
+    throw py::value_error("this recording has no joint angles: pass angles_deg to assume some");
   options.contact.threshold = threshold;
   options.contact.validate();
   const auto range = sliceOf(start, stop, profile.numFrames());
@@ -147,14 +147,14 @@ void bindContact(py::module_& module) {
       py::arg("fingertip") = "study",
       py::arg("start") = 0,
       py::arg("stop") = py::none(),
-      "Where a hand touches, for the frames start..stop (exclusive), in its base frame [mm]: "
-      "dict of columns frame, time_ms, active (T,); sphere_mm (T, 3), sphere_radius_mm (T,): the "
+      "Where the hand touches, in the frames start..stop (exclusive), in its base frame [mm]: dict "
+      "of columns frame, time_ms, active (T,); sphere_mm (T, 3), sphere_radius_mm (T,): the "
       "smallest sphere around all active taxels, centroid_sphere_mm, centroid_sphere_radius_mm: "
       "around the matrices' centroids; per matrix (T, M): matrix_active, sum [counts], area_mm2, "
       "surface_x_mm, surface_y_mm (centroid on the surface), major_sd_mm, minor_sd_mm; (T, M, 3): "
       "centroid_mm, normal, major, minor (unit vectors). NaN where nothing touches or the joint "
-      "angles are unusable. angles_deg (axes,): assumed for all frames; threshold: active is above "
-      "it [counts]. ValueError without joint angles, Error for a hand without geometry.");
+      "angles are unusable. angles_deg (axes,): assumed for all frames; threshold: taxels above it "
+      "are active [counts]. ValueError without joint angles, Error for a hand without geometry.");
   module.def("object_size",
              &sizeOf,
              py::arg("profile"),
@@ -162,12 +162,11 @@ void bindContact(py::module_& module) {
              py::arg("end"),
              py::kw_only(),
              py::arg("fingertip") = "effective",
-             "How large what is held in frames begin..end (both inclusive) is, and how much it "
-             "gives way: dict valid, trouble (why not; the sizes are NaN then), pads, start_frame, "
-             "plateau_frame, "
-             "start_mm, plateau_mm, shrink_mm, foam_mm, compression_mm, compression_sd_mm, "
-             "diameter_mm, diameter_sd_mm, sphere_mm [mm]; its course: frame, distance_mm, "
-             "sphere_diameter_mm [mm], load (0..1): (n,).");
+             "Size and softness of the object that is held in frames begin..end (both inclusive): "
+             "dict valid, trouble (why not valid; the sizes are then NaN), pads, start_frame, "
+             "plateau_frame, start_mm, plateau_mm, shrink_mm, foam_mm, compression_mm, "
+             "compression_sd_mm, diameter_mm, diameter_sd_mm, sphere_mm [mm]; over time: frame, "
+             "distance_mm, sphere_diameter_mm [mm], load (0..1): (n,).");
 }
 
 }  // namespace palpate::python

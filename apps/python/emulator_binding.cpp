@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -45,10 +46,9 @@ py::tuple synthesized(double duration,
   options.seed = seed;
   SyntheticTruth truth;
   Profile profile = unlocked([&](const Progress&) { return synthesize(options, &truth); });
-  py::list found;
-  for (const SyntheticGrasp& grasp : truth.grasps)
-    found.append(py::make_tuple(grasp.begin, grasp.end));
-  return py::make_tuple(std::move(profile), found);
+  return py::make_tuple(std::move(profile), listOf(truth.grasps, [](const SyntheticGrasp& grasp) {
+                          return py::make_tuple(grasp.begin, grasp.end);
+                        }));
 }
 
 Scene sceneOf(const py::object& scene) {
@@ -96,27 +96,23 @@ py::dict noisyContacts(std::uint64_t seed,
                                      .belowCounts = below,
                                      .contacts = contacts};
   const NoisyContacts made = unlocked([&](const Progress&) { return makeNoisyContacts(options); });
-  py::list list;
-  for (const NoisyContact& contact : made.contacts) {
+  py::dict result;
+  result["profile"] = made.profile;
+  for (const auto& [name, wanted] :
+       {std::pair("touched", CellTruth::kTouched), std::pair("nothing", CellTruth::kNothing)})
+    result[name] = grid<bool>(
+        made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
+          return made.truth[i][place] == wanted;
+        });
+  result["contacts"] = listOf(made.contacts, [](const NoisyContact& contact) {
     py::dict one;
     one["size"] = std::string(nameOf(contact.size));
     one["matrix"] = contact.matrix;
     one["begin"] = contact.begin;
     one["end"] = contact.end;
     one["peak_kpa"] = contact.peakKpa;
-    list.append(one);
-  }
-  py::dict result;
-  result["profile"] = made.profile;
-  result["touched"] = grid<bool>(
-      made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
-        return made.truth[i][place] == CellTruth::kTouched;
-      });
-  result["nothing"] = grid<bool>(
-      made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
-        return made.truth[i][place] == CellTruth::kNothing;
-      });
-  result["contacts"] = list;
+    return one;
+  });
   result["threshold_counts"] = made.thresholdCounts;
   return result;
 }
@@ -125,22 +121,23 @@ py::dict noisyContacts(std::uint64_t seed,
 
 void bindEmulator(py::module_& module) {
   const SyntheticOptions synthetic;
-  module.def("synthesize",
-             &synthesized,
-             py::kw_only(),
-             py::arg("duration") = synthetic.durationS,
-             py::arg("rate") = synthetic.rateHz,
-             py::arg("angle_rate") = synthetic.angleRateHz,
-             py::arg("temperature_rate") = synthetic.temperatureRateHz,
-             py::arg("grasps") = synthetic.grasps,
-             py::arg("peak") = synthetic.peakCounts,
-             py::arg("radius") = synthetic.contactRadiusTaxels,
-             py::arg("threshold") = synthetic.thresholdCounts,
-             py::arg("noise") = synthetic.noiseCounts,
-             py::arg("seed") = synthetic.seed,
-             "A synthetic recording with known content: pinch grasps of a ball by fingers 0 and 2. "
-             "(Profile, list of (begin, end): frames with contact, both inclusive). duration [s]; "
-             "rates [Hz]; peak, threshold, noise (sd) [counts]; radius of the contact [taxels].");
+  module.def(
+      "synthesize",
+      &synthesized,
+      py::kw_only(),
+      py::arg("duration") = synthetic.durationS,
+      py::arg("rate") = synthetic.rateHz,
+      py::arg("angle_rate") = synthetic.angleRateHz,
+      py::arg("temperature_rate") = synthetic.temperatureRateHz,
+      py::arg("grasps") = synthetic.grasps,
+      py::arg("peak") = synthetic.peakCounts,
+      py::arg("radius") = synthetic.contactRadiusTaxels,
+      py::arg("threshold") = synthetic.thresholdCounts,
+      py::arg("noise") = synthetic.noiseCounts,
+      py::arg("seed") = synthetic.seed,
+      "Makes a synthetic recording with known content: pinch grasps of a ball by fingers 0 and 2. "
+      "Returns (Profile, list of (begin, end): frames with contact, both inclusive). duration [s]; "
+      "rates [Hz]; peak, threshold, noise (sd) [counts]; radius of the contact [taxels].");
   module.def(
       "emulate",
       &emulate,
@@ -151,11 +148,11 @@ void bindEmulator(py::module_& module) {
       py::arg("seed") = 1,
       py::arg("interval") = SimulatedRecordingOptions{}.frameIntervalS,
       py::arg("zero_error_deg") = std::vector<double>{},
-      "A recording of the emulated hand, without ports and without waiting: the same for "
-      "the same seed. scene: a name of scenes(), a JSON file, or a dict of the same form; "
-      "duration [s] (of each run); grasps: so many runs, each varied anew (0: one as it is); "
-      "interval between frames [s]; zero_error_deg (7,): each axis stands so much further "
-      "than it reports [deg]. OSError or ValueError for a bad scene.");
+      "Records the emulated hand, without ports and without waiting; the same seed gives the same "
+      "recording. scene: a name of scenes(), a JSON file, or a dict of the same form; duration [s] "
+      "(of each run); grasps: number of runs, each with other variations (0: one run without "
+      "variation); interval between frames [s]; zero_error_deg (7,): how much further each axis is "
+      "than it reports [deg]. OSError or ValueError for a scene that can't be used.");
   module.def(
       "scenes",
       [] { return sceneNames((dataFolder() / "scenes")); },
@@ -172,11 +169,11 @@ void bindEmulator(py::module_& module) {
              py::arg("noise_multiple") = noisy.noiseMultiple,
              py::arg("below") = noisy.belowCounts,
              py::arg("contacts") = noisy.contacts,
-             "Frames of a hand at high sensitivity, with known truth: dict profile, touched, "
-             "nothing: bool (T, places) (neither: a load too faint to be reported), contacts "
-             "[{size, matrix, begin, end (exclusive), peak_kpa}], threshold_counts (per matrix). "
-             "rate [Hz]; threshold: the noise's line and noise_multiple of its RMSE, less `below` "
-             "[counts].");
+             "Makes frames of a hand at high sensitivity, with the true state of every taxel: dict "
+             "profile, touched, nothing: bool (T, places) (neither: a load too faint to be "
+             "reported), contacts [{size, matrix, begin, end (exclusive), peak_kpa}], "
+             "threshold_counts (per matrix). rate [Hz]; the threshold is the noise line plus "
+             "noise_multiple times its RMSE, minus `below` [counts].");
 }
 
 }  // namespace palpate::python

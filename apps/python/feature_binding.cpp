@@ -62,7 +62,8 @@ std::vector<fs::path> pathsOf(const py::object& source) {
   if (one) return {source.cast<fs::path>()};
   std::vector<fs::path> paths;
   for (const py::handle item : source) paths.push_back(item.cast<fs::path>());
-  if (paths.empty()) throw py::value_error("no path is given");
+  if (paths.empty())
+    throw py::value_error("the list of paths is empty: give a recording or a folder");
   return paths;
 }
 
@@ -72,8 +73,8 @@ FeatureTable featuresOf(const py::object& source, FeatureSet set) {
   if (py::isinstance<FeatureTable>(source)) {
     auto table = source.cast<FeatureTable>();
     if (table.set != set)
-      throw Error("these are features of the set " + std::string(featureSetName(table.set)) +
-                  ", wanted is " + std::string(featureSetName(set)));
+      throw Error("the features are of the set " + std::string(featureSetName(table.set)) +
+                  ": compute them with set='" + std::string(featureSetName(set)) + "'");
     return table;
   }
   if (py::isinstance<Profile>(source)) {
@@ -157,7 +158,7 @@ void bindWhole(py::class_<FeatureTable>& bound,
 
 void bindTable(py::module_& module) {
   py::class_<FeatureTable> features(
-      module, "Features", "The features of grasps, a row each: from features().");
+      module, "Features", "The features of grasps, one row per grasp: from features().");
   features.def("__len__", [](const FeatureTable& table) { return table.rows.size(); })
       .def("__repr__",
            [](const FeatureTable& table) {
@@ -177,11 +178,7 @@ void bindTable(py::module_& module) {
           "float64 (grasps, features), finite.")
       .def_property_readonly(
           "classes",
-          [](const FeatureTable& table) {
-            std::vector<std::string> names;
-            for (const FeatureRow& row : table.rows) names.push_back(row.className);
-            return names;
-          },
+          [](const FeatureTable& table) { return membersOf(table.rows, &FeatureRow::className); },
           "Class of each grasp ('' where it isn't known): list of str.")
       .def_property_readonly(
           "files",
@@ -201,7 +198,7 @@ void bindTable(py::module_& module) {
       .def_property_readonly(
           "troubles",
           [](const FeatureTable& table) { return table.problems; },
-          "A line each: files that can't be read, grasps without features, and why.")
+          "Files that can't be read and grasps without features, with the reason: list of str.")
       .def_property_readonly(
           "sensor", [](const FeatureTable& table) { return table.sensor; }, "Sensor of all rows.")
       .def_property_readonly(
@@ -215,27 +212,26 @@ void bindTable(py::module_& module) {
   bindWhole(features,
             "initial_frame",
             &FeatureRow::initialFrame,
-            "Frame at which it begins for the features: int64 (grasps,).");
+            "Frame at which each grasp begins for its features: int64 (grasps,).");
   bindWhole(features,
             "end_frame",
             &FeatureRow::endFrame,
-            "Frame at which it ends for the features: int64 (grasps,).");
+            "Frame at which each grasp ends for its features: int64 (grasps,).");
 }
 
 }  // namespace
 
 void bindFeatures(py::module_& module) {
   bindTable(module);
-  module.def(
-      "grasps",
-      &grasps,
-      py::arg("profile"),
-      py::kw_only(),
-      py::arg("rule") = "general",
-      "Where the grasps are: dict of columns begin, end (frames, both inclusive), begin_ms, "
-      "end_ms [ms since 1970], fingers (list of tuples), quality (0..1). rule 'general': at "
-      "least two fingers touch (or the only one) for more than 20 frames and 0.6 s; 'study': the "
-      "two pads that pinch for more than 20 frames.");
+  module.def("grasps",
+             &grasps,
+             py::arg("profile"),
+             py::kw_only(),
+             py::arg("rule") = "general",
+             "Finds the grasps: dict of columns begin, end (frames, both inclusive), begin_ms, "
+             "end_ms [ms since 1970], fingers (list of tuples), quality (0..1). rule 'general': at "
+             "least two fingers (or the only one) touch for more than 20 frames and 0.6 s; "
+             "'study': the two pads that pinch for more than 20 frames.");
   module.def(
       "features",
       [](const py::object& source, const std::string& set) {
@@ -244,10 +240,10 @@ void bindFeatures(py::module_& module) {
       py::arg("source"),
       py::arg("set") = "best",
       "The features of every pinch grasp (both distal pads touch): source is a Profile, a "
-      "recording, a folder with a folder of recordings per class ('_' in its name as blank), or a "
-      "list of these paths. set 'best': holds in another session; 'study': the study's 54; "
-      "'session': best within one session only; 'statistics': load, extent and position on every "
-      "matrix, for hands of any kind. What can't be used is listed in `troubles`.");
+      "recording, a folder that has a folder of recordings for each class ('_' in its name stands "
+      "for a space), or a list of these paths. set 'best': also valid in another session; 'study': "
+      "the study's 54; 'session': best, but only within one session; 'statistics': load, extent "
+      "and position on every matrix, for hands of any kind. `troubles` lists what can't be used.");
   module.def(
       "feature_names",
       [](const std::string& set, const py::object& hand) {
@@ -265,7 +261,7 @@ void bindFeatures(py::module_& module) {
              py::arg("end_frame") = py::none(),
              "The study's 54 features of one grasp, frames begin..end (both inclusive): dict "
              "trouble (why there are none), initial_frame, end_frame, other_end_frame (the tied "
-             "candidate), names, values (54,). end_frame: takes the picture from this frame.");
+             "candidate), names, values (54,). end_frame: use the picture of this frame.");
 }
 
 }  // namespace palpate::python

@@ -53,8 +53,13 @@ Profile filter(const Profile& profile,
 }
 
 py::dict describe(const FilterKind& kind) {
-  py::list options;
-  for (const FilterOption& option : kind.options) {
+  py::dict result;
+  result["name"] = kind.name;
+  result["title"] = kind.title;
+  result["domain"] = kind.domain == FilterDomain::kSpatial    ? "spatial"
+                     : kind.domain == FilterDomain::kTemporal ? "temporal"
+                                                              : "spatio-temporal";
+  result["options"] = listOf(kind.options, [](const FilterOption& option) {
     py::dict one;
     one["key"] = option.key;
     one["unit"] = option.unit;
@@ -67,26 +72,15 @@ py::dict describe(const FilterKind& kind) {
             : py::object(py::float_(option.defaultValue));
     one["choices"] = option.choices;
     one["purpose"] = option.purpose;
-    options.append(one);
-  }
-  py::dict result;
-  result["name"] = kind.name;
-  result["title"] = kind.title;
-  result["domain"] = kind.domain == FilterDomain::kSpatial    ? "spatial"
-                     : kind.domain == FilterDomain::kTemporal ? "temporal"
-                                                              : "spatio-temporal";
-  result["options"] = options;
+    return one;
+  });
   result["purpose"] = kind.purpose;
   result["border"] = kind.border;
   result["source"] = kind.source;
   return result;
 }
 
-py::list filters() {
-  py::list list;
-  for (const FilterKind& kind : filterKinds()) list.append(describe(kind));
-  return list;
-}
+py::list filters() { return listOf(filterKinds(), &describe); }
 
 py::dict recipes() {
   py::dict presets;
@@ -109,7 +103,7 @@ DoubleArray filterSeries(const Numbers& timeS, const Numbers& values, const py::
   const Recipe recipe = recipeOf(specs);
   for (const FilterStep& step : recipe.steps)
     if (step.kind().domain != FilterDomain::kTemporal)
-      throw py::value_error(step.name + " needs neighbours: a series takes filters over time");
+      throw py::value_error(step.name + " needs neighbours: a series takes only filters over time");
   Collector out;
   if (recipe.dependsOnRate()) {
     std::vector<std::int64_t> stampsUs;
@@ -126,7 +120,7 @@ DoubleArray filterSeries(const Numbers& timeS, const Numbers& values, const py::
     if (!std::isfinite(times[i]) || !std::isfinite(series[i]))
       throw py::value_error("sample " + std::to_string(i) + " isn't a finite number");
     if (i > 0 && times[i] <= times[i - 1])
-      throw py::value_error("time_s doesn't ascend at sample " + std::to_string(i));
+      throw py::value_error("time_s must ascend, but does not at sample " + std::to_string(i));
     frame = empty;
     frame.hostUs = std::llround((times[i] - times.front()) * kUsPerS);
     frame.values.front() = static_cast<float>(series[i]);
@@ -151,20 +145,18 @@ py::dict ghosts(const Profile& profile, const py::args& specs, double aboveCount
   const GhostingReport report = unlocked([&](const Progress& progress) {
     return measureGhosting(profile, recipe, {}, options, progress);
   });
-  py::list matrices;
-  for (const MatrixGhosting& matrix : report.matrices) {
+  py::dict result;
+  result["frames"] = report.frames;
+  result["frames_with_false"] = countsOf(report.framesWithFalse);
+  result["false_taxels"] = countsOf(report.total().falseTaxels);
+  result["matrices"] = listOf(report.matrices, [](const MatrixGhosting& matrix) {
     py::dict one;
     one["false_taxels"] = countsOf(matrix.falseTaxels);
     one["scattered"] = countsOf(matrix.scattered);
     one["frames_with_false"] = countsOf(matrix.framesWithFalse);
     one["frames_whole"] = countsOf(matrix.framesWhole);
-    matrices.append(one);
-  }
-  py::dict result;
-  result["frames"] = report.frames;
-  result["frames_with_false"] = countsOf(report.framesWithFalse);
-  result["false_taxels"] = countsOf(report.total().falseTaxels);
-  result["matrices"] = matrices;
+    return one;
+  });
   result["latency_frames"] = report.latencyFrames;
   return result;
 }
@@ -209,12 +201,12 @@ void bindFilters(py::module_& module) {
              py::kw_only(),
              py::arg("recipe") = py::none(),
              py::arg("restarts_ms") = std::vector<std::int64_t>{},
-             "filter(profile, *specs, recipe=None, restarts_ms=[]) -> Profile\n\n"
-             "A profile seen through filters, one after the other: 'median:size=3', 'kalman', also "
-             "'median | kalman' or lists of them; or a recipe file (JSON). Frames are filtered "
-             "when they are asked for; angles, temperatures and stamps are the source's; values "
-             "are floats. restarts_ms: host times [ms since 1970] at which filters over time begin "
-             "anew. ValueError for an unknown name or key, naming the known ones.");
+             "filter(profile, *specs, recipe=None, restarts_ms=[]) -> Profile\n\nFilters a profile "
+             "with one filter after the other: 'median:size=3', 'kalman', also 'median | kalman' "
+             "or lists of them; or with a recipe file (JSON). Frames are filtered when they are "
+             "read; angles, temperatures and stamps are the source's; values are floats. "
+             "restarts_ms: host times [ms since 1970] at which filters over time start again. "
+             "ValueError for an unknown name or key lists the known ones.");
   module.def("filters",
              &filters,
              "All filters: a list of dicts name, title, domain ('spatial', 'temporal', "
@@ -222,8 +214,8 @@ void bindFilters(py::module_& module) {
              "automatic), choices, purpose}], purpose, border, source.");
   module.def("recipes",
              &recipes,
-             "Chains that are offered ready-made: dict name -> text for filter(); the first is for "
-             "high sensitivity.");
+             "Ready-made filter chains: dict name -> text for filter(); the first one is for high "
+             "sensitivity.");
   module.def(
       "read_recipe",
       [](const std::filesystem::path& path) { return recipeText(readRecipe(path)); },
@@ -243,19 +235,17 @@ void bindFilters(py::module_& module) {
       py::kw_only(),
       py::arg("name") = "",
       py::arg("force") = false,
-      "save_recipe(path, *specs, name='', force=False) -> None\n\n"
-      "Writes a recipe file (JSON). OSError when it exists, unless force.");
+      "save_recipe(path, *specs, name='', force=False) -> None\n\nWrites a recipe file (JSON). "
+      "OSError when the file exists (unless force).");
   module.def("filter_series",
              &filterSeries,
              py::arg("time_s"),
              py::arg("values"),
-             "filter_series(time_s, values, *specs) -> array\n\n"
-             "One series through filters over time ('kalman', 'savitzky-golay:window=7', "
-             "'low-pass:cutoff=5', ..): "
-             "time_s (n,) [s], ascending; values (n,); float64 (n,), 7 digits. They restart after "
-             "gaps (longer than max(1 s, 5 median intervals)). ValueError for a filter over space, "
-             "and for a frequency of half "
-             "the rate (1 / median interval) or more.");
+             "filter_series(time_s, values, *specs) -> array\n\nFilters one series over time "
+             "('kalman', 'savitzky-golay:window=7', 'low-pass:cutoff=5', ..): time_s (n,) [s], "
+             "ascending; values (n,); returns float64 (n,), 7 digits. Filters restart after gaps "
+             "(longer than max(1 s, 5 median intervals)). ValueError for a filter over space, and "
+             "for a frequency of half the rate (1 / median interval) or more.");
   module.def(
       "savitzky_golay",
       [](int window, int order, int derivative, std::optional<double> position) {
@@ -274,11 +264,10 @@ void bindFilters(py::module_& module) {
              py::arg("profile"),
              py::kw_only(),
              py::arg("above") = GhostingOptions{}.activeAboveCounts,
-             "ghosts(profile, *specs, above=0.0) -> dict\n\n"
-             "Taxels that are active in a recording of a hand that nothing touches, as it came and "
-             "through filters: dict frames, frames_with_false, false_taxels {before, after, "
-             "share_removed}, matrices, latency_frames. above: active is a value above it "
-             "[counts].");
+             "ghosts(profile, *specs, above=0.0) -> dict\n\nCounts the active taxels in a "
+             "recording of a hand that touches nothing, before and after filters: dict frames, "
+             "frames_with_false, false_taxels {before, after, share_removed}, matrices, "
+             "latency_frames. above: taxels above it are active [counts].");
   module.def("fit_kelvin_voigt",
              &fitKelvinVoigt,
              py::arg("time_s"),
@@ -287,11 +276,11 @@ void bindFilters(py::module_& module) {
              py::arg("m") = py::none(),
              py::arg("e") = py::none(),
              py::arg("eta") = py::none(),
-             "The Kelvin-Voigt model (mass, spring, damper) that explains a series best, by "
-             "expectation-maximisation: time_s (n,) [s], values (n,) [counts]; what is given is "
-             "kept. dict m, e, eta, force_noise, measurement_noise [counts^2], natural_hz [Hz], "
-             "damping, converged, log_likelihood (rounds,), filtered (n,), smoothed (n,) [counts], "
-             "smoothed_variance (n,) [counts^2], speed (n,) [counts/s].");
+             "Fits a Kelvin-Voigt model (mass, spring, damper) to a series by "
+             "expectation-maximisation: time_s (n,) [s], values (n,) [counts]; parameters that are "
+             "given stay fixed. dict m, e, eta, force_noise, measurement_noise [counts^2], "
+             "natural_hz [Hz], damping, converged, log_likelihood (rounds,), filtered (n,), "
+             "smoothed (n,) [counts], smoothed_variance (n,) [counts^2], speed (n,) [counts/s].");
 }
 
 }  // namespace palpate::python

@@ -31,17 +31,6 @@ HandDescription handGiven(const py::object& given) {
 
 namespace {
 
-using FloatValues = py::array_t<float, py::array::c_style | py::array::forcecast>;
-
-FloatValues floatValuesOf(const py::handle& given, const std::string& name) {
-  const auto array = FloatValues::ensure(given);
-  if (!array) {
-    PyErr_Clear();
-    throw py::type_error(name + " takes numbers");
-  }
-  return array;
-}
-
 py::list matricesOf(const HandDescription& hand) {
   py::list list;
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m) {
@@ -62,22 +51,14 @@ py::list matricesOf(const HandDescription& hand) {
 }
 
 py::list axesOf(const HandDescription& hand) {
-  py::list list;
-  for (const AxisDescription& axis : hand.axes) {
+  return listOf(hand.axes, [](const AxisDescription& axis) {
     py::dict one;
     one["name"] = axis.name;
     one["unit"] = axis.unit();
     one["minimum"] = axis.minimumDeg;
     one["maximum"] = axis.maximumDeg;
-    list.append(one);
-  }
-  return list;
-}
-
-py::list temperatureSensorsOf(const HandDescription& hand) {
-  py::list list;
-  for (const auto& sensor : hand.temperatureSensors) list.append(sensor.name);
-  return list;
+    return one;
+  });
 }
 
 py::dict knownHands() {
@@ -90,13 +71,13 @@ py::dict knownHands() {
 // or a list of an array (T, rows, columns) per matrix.
 struct FrameRows {
   std::size_t count = 0;
-  std::vector<FloatValues> parts;
+  std::vector<Floats> parts;
 };
 
 FrameRows frameRowsOf(const py::object& frames, const HandDescription& hand) {
   FrameRows rows;
   const bool several = py::isinstance<py::list>(frames) || py::isinstance<py::tuple>(frames);
-  const auto isMatrix = [&](const FloatValues& part, std::size_t m) {
+  const auto isMatrix = [&](const Floats& part, std::size_t m) {
     return part.ndim() == 3 && part.shape(1) == hand.layout->matrix(m).rows &&
            part.shape(2) == hand.layout->matrix(m).columns;
   };
@@ -104,7 +85,7 @@ FrameRows frameRowsOf(const py::object& frames, const HandDescription& hand) {
   if (several && py::len(frames) == matrices && matrices > 0 &&
       py::hasattr(frames[py::int_(0)], "shape")) {
     for (std::size_t m = 0; m < matrices; ++m) {
-      rows.parts.push_back(floatValuesOf(frames[py::int_(m)], "frames"));
+      rows.parts.push_back(ensured<Floats>(frames[py::int_(m)], "frames"));
       if (!isMatrix(rows.parts.back(), m))
         throw py::value_error("frames[" + std::to_string(m) + "] has shape " +
                               shapeText(rows.parts.back()) + "; it takes (T, " +
@@ -112,8 +93,8 @@ FrameRows frameRowsOf(const py::object& frames, const HandDescription& hand) {
                               std::to_string(hand.layout->matrix(m).columns) + ")");
     }
   } else {
-    rows.parts.push_back(floatValuesOf(frames, "frames"));
-    const FloatValues& part = rows.parts.back();
+    rows.parts.push_back(ensured<Floats>(frames, "frames"));
+    const Floats& part = rows.parts.back();
     const bool whole = matrices == 1 && isMatrix(part, 0);
     if (!whole && part.ndim() != 2)
       throw py::value_error("frames has shape " + shapeText(part) + "; it takes (T, " +
@@ -121,7 +102,7 @@ FrameRows frameRowsOf(const py::object& frames, const HandDescription& hand) {
                             "), or a list with an array (T, rows, columns) per matrix");
   }
   rows.count = static_cast<std::size_t>(rows.parts.front().shape(0));
-  for (const FloatValues& part : rows.parts)
+  for (const Floats& part : rows.parts)
     if (static_cast<std::size_t>(part.shape(0)) != rows.count)
       throw py::value_error("the matrices have different numbers of frames");
   return rows;
@@ -134,7 +115,8 @@ std::vector<std::int64_t> recordTimesUs(const py::object& timeMs,
     throw py::value_error("give either time_ms or rate, the frames per second");
   std::vector<std::int64_t> us;
   if (rate) {
-    if (!(*rate > 0.0 && *rate <= 1e6)) throw py::value_error("rate is not in 0 .. 1000000 Hz");
+    if (!(*rate > 0.0 && *rate <= 1e6))
+      throw py::value_error("rate must be above 0 and at most 1000000 Hz");
     for (std::size_t i = 0; i < count; ++i)
       us.push_back(std::llround(static_cast<double>(i) * kUsPerS / *rate));
     return us;
@@ -144,7 +126,7 @@ std::vector<std::int64_t> recordTimesUs(const py::object& timeMs,
     throw py::value_error("time_ms has " + std::to_string(ms.size()) + " times, frames " +
                           std::to_string(count));
   for (const double one : ms) {
-    if (!(std::abs(one) < 1e15)) throw py::value_error("time_ms holds what is not a time");
+    if (!(std::abs(one) < 1e15)) throw py::value_error("time_ms has a value that is not a time");
     us.push_back(std::llround(one * kUsPerMs));
   }
   return us;
@@ -184,7 +166,7 @@ Profile record(const py::object& frames,
   std::vector<float> values(shape.numPlaces());
   for (std::size_t i = 0; i < rows.count; ++i) {
     std::size_t width = 0;
-    for (const FloatValues& part : rows.parts) {
+    for (const Floats& part : rows.parts) {
       const std::size_t of = static_cast<std::size_t>(part.size()) / rows.count;
       if (width + of <= values.size()) std::copy_n(part.data() + i * of, of, values.data() + width);
       width += of;
@@ -212,20 +194,19 @@ Profile record(const py::object& frames,
 }  // namespace
 
 void bindHands(py::module_& module) {
-  py::class_<HandDescription>(module, "Hand", "A hand as its description says: hand.json.")
+  py::class_<HandDescription>(module, "Hand", "A hand, as hand.json describes it.")
       .def(py::init([](const py::object& name) { return handGiven(name); }),
            py::arg("name"),
-           "A hand by its name (hands() lists those that are built in) or its folder. ValueError "
-           "says what is wrong in its files, Error lists what is known.")
+           "A hand by its name (hands() lists the built-in ones) or its folder. ValueError says "
+           "what is wrong in its files; Error, for an unknown name, lists the known ones.")
       .def_readonly("name", &HandDescription::name, "Name of the hand.")
-      .def_readonly("maker", &HandDescription::maker, "Who makes it; may be empty.")
+      .def_readonly("maker", &HandDescription::maker, "Its manufacturer; may be empty.")
       .def_readonly("unit", &HandDescription::unit, "Unit of the taxels' values.")
       .def_readonly(
           "full_scale", &HandDescription::maximumCounts, "Largest value of a taxel of any matrix.")
       .def_readonly("saturation",
                     &HandDescription::saturationCounts,
-                    "From this value on a taxel is saturated, unless its matrix "
-                    "says otherwise.")
+                    "Value from which a taxel is saturated, unless its matrix has another one.")
       .def_property_readonly("matrices",
                              &matricesOf,
                              "Its matrices: list of dicts index, name, finger, rows, columns, "
@@ -234,21 +215,25 @@ void bindHands(py::module_& module) {
       .def_property_readonly(
           "axes", &axesOf, "Its joints: list of dicts name, unit (deg, mm), minimum, maximum.")
       .def_property_readonly(
-          "temperature_sensors", &temperatureSensorsOf, "Names of its temperature sensors.")
+          "temperature_sensors",
+          [](const HandDescription& hand) {
+            return membersOf(hand.temperatureSensors, &TemperatureSensorDescription::name);
+          },
+          "Names of its temperature sensors.")
       .def_property_readonly(
           "has_geometry",
           [](const HandDescription& hand) { return hasGeometry(hand); },
-          "Whether its description says where its taxels are in space.")
+          "Whether its description has the positions of its taxels in space.")
       .def_property_readonly(
           "pinches",
           [](const HandDescription& hand) { return pinchHandOf(hand) != nullptr; },
-          "Whether two of its pads pinch, which the features 'best' need.")
+          "Whether two of its pads pinch; the features 'best' need that.")
       .def("__repr__", [](const HandDescription& hand) {
         return "<palpate.Hand '" + hand.name + "', " + std::to_string(hand.layout->numMatrices()) +
                (hand.layout->numMatrices() == 1 ? " matrix, " : " matrices, ") +
                std::to_string(hand.layout->numTaxels()) + " taxels>";
       });
-  module.def("hands", &knownHands, "The hands that are built in: dict name -> title for people.");
+  module.def("hands", &knownHands, "The built-in hands: dict name -> title.");
   module.def("record",
              &record,
              py::arg("frames"),
@@ -259,12 +244,12 @@ void bindHands(py::module_& module) {
              py::arg("angles") = py::none(),
              py::arg("temperatures") = py::none(),
              py::arg("serial") = "",
-             "A profile of any hand from arrays: frames (T, places) or (T, taxels) in the order of "
-             "the hand's description, (T, rows, columns) of a single matrix, or a list with an "
-             "array (T, rows, columns) per matrix; values from 0 to its full scale. hand: a Hand, "
-             "its name or folder. time_ms (T,) [ms since 1970], ascending, or rate [Hz] from 0 on; "
-             "angles (T, axes) [deg; mm], temperatures (T, sensors) [deg C] of the same times. "
-             "Profile.save() writes it. ValueError says which value doesn't fit.");
+             "Makes a profile of any hand from arrays: frames (T, places) or (T, taxels) in the "
+             "order of the hand's description, (T, rows, columns) of a single matrix, or a list "
+             "with an array (T, rows, columns) per matrix; values from 0 to its full scale. hand: "
+             "a Hand, its name or folder. time_ms (T,) [ms since 1970], ascending, or rate [Hz], "
+             "from time 0; angles (T, axes) [deg; mm], temperatures (T, sensors) [deg C] of the "
+             "same times. Profile.save() writes it. ValueError says which value doesn't fit.");
 }
 
 }  // namespace palpate::python

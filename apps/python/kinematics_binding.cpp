@@ -117,7 +117,8 @@ Table surfacePoints(const Numbers& anglesDeg,
   std::vector<std::size_t> matrices;
   for (const Eigen::Vector3d& point : wanted) {
     if (point.x() != std::floor(point.x()) || std::abs(point.x()) > 1e6)
-      throw py::value_error("the first column of points is a matrix: a whole number");
+      throw py::value_error(
+          "the first column of points is the number of a matrix: it must be whole");
     matrices.push_back(checkedIndex("matrix",
                                     static_cast<std::int64_t>(point.x()),
                                     geometry.description().layout.numMatrices()));
@@ -155,21 +156,19 @@ py::dict preshapes(const py::object& hand) {
 }  // namespace
 
 void bindKinematics(py::module_& module) {
-  module.def(
-      "kinematics",
-      &kinematics,
-      py::arg("angles_deg"),
-      py::kw_only(),
-      py::arg("fingertip") = "study",
-      py::arg("hand") = py::none(),
-      "Where the taxels of a hand are: angles_deg (axes,) or (n, axes) [deg; mm for an axis "
-      "that slides], within the range "
-      "of its axes and a degree beyond, else ValueError. dict matrix, x, "
-      "y, exists (places,): which taxel; position_mm (places, 3) or (n, places, 3) [mm] in "
-      "the hand's base frame, normal: unit vectors out of the sensor, of "
-      "the same shape. fingertip: radius of bent fingertips, 'study' (nominal; SDH-2: 58 mm) "
-      "or 'effective' (48.4 mm, which makes a rigid object measure the same). hand: a Hand, "
-      "its name or folder; None: the SDH-2.");
+  module.def("kinematics",
+             &kinematics,
+             py::arg("angles_deg"),
+             py::kw_only(),
+             py::arg("fingertip") = "study",
+             py::arg("hand") = py::none(),
+             "Computes where the taxels of a hand are: angles_deg (axes,) or (n, axes) [deg; mm "
+             "for an axis that slides], within the range of its axes or a degree beyond, else "
+             "ValueError. dict matrix, x, y, exists (places,): which taxel; position_mm (places, "
+             "3) or (n, places, 3) [mm] in the hand's base frame, normal: unit vectors out of the "
+             "sensor, of the same shape. fingertip: radius of bent fingertips, 'study' (nominal; "
+             "SDH-2: 58 mm) or 'effective' (48.4 mm, which makes a rigid object measure the same). "
+             "hand: a Hand, its name or folder; None: the SDH-2.");
   module.def("surface_points",
              &surfacePoints,
              py::arg("angles_deg"),
@@ -177,18 +176,18 @@ void bindKinematics(py::module_& module) {
              py::kw_only(),
              py::arg("fingertip") = "study",
              py::arg("hand") = py::none(),
-             "Points of the sensors' surfaces, also between taxels: points (k, 3), rows of matrix, "
-             "x_mm, y_mm from the centre of taxel (0, 0). dict position_mm, normal (k, 3) or (n, "
-             "k, 3), as kinematics().");
-  module.def("bounding_sphere",
-             &sphereAround,
-             py::arg("points_mm"),
-             "The smallest sphere around points (n, 3) [mm]: (centre (3,), radius); None around "
-             "none.");
+             "Computes points on the surfaces of the sensors, also between taxels: points (k, 3), "
+             "rows of matrix, x_mm, y_mm from the centre of taxel (0, 0). dict position_mm, normal "
+             "(k, 3) or (n, k, 3), as kinematics().");
+  module.def(
+      "bounding_sphere",
+      &sphereAround,
+      py::arg("points_mm"),
+      "The smallest sphere around points (n, 3) [mm]: (centre (3,), radius); None without points.");
   module.def("preshapes",
              &preshapes,
              py::arg("hand") = py::none(),
-             "Grasp preshapes of a hand (None: the SDH-2): dict name -> title for people.");
+             "Grasp preshapes of a hand (None: the SDH-2): dict name -> title.");
   module.def(
       "preshape",
       [](const std::string& name, double close, const py::object& hand) {

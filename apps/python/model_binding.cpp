@@ -102,19 +102,21 @@ TrainedModel adapted(const TrainedModel& model, const py::object& source) {
   });
 }
 
-void bindModel(py::module_& module) {
-  py::class_<TrainedModel>(
-      module,
-      "Model",
-      "A trained model of objects: from train() or Model.load(). Never changed: "
-      "adapt() gives another one. Several threads may use one.")
+}  // namespace
+
+void bindModels(py::module_& module) {
+  py::class_<TrainedModel>(module,
+                           "Model",
+                           "A trained model of objects: from train() or Model.load(). It never "
+                           "changes: adapt() returns another one. Several threads may use one.")
       .def_static(
           "load",
           [](const std::filesystem::path& path) {
             return unlocked([&](const Progress&) { return loadModel(path); });
           },
           py::arg("path"),
-          "Reads a model file (JSON). OSError, ValueError (no model, damaged; names what).")
+          "Reads a model file (JSON). OSError, ValueError (not a model, damaged; says what is "
+          "wrong).")
       .def(
           "save",
           [](const TrainedModel& model, const std::filesystem::path& path, bool force) {
@@ -124,7 +126,7 @@ void bindModel(py::module_& module) {
           py::arg("path"),
           py::kw_only(),
           py::arg("force") = false,
-          "Writes it. OSError when the file exists (unless force) or can't be written.")
+          "Writes it to a file. OSError when the file exists (unless force) or can't be written.")
       // Models never change: a copy is the same one.
       .def("__copy__", [](const py::object& self) { return self; })
       .def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; })
@@ -133,12 +135,12 @@ void bindModel(py::module_& module) {
             return py::make_tuple(py::bytes(jsonOf(model).text(-1)));
           },
           [](const py::tuple& state) {
-            if (state.size() != 1) throw py::value_error("this is no pickled palpate.Model");
+            if (state.size() != 1) throw py::value_error("this isn't a pickled palpate.Model");
             const auto text = state[0].cast<std::string>();
             try {
               return trainedModelFrom(Json::parse(text));
             } catch (const Error& error) {
-              throw py::value_error(std::string("this is no pickled palpate.Model: ") +
+              throw py::value_error(std::string("this isn't a pickled palpate.Model: ") +
                                     error.what());
             }
           }))
@@ -147,28 +149,29 @@ void bindModel(py::module_& module) {
            py::arg("source"),
            py::kw_only(),
            py::arg("session_offset") = "model",
-           "What was grasped: source as of features(), all of one day. dict grasps [{file, begin, "
-           "end, label ('unknown' is one), confidence (0..1), sure, membership ('known', 'unknown' "
-           "or 'not_known_yet'), novelty, top [{label, p}], "
-           "best first}], session_offset {mm, sd_mm [mm], origin, grasps, objects, trusted, text}, "
-           "warnings. session_offset: 'model' (what adapt() stored; 0 in a fresh model "
-           "in the session of its training, else not known), 'none' "
-           "(summed over all), 'batch' (from these grasps), or mm. Error for another sensor.")
+           "Names the grasped objects: source as for features(), all of one day. dict grasps "
+           "[{file, begin, end, label ('unknown' is one), confidence (0..1), sure, membership "
+           "('known', 'unknown' or 'not_known_yet'), novelty, top [{label, p}], best first}], "
+           "session_offset {mm, sd_mm [mm], origin, grasps, objects, trusted, text}, warnings. "
+           "session_offset: 'model' (what adapt() stored; 0 in a fresh model in the session of its "
+           "training, else not known), 'none' (summed over all), 'batch' (from these grasps), or "
+           "mm. Error for another sensor.")
       .def("evaluate",
            &evaluateWith,
            py::arg("source"),
            py::kw_only(),
            py::arg("adapt") = EvaluationOptions{}.adaptPerClass,
            py::arg("session_offset") = "model",
-           "How well it does on recordings with known classes: dict accuracy, interval (Wilson, 95 "
-           "%), grasps, right, top3, coverage, accuracy_when_sure, sessions, classes, confusion "
-           "{labels, counts[truth][called]}, .. adapt: the first so many grasps of each class and "
-           "session adapt it and don't count.")
+           "Evaluates the model on recordings with known classes: dict accuracy, interval (Wilson, "
+           "95 %), grasps, right, top3, coverage, accuracy_when_sure, sessions, classes, confusion "
+           "{labels, counts[truth][called]}, .. adapt: number of grasps of each class and session "
+           "that adapt the model and don't count, from the first on.")
       .def("adapt",
            &adapted,
            py::arg("source"),
-           "A model adapted to today by labelled grasps: their components, and the session offset "
-           "they tell. Error when this classifier can't (only gauss can).")
+           "Adapts the model to today's session by labelled grasps, from which it also finds the "
+           "session offset; returns another model. Error when the classifier can't adapt (only "
+           "gauss can).")
       .def("__repr__",
            [](const TrainedModel& m) {
              return "<palpate.Model: " + std::to_string(m.classes.size()) + " classes, set '" +
@@ -180,7 +183,7 @@ void bindModel(py::module_& module) {
       .def_property_readonly(
           "features",
           [](const TrainedModel& m) { return m.features; },
-          "Names of the features it looks at: list of str.")
+          "Names of the features that it uses: list of str.")
       .def_property_readonly(
           "set",
           [](const TrainedModel& m) { return std::string(featureSetName(m.set)); },
@@ -192,7 +195,7 @@ void bindModel(py::module_& module) {
       .def_property_readonly(
           "carries_over",
           [](const TrainedModel& m) { return m.adaptsToSession(); },
-          "Whether it knows a session offset and can adapt: to be used in another session.")
+          "Whether it can adapt to another session, by a session offset.")
       .def_property_readonly(
           "session_offset",
           [](const TrainedModel& m) { return toPython(offsetJson(m.offset)); },
@@ -200,23 +203,15 @@ void bindModel(py::module_& module) {
       .def_property_readonly(
           "validation",
           [](const TrainedModel& m) { return toPython(m.validation); },
-          "How well it did on blocks of its own recordings: dict.")
+          "Its results on blocks of its training recordings: dict.")
       .def_property_readonly(
           "options",
           [](const TrainedModel& m) { return toPython(m.options); },
-          "What it was made with: dict.")
+          "The options of its training: dict.")
       .def_property_readonly(
           "inputs",
-          [](const TrainedModel& m) {
-            std::vector<std::string> files;
-            for (const ModelInput& input : m.inputs) files.push_back(input.file);
-            return files;
-          },
-          "Recordings it learnt from: list of str.");
+          [](const TrainedModel& m) { return membersOf(m.inputs, &ModelInput::file); },
+          "The recordings that it was trained with: list of str.");
 }
-
-}  // namespace
-
-void bindModels(py::module_& module) { bindModel(module); }
 
 }  // namespace palpate::python

@@ -29,7 +29,9 @@ void translate(std::exception_ptr pending) {
     PyErr_SetString(PyExc_OSError, forPython(error.what()).c_str());
     // A value inside an argument has the wrong type: an item of a list, an entry of a dict.
   } catch (const py::cast_error&) {
-    PyErr_SetString(PyExc_TypeError, "an argument holds a value of another type than it should");
+    PyErr_SetString(PyExc_TypeError,
+                    "an argument has a value of the wrong type, in a list or a dict: see help() of "
+                    "the function");
   }
 }
 
@@ -49,7 +51,7 @@ PYBIND11_MODULE(palpate, module) {
       "ValueError (damaged), everything else palpate.Error: one line that says what to do.";
   module.attr("__version__") = PALPATE_VERSION;
   py::register_exception<palpate::Error>(module, "Error", PyExc_RuntimeError).attr("__doc__") =
-      "Something can't be done: one line that says what, and what to do.";
+      "Raised where something can't be done: one line that says what, and what to do.";
   py::register_exception_translator(&translate);
   using namespace palpate::python;
   bindProfile(module);
@@ -57,12 +59,12 @@ PYBIND11_MODULE(palpate, module) {
   bindArrays(module);
   bindHands(module);
   bindFilters(module);
+  bindCalibration(module);  // derive() takes a Calibration
   bindSignals(module);
   bindKinematics(module);
   bindContact(module);
   bindSlip(module);
   bindSteps(module);
-  bindCalibration(module);
   bindMoments(module);
   bindFeatures(module);
   bindModels(module);

@@ -1,7 +1,7 @@
-# The part of the module palpate that is written in Python: tables, recordings as pandas and xarray
-# have them, pictures. It lies in the module itself (CMakeLists.txt) and runs in its name space.
+# The part of the module palpate that is written in Python: tables, recordings as objects of pandas
+# and xarray, pictures. It is built into the module (CMakeLists.txt) and runs in its name space.
 
-# Places and directions have components x, y, z; other values one for each matrix, axis and so on.
+# Positions and directions have components x, y, z; other values one for each matrix, axis, ..
 _VECTORS = {
     "sphere_mm", "centroid_sphere_mm", "centroid_mm", "normal", "major", "minor", "position_mm"}
 
@@ -16,10 +16,9 @@ def _imported(package, function):
 
 
 class Table(dict):
-    """A table of results: a dict with an array for each column, all of the same length, and what
-    the columns are: `units` and `meanings` (dicts by their names; a column without a unit isn't in
-    `units`), and `notes`: what the table lacks and its reader should know, a line each. A notebook
-    shows its first and last rows."""
+    """A table of results: a dict with an array for each column, all of the same length. `units` and
+    `meanings` are dicts by column name (a column without a unit isn't in `units`); `notes` lists
+    what the table lacks and its reader should know. A notebook shows its first and last rows."""
 
     units: dict[str, str]
     meanings: dict[str, str]
@@ -66,10 +65,10 @@ class Table(dict):
 
 
 def flat(table: dict) -> Table:
-    """A table with a column for each number of its rows, as pandas.DataFrame takes it: of an array
-    (T,) the same, of (T, M) NAME_0 .. NAME_(M-1) (matrices, axes), of places and directions NAME_x,
-    NAME_y, NAME_z, or NAME_0_x .. of (T, M, 3). ValueError for what is no table: a report, or
-    arrays of different lengths."""
+    """The table with one column for each number of a row, as pandas.DataFrame takes it: an array
+    (T,) stays as it is, (T, M) becomes NAME_0 .. NAME_(M-1) (matrices, axes), positions and
+    directions become NAME_x, NAME_y, NAME_z, or NAME_0_x .. for (T, M, 3). ValueError for what
+    isn't a table: a report, or arrays of different lengths."""
     import numpy
     columns, units, meanings, rows = {}, {}, {}, None
     for name, value in table.items():
@@ -130,8 +129,8 @@ def _in_unit(unit, of):
 def to_pandas(table: dict, *, unit: str = "counts"):
     """pandas.DataFrame of a table (signals(), slip(), contact(), grasps(), ..): the columns of
     flat(), indexed by host time (datetime64, UTC) where the table has time_ms or begin_ms.
-    attrs['units']: column -> unit, as the Table says (a plain dict has none); `unit` takes the
-    place of counts. ImportError without pandas, ValueError for what is no table."""
+    attrs['units']: column -> unit, as the Table says (a plain dict has none); `unit` replaces
+    counts. ImportError without pandas, ValueError for what isn't a table."""
     pandas = _imported("pandas", "to_pandas")
     columns, units = _columns_of(table)
     frame = pandas.DataFrame(dict(columns))
@@ -145,13 +144,13 @@ def to_pandas(table: dict, *, unit: str = "counts"):
 def to_xarray(table: dict, *, unit: str = "counts"):
     """xarray.Dataset of a table: dims time (host time as datetime64, UTC; `row` where the table has
     no time), matrix, and axis (x, y, z) of places and directions; the attribute units of each
-    variable, as the Table says (a plain dict has none), where `unit` takes the place of counts.
-    Lists of different lengths, as fingers of grasps(), are left out. ImportError without xarray,
-    ValueError for what is no table."""
+    variable, as the Table says (a plain dict has none), where `unit` replaces counts. Lists of
+    different lengths, such as fingers of grasps(), are left out. ImportError without xarray,
+    ValueError for what isn't a table."""
     import numpy
     xarray = _imported("xarray", "to_xarray")
     arrays = {name: value for name, value in table.items() if isinstance(value, numpy.ndarray)}
-    flat(arrays)  # raises for what is no table
+    flat(arrays)  # raises for what isn't a table
     times = _times_of(arrays)
     row = "row" if times is None else "time"
     variables, coordinates = {}, {}
@@ -173,7 +172,7 @@ def to_xarray(table: dict, *, unit: str = "counts"):
 
 
 def _program():
-    """palpate beside the module: in its build folder or its installation, nowhere else."""
+    """The program palpate next to the module: in its build folder or its installation only."""
     from pathlib import Path
     folder = Path(__file__).resolve().parent
     places = [folder.parent / "palpate", *(up / "bin" / "palpate" for up in folder.parents[2:3])]
@@ -181,15 +180,16 @@ def _program():
         if place.is_file():
             return str(place)
     missing = " or ".join(map(str, places))
-    raise Error(f"render() needs the program palpate, which isn't at {missing}")
+    raise Error(f"render() needs the program palpate, which isn't at {missing}: "
+                "build or install it")
 
 
 def render(path, out, **options) -> None:
-    """Draws a recording as `palpate render` does, which it runs: one frame (.png, .svg, .pdf), a
+    """Draws a recording by running `palpate render`: one frame (.png, .svg, .pdf), a
     movie (.mp4), or with from_ and to a folder of pictures. path: a recording, or a list of them
     with a template as out ('out/{name}.png'). The options are those of the command with _ for -:
     frame=7, view='hand', width_mm=85, range=(0, 500), values=True, filter=['median'], from_=10,
-    to=20, force=True. ValueError for an option that is wrong, else Error."""
+    to=20, force=True. ValueError for a wrong option, else Error."""
     import os
     import subprocess
     paths = [path] if isinstance(path, (str, bytes, os.PathLike)) else list(path)
@@ -278,7 +278,7 @@ def _add_to_profile():
 
 
 def _add_one_line_errors():
-    """A function that is given what it doesn't take says so in one line, as all errors do."""
+    """Makes the error of a function for wrong arguments one line, as all errors are."""
     def one_line(function, name, is_method=False):
         def call(*args, **kwargs):
             try:

@@ -101,8 +101,8 @@ void bindMoments(py::module_& module) {
       py::arg("size") = 14,
       py::arg("above") = 0,
       py::arg("left") = 4,
-      "A matrix (rows, columns) laid into a square picture with so many empty rows above and "
-      "columns to the left (default: as the study does): (size, size). ValueError when it doesn't "
+      "A matrix (rows, columns) placed in a square picture, below `above` empty rows and right of "
+      "`left` empty columns (default: as in the study): (size, size). ValueError when it doesn't "
       "fit.");
 }
 

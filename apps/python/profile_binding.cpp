@@ -26,36 +26,43 @@ namespace {
 
 using Stop = std::optional<std::int64_t>;
 
-FloatArray frames(const Profile& profile, std::int64_t start, Stop stop) {
+// `shape` of each of the frames start..stop: what begin(frame) points to.
+template <typename Begin>
+FloatArray copied(const Profile& profile,
+                  std::int64_t start,
+                  Stop stop,
+                  std::vector<std::size_t> shape,
+                  const Begin& begin) {
   const auto [first, last] = sliceOf(start, stop, profile.numFrames());
-  FloatArray array({last - first, profile.layout().numCells()});
+  std::size_t count = 1;
+  for (const std::size_t side : shape) count *= side;
+  shape.insert(shape.begin(), last - first);
+  FloatArray array(shape);
   float* out = array.mutable_data();
   const py::gil_scoped_release unlocked;
   TactileFrame frame;
   for (std::size_t i = first; i < last; ++i) {
     profile.readFrame(i, frame);
-    out = std::copy(frame.allValues().begin(), frame.allValues().end(), out);
+    out = std::copy_n(begin(frame.allValues().data()), count, out);
   }
   return array;
+}
+
+FloatArray frames(const Profile& profile, std::int64_t start, Stop stop) {
+  return copied(profile, start, stop, {profile.layout().numCells()}, [](const float* values) {
+    return values;
+  });
 }
 
 FloatArray matrix(const Profile& profile, std::int64_t index, std::int64_t start, Stop stop) {
   const SensorLayout& layout = profile.layout();
   const std::size_t m = checkedIndex("matrix", index, layout.numMatrices());
-  const auto [first, last] = sliceOf(start, stop, profile.numFrames());
   const MatrixLayout& shape = layout.matrix(m);
-  FloatArray array({last - first,
-                    static_cast<std::size_t>(shape.rows),
-                    static_cast<std::size_t>(shape.columns)});
-  float* out = array.mutable_data();
-  const py::gil_scoped_release unlocked;
-  TactileFrame frame;
-  for (std::size_t i = first; i < last; ++i) {
-    profile.readFrame(i, frame);
-    const float* values = frame.allValues().data() + layout.offset(m);
-    out = std::copy(values, values + shape.numCells(), out);
-  }
-  return array;
+  return copied(profile,
+                start,
+                stop,
+                {static_cast<std::size_t>(shape.rows), static_cast<std::size_t>(shape.columns)},
+                [&](const float* values) { return values + layout.offset(m); });
 }
 
 FloatArray taxel(const Profile& profile,
@@ -66,21 +73,11 @@ FloatArray taxel(const Profile& profile,
                  Stop stop) {
   const SensorLayout& layout = profile.layout();
   const std::size_t m = checkedIndex("matrix", index, layout.numMatrices());
-  const MatrixLayout& shape = layout.matrix(m);
-  const std::size_t column = checkedIndex("column", x, static_cast<std::size_t>(shape.columns)),
-                    row = checkedIndex("row", y, static_cast<std::size_t>(shape.rows));
-  const auto [first, last] = sliceOf(start, stop, profile.numFrames());
-  FloatArray array(static_cast<py::ssize_t>(last - first));
-  float* out = array.mutable_data();
-  const std::size_t place =
-      layout.offset(m) + row * static_cast<std::size_t>(shape.columns) + column;
-  const py::gil_scoped_release unlocked;
-  TactileFrame frame;
-  for (std::size_t i = first; i < last; ++i) {
-    profile.readFrame(i, frame);
-    *out++ = frame.allValues()[place];
-  }
-  return array;
+  const auto columns = static_cast<std::size_t>(layout.matrix(m).columns),
+             rows = static_cast<std::size_t>(layout.matrix(m).rows);
+  const std::size_t column = checkedIndex("column", x, columns), row = checkedIndex("row", y, rows);
+  const std::size_t place = layout.offset(m) + row * columns + column;
+  return copied(profile, start, stop, {}, [&](const float* values) { return values + place; });
 }
 
 // Host times divided by `unitUs`.
@@ -162,12 +159,6 @@ py::object deviceTimes(const SeriesOfProfile& series) {
   return any ? py::object(times) : py::none();
 }
 
-std::vector<std::string> textsOf(const SeriesOfProfile& series, std::string Column::*text) {
-  std::vector<std::string> texts;
-  for (const Column& column : series.description().columns) texts.push_back(column.*text);
-  return texts;
-}
-
 py::list matrices(const Profile& profile) {
   py::list list;
   for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m) {
@@ -196,13 +187,12 @@ py::list matrices(const Profile& profile) {
 
 py::dict timing(const Profile& profile) {
   const TimingReport report = timingOf(profile);
-  py::list gaps;
-  for (const Gap& gap : report.gaps) gaps.append(py::make_tuple(gap.frame, gap.seconds));
   py::dict result;
   result["duration_s"] = report.durationS;
   result["rate_hz"] = report.rateHz;
   result["mean_rate_hz"] = report.meanRateHz;
-  result["gaps"] = gaps;
+  result["gaps"] =
+      listOf(report.gaps, [](const Gap& gap) { return py::make_tuple(gap.frame, gap.seconds); });
   return result;
 }
 
@@ -224,8 +214,9 @@ Profile sliced(const Profile& profile, const py::slice& slice) {
   if (!slice.compute(static_cast<py::ssize_t>(profile.numFrames()), &first, &stop, &step, &length))
     throw py::error_already_set();
   if (step != 1)
-    throw py::value_error("a profile has no steps: take frames()[::step], or slice without one");
-  if (length == 0) throw py::value_error("there are no frames in this slice");
+    throw py::value_error(
+        "a slice of a profile has no step: use frames()[::step], or leave the step out");
+  if (length == 0) throw py::value_error("the slice has no frames");
   return crop(profile, first, first + length - 1);
 }
 
@@ -276,8 +267,8 @@ void bindValues(ProfileClass& profile) {
       .def("__getitem__",
            &sliced,
            py::arg("frames"),
-           "profile[10:20]: these frames as a profile of its own, as crop(). ValueError for a step "
-           "or without frames.")
+           "profile[10:20]: these frames as a separate profile, as crop(). ValueError for a slice "
+           "with a step or without frames.")
       .def(
           "__iter__",
           [](const Profile& p) { return FrameIterator{p}; },
@@ -291,7 +282,7 @@ void bindValues(ProfileClass& profile) {
            py::arg("start") = 0,
            py::arg("stop") = py::none(),
            "All taxels of the frames start..stop (exclusive): float32 (T, places), matrix after "
-           "matrix, row by row (SDH-2: 486 places); counts, or what a filter made of them.")
+           "matrix, row by row (SDH-2: 486 places); counts, or filtered values.")
       .def("matrix",
            &matrix,
            py::arg("m"),
@@ -349,7 +340,7 @@ void bindTimes(ProfileClass& profile) {
       .def_property_readonly(
           "time_us",
           [](const Profile& p) { return frameTimes(p, 1); },
-          "The same, as exactly as it is known [us since 1970]: int64 (T,).")
+          "The same with the full resolution [us since 1970]: int64 (T,).")
       .def_property_readonly(
           "time_s", &secondsOf, "Time of each frame from the first one [s]: float64 (T,).")
       .def_property_readonly(
@@ -360,11 +351,11 @@ void bindTimes(ProfileClass& profile) {
           "temperature_time_ms",
           [](const Profile& p) { return sampleTimes(p, kTemperatureSeries, kUsPerMs); },
           "Host time of each sample of the temperatures [ms since 1970]: int64 (n,).")
-      .def(
-          "fitted_times",
-          &atFittedTimes,
-          "The same recording at the times of the senders' clocks, fitted to the times of arrival: "
-          "frames and each series by their own. ValueError without usable times of a sender.")
+      .def("fitted_times",
+           &atFittedTimes,
+           "The same recording with the times of the senders' clocks, fitted to the times of "
+           "arrival, separately for frames and each series. ValueError without usable times of a "
+           "sender.")
       .def("timing",
            &timing,
            "dict duration_s [s], rate_hz (from the median interval) and mean_rate_hz [Hz] (0 with "
@@ -381,10 +372,10 @@ void bindTimes(ProfileClass& profile) {
 }
 
 void bindSeries(py::module_& module) {
-  py::class_<SeriesOfProfile>(module,
-                              "Series",
-                              "Rows of numbers with stamps of their own beside the frames of a "
-                              "recording: from Profile.series.")
+  py::class_<SeriesOfProfile>(
+      module,
+      "Series",
+      "Rows of numbers with their times, recorded together with frames: from Profile.series.")
       .def("__len__", [](const SeriesOfProfile& s) { return s.profile.numSamples(s.index); })
       .def("__repr__",
            [](const SeriesOfProfile& s) {
@@ -407,21 +398,25 @@ void bindSeries(py::module_& module) {
           "The samples: float64 (n, columns); NaN where a value is not known.")
       .def_property_readonly(
           "columns",
-          [](const SeriesOfProfile& s) { return textsOf(s, &Column::name); },
+          [](const SeriesOfProfile& s) {
+            return membersOf(s.description().columns, &Column::name);
+          },
           "Names of the columns: list of str.")
       .def_property_readonly(
           "units",
-          [](const SeriesOfProfile& s) { return textsOf(s, &Column::unit); },
+          [](const SeriesOfProfile& s) {
+            return membersOf(s.description().columns, &Column::unit);
+          },
           "Units of the columns, '' where none is known: list of str.")
       .def_property_readonly(
           "role",
           [](const SeriesOfProfile& s) { return s.description().role; },
-          "What it means to Palpate: 'joint_angles', 'temperatures', 'reference_force', 'trigger', "
-          "or ''.")
+          "Its role in Palpate: 'joint_angles', 'temperatures', 'reference_force', 'trigger', or "
+          "''.")
       .def_property_readonly(
           "source",
           [](const SeriesOfProfile& s) { return s.description().source; },
-          "Where it comes from, for people to read; or ''.");
+          "Where it comes from, as text; or ''.");
 }
 
 }  // namespace
@@ -438,34 +433,26 @@ void bindProfile(py::module_& module) {
       module,
       "Profile",
       "The data of one recording: frames of taxels and any number of series (joint angles, "
-      "temperatures, a load cell, ..), each with its own stamps. Read-only; several threads may "
-      "read one. "
-      "Arrays have memory of their own: they stay valid after the profile is deleted, and changing "
-      "one "
+      "temperatures, a load cell, ..), each with its own times. Read-only; several threads may "
+      "read one. Arrays are copies: they stay valid after the profile is deleted, and changing one "
       "changes nothing else. From load(), from_arrays(), filter(), synthesize() ..");
   bindValues(profile);
   bindTimes(profile);
   profile
-      .def_property_readonly("matrices",
-                             &matrices,
-                             "The matrices in wire order: list of dicts index, name, rows, "
-                             "columns, pitch_mm [mm] (a list [x, y] where the two differ), "
-                             "taxels, enabled (numbers of taxels that exist, that are scanned), "
-                             "static_mask, dynamic_mask (bool (rows, columns)).")
+      .def_property_readonly(
+          "matrices",
+          &matrices,
+          "The matrices in wire order: list of dicts index, name, rows, columns, pitch_mm [mm] (a "
+          "list [x, y] where the two differ), taxels (how many exist), enabled (how many are "
+          "scanned), static_mask, dynamic_mask (bool (rows, columns)).")
       .def_property_readonly(
           "axes",
-          [](const Profile& p) {
-            std::vector<std::string> names;
-            for (const AxisDescription& axis : p.hand().axes) names.push_back(axis.name);
-            return names;
-          },
+          [](const Profile& p) { return membersOf(p.hand().axes, &AxisDescription::name); },
           "Names of the joints, in the order of `angles`.")
       .def_property_readonly(
           "temperature_sensors",
           [](const Profile& p) {
-            std::vector<std::string> names;
-            for (const auto& sensor : p.hand().temperatureSensors) names.push_back(sensor.name);
-            return names;
+            return membersOf(p.hand().temperatureSensors, &TemperatureSensorDescription::name);
           },
           "Names of the sensors, in the order of `temperatures`.")
       .def_property_readonly(
@@ -483,11 +470,13 @@ void bindProfile(py::module_& module) {
           },
           "'counts' (whole numbers) or 'float' (filtered).")
       .def_property_readonly(
-          "serial", [](const Profile& p) { return p.info().serial; }, "Of the tactile controller.")
+          "serial",
+          [](const Profile& p) { return p.info().serial; },
+          "Serial number of the tactile controller.")
       .def_property_readonly(
           "firmware",
           [](const Profile& p) { return p.info().firmware; },
-          "What wrote it, as it says itself.")
+          "Firmware of the tactile controller; in a .dsa the program that wrote it.")
       .def_property_readonly(
           "warnings",
           [](const Profile& p) { return p.info().warnings; },
@@ -497,15 +486,15 @@ void bindProfile(py::module_& module) {
            py::arg("begin"),
            py::arg("end"),
            "Frames begin..end, both inclusive, with the angles and temperatures that belong to "
-           "them, as a profile of its own. IndexError for a frame that isn't there.")
+           "them, as a separate profile. IndexError for a frame that doesn't exist.")
       .def("save",
            &save,
            py::arg("path"),
            py::kw_only(),
            py::arg("events") = py::list(),
            py::arg("force") = false,
-           "Saves it in the form of the path's ending: .dsa, .palpate, .csv or .npz, with events "
-           "as events() gives them. OSError when the file exists (unless force) or can't be "
+           "Saves it in the format of the path's ending: .dsa, .palpate, .csv or .npz, with events "
+           "as events() returns them. OSError when the file exists (unless force) or can't be "
            "written.");
 }
 

@@ -76,7 +76,7 @@ py::tuple pickledProfile(const Profile& profile) {
 }
 
 Profile unpickledProfile(const py::tuple& state) {
-  if (state.size() != 3) throw py::value_error("this is no pickled palpate.Profile");
+  if (state.size() != 3) throw py::value_error("this isn't a pickled palpate.Profile");
   const auto bytes = state[0].cast<std::string>();
   const auto format = state[1].cast<std::string>();
   const auto warnings = state[2].cast<std::vector<std::string>>();

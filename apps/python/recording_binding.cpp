@@ -22,8 +22,7 @@ namespace palpate::python {
 namespace py = pybind11;
 
 py::list toPython(const std::vector<Event>& events) {
-  py::list list;
-  for (const Event& event : events) {
+  return listOf(events, [](const Event& event) {
     py::dict one;
     one["t_us"] = event.tUs;
     one["t1_us"] = event.t1Us;
@@ -31,9 +30,8 @@ py::list toPython(const std::vector<Event>& events) {
     one["matrix"] = event.matrix;
     one["text"] = event.text;
     one["json"] = event.json;
-    list.append(one);
-  }
-  return list;
+    return one;
+  });
 }
 
 std::vector<Event> eventsFrom(const py::object& events) {
@@ -112,19 +110,16 @@ py::dict details(const fs::path& path) {
   result["run"] = found.run;
   result["notes"] = found.notes;
   result["labels"] = found.labels;
-  py::list series;
-  for (const SeriesDetails& each : found.series) {
+  result["series"] = listOf(found.series, [](const SeriesDetails& each) {
     py::dict entry;
     entry["name"] = each.name;
     entry["samples"] = each.samples;
     entry["rate_hz"] = each.rateHz;
-    py::list columns;
-    for (const Column& column : each.columns)
-      columns.append(py::make_tuple(column.name, column.unit));
-    entry["columns"] = std::move(columns);
-    series.append(std::move(entry));
-  }
-  result["series"] = std::move(series);
+    entry["columns"] = listOf(each.columns, [](const Column& column) {
+      return py::make_tuple(column.name, column.unit);
+    });
+    return entry;
+  });
   return result;
 }
 
@@ -170,8 +165,10 @@ Table seconds(const fs::path& path) {
             columnOf<Row>("t_s", "s", "host time, since 1970", &Row::tS),
             columnOf<Row>("matrix", "", "number of the matrix, from 0", &Row::matrix),
             columnOf<Row>("frames", "", "frames in this second", &Row::frames),
-            columnOf<Row>(
-                "min", "counts", "minimum of the touched taxels, 0 without", &Row::minimum),
+            columnOf<Row>("min",
+                          "counts",
+                          "minimum of the touched taxels, 0 if none is touched",
+                          &Row::minimum),
             columnOf<Row>("max", "counts", "maximum", &Row::maximum),
             columnOf<Row>("sum", "counts", "sum over the touched taxels of all frames", &Row::sum),
             columnOf<Row>("active_max",
@@ -185,55 +182,54 @@ Table seconds(const fs::path& path) {
 }  // namespace
 
 void bindRecordings(py::module_& module) {
-  module.def(
-      "load",
-      &load,
-      py::arg("path"),
-      "Reads a recording (.dsa or .palpate; detected from its content). OSError when it can't be "
-      "read, ValueError when it is damaged or no recording. Of a .palpate, .h5 or .mcap the frames "
-      "are read when they are asked for: damage within them is an Error only then; verify() reads "
-      "every byte at once.");
+  module.def("load",
+             &load,
+             py::arg("path"),
+             "Reads a recording (.dsa or .palpate; detected from its content). OSError when it "
+             "can't be read, ValueError when it is damaged or not a recording. The frames of a "
+             ".palpate, .h5 or .mcap are read when they are needed: only then is damage within "
+             "them an Error; verify() checks every byte.");
   module.def("info",
              &info,
              py::arg("profile"),
-             "What is in it: dict format, value_type, frames, duration_s [s], rate_hz (from the "
-             "median interval), mean_rate_hz [Hz], gaps (their number), temperatures, joint_angles "
-             "(samples), max_value, saturated_frames, serial, hand, warnings.");
+             "Summary of a profile: dict format, value_type, frames, duration_s [s], rate_hz (from "
+             "the median interval), mean_rate_hz [Hz], gaps (their number), temperatures, "
+             "joint_angles (samples), max_value, saturated_frames, serial, hand, warnings.");
   module.def("verify",
              &verify,
              py::arg("path"),
              "Checks every byte: dict state ('sound', 'damaged': part of it can be read, "
-             "'unreadable'), message (one line). Raises nothing for a bad file.");
+             "'unreadable'), message (one line). Never raises for a bad file.");
   module.def("recover",
              &recover,
              py::arg("path"),
              py::arg("out"),
              py::kw_only(),
              py::arg("force") = false,
-             "Saves what can be saved of a damaged or unfinished recording into `out` (form by its "
-             "ending); `path` isn't touched. dict state ('whole', 'part', 'nothing': no file was "
-             "made), message. OSError, ValueError (no recording at all).");
+             "Saves what is readable in a damaged or unfinished recording as `out` (format by its "
+             "ending); `path` isn't changed. dict state ('whole', 'part', 'nothing': no file was "
+             "made), message. OSError, ValueError (not a recording).");
   module.def("events",
              &events,
              py::arg("path"),
-             "What was noted or happened in a recording, in order of time: list of dicts t_us, "
-             "t1_us [us since 1970], kind ('label', 'gap', 'settings', ..), matrix (or None), "
-             "text, json. Of a .dsa those of its sidecar. OSError, ValueError.");
+             "The events of a recording, in order of time: list of dicts t_us, t1_us [us since "
+             "1970], kind ('label', 'gap', 'settings', ..), matrix (or None), text, json. For a "
+             ".dsa those of its sidecar. OSError, ValueError.");
   module.def("details",
              &details,
              py::arg("path"),
              "Details of a recording, without reading its frames: dict form, state ('finished', "
              "'recording', 'unfinished', 'damaged', 'unreadable'), message, size_bytes, start_us, "
-             "duration_us, frames (None: not known), operator, object, run, notes, labels. Raises "
-             "nothing for a bad file.");
+             "duration_us, frames (None: not known), operator, object, run, notes, labels. Never "
+             "raises for a bad file.");
   module.def(
       "meta",
       [](const fs::path& path) {
         return unlocked([&](const Progress&) { return readRecordingMeta(path); });
       },
       py::arg("path"),
-      "Meta data of a recording: dict of texts ('serial', 'operator', "
-      "'settings', ..); of a .dsa nothing. OSError, ValueError.");
+      "Meta data of a recording: dict of texts ('serial', 'operator', 'settings', ..); empty for a "
+      ".dsa. OSError, ValueError.");
   module.def(
       "seconds",
       &seconds,

@@ -4,6 +4,7 @@
 
 #include <pybind11/stl.h>
 
+#include "palpate/computed/computed_series.h"
 #include "palpate/core/progress.h"
 #include "palpate/model/timing.h"
 #include "palpate/signals/coherence.h"
@@ -16,6 +17,7 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/calibrations.h"
 #include "python/interruption.h"
 #include "python/result_binding.h"
 
@@ -110,17 +112,15 @@ py::dict spectrum(const Numbers& timeS,
   result["magnitude"] = table(found.magnitude);
   result["mean_psd"] = arrayOf(found.mean.psd);
   result["mean_magnitude"] = arrayOf(found.mean.magnitude);
-  py::list peaks;
-  for (const SpectralPeak& peak : spectralPeaks(found.mean)) {
+  result["peaks"] = listOf(spectralPeaks(found.mean), [](const SpectralPeak& peak) {
     py::dict one;
     one["frequency_hz"] = peak.frequencyHz;
     one["psd"] = peak.psd;
     one["amplitude"] = peak.amplitude;
     one["width_hz"] = peak.widthHz;
     one["prominence_db"] = peak.prominenceDb;
-    peaks.append(one);
-  }
-  result["peaks"] = peaks;
+    return one;
+  });
   result["strongest_hz"] = found.mean.strongestHz();
   result["rate_hz"] = found.report.rateHz;
   result["nyquist_hz"] = found.report.nyquistHz;
@@ -161,11 +161,28 @@ py::dict coherence(const Numbers& timeS,
   return result;
 }
 
-DoubleArray derive(const Profile& profile, const std::string& text) {
+DoubleArray derive(const Profile& profile,
+                   const std::string& text,
+                   const std::optional<Calibration>& calibration,
+                   std::optional<double> sensitivity,
+                   std::optional<double> threshold,
+                   bool tare,
+                   bool drift) {
   const Formula formula(text);
+  const ForceChoice chosen{sensitivity, threshold, tare, drift};
+  if (!calibration && (sensitivity || threshold || tare || !drift))
+    throw py::value_error("sensitivity, threshold, tare and drift need a calibration");
   const Series series = unlocked([&](const Progress& progress) {
-    return formulaSeries(
-        profile, formula, 0.0, static_cast<double>(profile.durationUs()) / kUsPerS + 1.0, progress);
+    ComputedOptions options{.calibration = calibration};
+    if (calibration) {
+      options.pressure = pressureOptionsOf(chosen, *calibration, profile);
+      options.tare = tareOf(chosen, profile, progress);
+    }
+    return formulaSeries(withComputedSeries(profile, options),
+                         formula,
+                         0.0,
+                         static_cast<double>(profile.durationUs()) / kUsPerS + 1.0,
+                         progress);
   });
   return arrayOf(series.values);
 }
@@ -193,31 +210,31 @@ void bindSignals(py::module_& module) {
              &signals,
              py::arg("profile"),
              py::arg("matrix") = py::none(),
-             "Characteristic signals per frame: dict time_ms (T,), mean, filtered_mean (eq. 3.2 of "
-             "the study), min, max, sum [counts], active (number of taxels > 0), area_mm2 [mm^2]: "
-             "(T, matrices); of one matrix, or 'hand' (all taxels of the whole hand), (T,). 0 "
-             "where nothing is touched. Where the sensor sends readings also x, y, z [counts], "
-             "sums over the taxels of what is over the baseline, and norm, the length of the "
-             "three; not of the whole hand.");
-  module.def("spectrum",
-             &spectrum,
-             py::arg("time_s"),
-             py::arg("values"),
-             py::kw_only(),
-             py::arg("window") = SpectrumOptions{}.window,
-             py::arg("overlap") = py::none(),
-             py::arg("detrend") = "mean",
-             py::arg("rate") = "mean",
-             "Short-time Fourier transform of a series: time_s (n,) [s], ascending; values (n,). "
-             "Stretches without a gap are resampled to an even grid first; Hann window. dict "
-             "time_s (S,) middles of the segments [s], frequency_hz (B,) [Hz], bin_hz (S,) of each "
-             "segment [Hz], psd (S, B) [units^2/Hz], magnitude (S, B) [units], mean_psd, "
-             "mean_magnitude (B,), peaks of the mean [{frequency_hz, psd, amplitude, width_hz, "
-             "prominence_db}], strongest_hz, rate_hz, nyquist_hz [Hz] (nothing above can be "
-             "seen), jitter (sd of the intervals / mean), not_finite, in_no_segment (samples). "
-             "overlap: default window - 1; detrend: 'mean', 'line', 'none'; rate of the grid: "
-             "'mean', 'median'. ValueError for a series without a span free of gaps as long as the "
-             "window.");
+             "Computes the characteristic signals of each frame: dict time_ms (T,), mean, "
+             "filtered_mean (eq. 3.2 of the study), min, max, sum [counts], active (number of "
+             "taxels > 0), area_mm2 [mm^2]: (T, matrices); of one matrix, or 'hand' (all taxels of "
+             "the whole hand), (T,). 0 where nothing is touched. Where the sensor sends readings "
+             "also x, y, z [counts], sums over the taxels of the readings over the baseline, and "
+             "norm, the length of that vector; not of the whole hand.");
+  module.def(
+      "spectrum",
+      &spectrum,
+      py::arg("time_s"),
+      py::arg("values"),
+      py::kw_only(),
+      py::arg("window") = SpectrumOptions{}.window,
+      py::arg("overlap") = py::none(),
+      py::arg("detrend") = "mean",
+      py::arg("rate") = "mean",
+      "Short-time Fourier transform of a series: time_s (n,) [s], ascending; values (n,). "
+      "Stretches without a gap are resampled to an even grid first; Hann window. dict time_s (S,) "
+      "middles of the segments [s], frequency_hz (B,) [Hz], bin_hz (S,) of each segment [Hz], psd "
+      "(S, B) [units^2/Hz], magnitude (S, B) [units], mean_psd, mean_magnitude (B,), peaks of the "
+      "mean [{frequency_hz, psd, amplitude, width_hz, prominence_db}], strongest_hz, rate_hz, "
+      "nyquist_hz [Hz] (frequencies above it can't be measured), jitter (sd of the intervals / "
+      "mean), not_finite, in_no_segment (samples). overlap: default window - 1; detrend: 'mean', "
+      "'line', 'none'; rate of the grid: 'mean', 'median'. ValueError for a series without a span "
+      "free of gaps as long as the window.");
   module.def("coherence",
              &coherence,
              py::arg("time_s"),
@@ -228,24 +245,35 @@ void bindSignals(py::module_& module) {
              py::arg("overlap") = py::none(),
              py::arg("detrend") = "mean",
              py::arg("rate") = "mean",
-             "What two series have in common at each frequency: time_s, a, b (n,). dict "
-             "frequency_hz, coherence (0..1; NaN without power), phase_deg (of b relative to a), "
-             "psd_a, psd_b: (B,); segments, level_95 (independent noise is above it in 5 % of the "
-             "bins), rate_hz. overlap: default window / 2. As scipy.signal.coherence after "
-             "resampling to an even grid. ValueError with fewer than two segments.");
-  module.def("derive",
-             &derive,
-             py::arg("profile"),
-             py::arg("formula"),
-             "derive(profile, formula) -> array\n\n"
-             "A curve that a formula makes of signals, at every frame (T,): 'm1_sum - m3_sum', "
-             "'der(hand_sum)', 'abs(m5_x2_y9) / max(1, m5_max)'; angle3 [deg] and temperature4 "
-             "[deg C] are interpolated, t [s] is the time from the first frame. ValueError for a "
-             "text that is no formula, and for a signal that isn't there.");
+             "Coherence of two series at each frequency: time_s, a, b (n,). dict frequency_hz, "
+             "coherence (0..1; NaN without power), phase_deg (of b relative to a), psd_a, psd_b: "
+             "(B,); segments, level_95 (independent noise is above it in 5 % of the bins), "
+             "rate_hz. overlap: default window / 2. As scipy.signal.coherence after resampling to "
+             "an even grid. ValueError with fewer than two segments.");
+  module.def(
+      "derive",
+      &derive,
+      py::arg("profile"),
+      py::arg("formula"),
+      py::kw_only(),
+      py::arg("calibration") = py::none(),
+      py::arg("sensitivity") = py::none(),
+      py::arg("threshold") = py::none(),
+      py::arg("tare") = false,
+      py::arg("drift") = true,
+      "The values of a formula, or of a single signal, at every frame: (T,). Signals have the "
+      "names that the command derive knows: 'm1_sum - m3_sum', 'der(hand_sum)', 'abs(m5_x2_y9) / "
+      "max(1, m5_max)'; angle3 [deg] and temperature4 [deg C] are interpolated, t [s] is the time "
+      "from the first frame. 'm1_centroid_x_mm', 'hand_sphere_diameter_mm', 'm1_slip_mm' and "
+      "others are computed from the frames; 'hand_force_n', 'm1_force_n' [N] and 'm1_pressure_kpa' "
+      "[kPa] need a Calibration, and are those of its apply() with the same sensitivity, "
+      "threshold, tare and drift. NaN: not known. spectrum(profile.time_s, derive(profile, "
+      "'m1_slip_mm')) is the spectrum of such a signal. ValueError for a text that isn't a "
+      "formula, and for a signal that the recording doesn't have.");
   module.def("strongest_taxel",
              &strongest,
              py::arg("profile"),
-             "The taxel that feels most: (matrix, x, y); None where none feels anything.");
+             "The taxel with the largest load: (matrix, x, y); None if nothing is touched.");
   module.def("first_contact",
              &contactFrame,
              py::arg("profile"),
@@ -253,7 +281,7 @@ void bindSignals(py::module_& module) {
              py::arg("frames") = 3,
              py::arg("taxels") = 3,
              "The first frame of a lasting contact: the first of `frames` in a row with at least "
-             "`taxels` active taxels each; None without.");
+             "`taxels` active taxels each; None if there is none.");
 }
 
 }  // namespace palpate::python

@@ -44,12 +44,7 @@ SlipRowsOptions slipOptionsOf(const Profile& profile,
   if (matrix)
     options.matrix =
         static_cast<std::int64_t>(checkedIndex("matrix", *matrix, profile.layout().numMatrices()));
-  if (!slipMethodNamed(method)) {
-    std::string known;
-    for (const SlipMethod each : slipMethods())
-      known += (known.empty() ? "" : ", ") + std::string(nameOf(each));
-    throw py::value_error("method is '" + method + "'; it is one of " + known);
-  }
+  named("method", method, slipMethods(), [](SlipMethod each) { return nameOf(each); });
   setSlipMethod(options, method);
   SlipDetectorOptions& detector = options.pass.detector;
   detector.rule.stepTaxels = step;
@@ -128,11 +123,7 @@ py::dict momentsOf(const Numbers& values) {
 }
 
 SlipShape shapeNamed(const std::string& name) {
-  if (const auto shape = slipShapeNamed(name)) return *shape;
-  std::string known;
-  for (const SlipShape each : slipShapes())
-    known += (known.empty() ? "" : ", ") + std::string(nameOf(each));
-  throw py::value_error("shape is '" + name + "'; it is one of " + known);
+  return named("shape", name, slipShapes(), [](SlipShape each) { return nameOf(each); });
 }
 
 py::dict slipBenchmark(double noise,
@@ -207,46 +198,41 @@ FloatArray syntheticContact(const Numbers& x,
 
 void bindSlip(py::module_& module) {
   const SlipRuleOptions rule;
-  module.def(
-      "slip",
+  const auto def = [&](const char* name, auto function, const char* meaning) {
+    module.def(name,
+               function,
+               py::arg("profile"),
+               py::arg("matrix") = py::none(),
+               py::arg("method") = nameOf(SlipDetectorOptions{}.method),
+               py::kw_only(),
+               py::arg("reference") = "first",
+               py::arg("step") = rule.stepTaxels,
+               py::arg("limit") = rule.referenceTaxels,
+               py::arg("rotation") = rule.rotationDeg,
+               meaning);
+  };
+  def("slip",
       &slipRows<false>,
-      py::arg("profile"),
-      py::arg("matrix") = py::none(),
-      py::arg("method") = nameOf(SlipDetectorOptions{}.method),
-      py::kw_only(),
-      py::arg("reference") = "first",
-      py::arg("step") = rule.stepTaxels,
-      py::arg("limit") = rule.referenceTaxels,
-      py::arg("rotation") = rule.rotationDeg,
-      "How contacts move over a matrix (None: over all), and whether that is slip: dict of "
-      "columns, a row per frame and matrix that is touched. Taxels (x right, y down) and deg "
-      "(from x towards y).\n\n"
-      "frame, time_ms, matrix, active: int64; x, y: centroid; valid: bool; dx, dy: motion since "
-      "the frame before, ref_dx, ref_dy: since the reference (NaN: not known); rotation_valid, "
-      "rotation_deg, ref_rotation_deg, orientation_deg; eccentricity, roundness, residual, "
-      "confidence, p_moved (NaN: no contest was needed); state: 'still', 'loading', "
-      "'load_shift', 'ambiguous', 'slip', 'invalid'; slipping: bool.\n\n"
-      "method: 'contest', 'register', 'centroid', 'alcazar', 'ncc-paraboloid', 'ncc-gauss3', "
-      "'phase', 'phase-normalized'. reference: 'first' (first frame with an active taxel), "
-      "'rest' (each contact when it rests), or a frame. step, limit [taxels], rotation [deg]: "
-      "thresholds per frame, since the reference, and of turning.");
-  module.def("slip_segments",
-             &slipRows<true>,
-             py::arg("profile"),
-             py::arg("matrix") = py::none(),
-             py::arg("method") = nameOf(SlipDetectorOptions{}.method),
-             py::kw_only(),
-             py::arg("reference") = "first",
-             py::arg("step") = rule.stepTaxels,
-             py::arg("limit") = rule.referenceTaxels,
-             py::arg("rotation") = rule.rotationDeg,
-             "Where it slips: dict of columns, a row per slip: begin, end (frames, both "
-             "inclusive), begin_ms, end_ms [ms since 1970], matrix, path_taxels, rotation_deg, "
-             "confidence (0..1). Arguments as of slip().");
+      "Measures how contacts move over a matrix (None: over all), and whether they slip: dict of "
+      "columns, a row per frame and matrix that is touched. Taxels (x right, y down) and deg (from "
+      "x towards y).\n\nframe, time_ms, matrix, active: int64; x, y: centroid; valid: bool; dx, "
+      "dy: motion since the frame before, ref_dx, ref_dy: since the reference (NaN: not known); "
+      "rotation_valid, rotation_deg, ref_rotation_deg, orientation_deg; eccentricity, roundness, "
+      "residual, confidence, p_moved (NaN: no comparison was needed); state: 'still', 'loading', "
+      "'load_shift', 'ambiguous', 'slip', 'invalid'; slipping: bool.\n\nmethod: 'contest', "
+      "'register', 'centroid', 'alcazar', 'ncc-paraboloid', 'ncc-gauss3', 'phase', "
+      "'phase-normalized'. reference: 'first' (first frame with an active taxel), 'rest' (each "
+      "contact when it rests), or a frame. step, limit [taxels], rotation [deg]: thresholds of the "
+      "motion per frame, since the reference, and of the rotation.");
+  def("slip_segments",
+      &slipRows<true>,
+      "Lists the slips: dict of columns, a row per slip: begin, end (frames, both inclusive), "
+      "begin_ms, end_ms [ms since 1970], matrix, path_taxels, rotation_deg, confidence (0..1). "
+      "Arguments as for slip().");
   module.def("contact_moments",
              &momentsOf,
              py::arg("values"),
-             "Moments and outline of what one matrix feels: values (rows, columns); values > 0 "
+             "Moments and outline of the contact on one matrix: values (rows, columns); values > 0 "
              "count. dict active, sum, sd (population, of the active values); x, y: centroid "
              "[taxels]; mu20, mu11, mu02, mu30, mu03 (central, per sum) [taxels^2, ^3]; "
              "orientation_deg (0..180, from x towards y), lambda1, lambda2 [taxels^2], "
@@ -259,26 +245,26 @@ void bindSlip(py::module_& module) {
              py::arg("shapes") = std::vector<std::string>{},
              py::arg("seed") = SlipAccuracyOptions{}.seed,
              py::arg("trials") = SlipAccuracyOptions{}.trials,
-             "Accuracy of every method against synthetic truth, beside the Cramer-Rao bound: dict "
-             "method -> dict rmse, bias, drift_100, crb, edge, tilt [taxels], gain_x, gain_y, "
-             "rmse_deg, crb_deg [deg], invalid, steps, ns_per_step. noise: sd [counts]; shapes: "
-             "empty: all; trials: per shape.");
-  module.def("synthetic_contact",
-             &syntheticContact,
-             py::arg("x"),
-             py::arg("y"),
-             py::arg("angle_deg"),
-             py::kw_only(),
-             py::arg("shape") = "disc",
-             py::arg("peak") = 1500.0,
-             py::arg("noise") = 5.0,
-             py::arg("seed") = 1,
-             py::arg("rows") = 14,
-             py::arg("columns") = 6,
-             "What a matrix reads of a contact that moves in a known way: its centre x, y "
-             "[taxels] and angle_deg [deg] per frame, (n,) each; float32 (n, rows, columns) "
-             "[counts]. shape: 'disc', 'bar', 'flat-ellipse', 'two-blobs', 'gaussian', "
-             "'elliptic-gaussian'; peak, noise (sd) [counts].");
+             "Accuracy of every method on synthetic data with known motion, next to the Cramer-Rao "
+             "bound: dict method -> dict rmse, bias, drift_100, crb, edge, tilt [taxels], gain_x, "
+             "gain_y, rmse_deg, crb_deg [deg], invalid, steps, ns_per_step. noise: sd [counts]; "
+             "shapes: empty: all; trials: per shape.");
+  module.def(
+      "synthetic_contact",
+      &syntheticContact,
+      py::arg("x"),
+      py::arg("y"),
+      py::arg("angle_deg"),
+      py::kw_only(),
+      py::arg("shape") = "disc",
+      py::arg("peak") = 1500.0,
+      py::arg("noise") = 5.0,
+      py::arg("seed") = 1,
+      py::arg("rows") = 14,
+      py::arg("columns") = 6,
+      "Makes the frames of a contact with known motion: its centre x, y [taxels] and angle_deg "
+      "[deg] per frame, (n,) each; float32 (n, rows, columns) [counts]. shape: 'disc', 'bar', "
+      "'flat-ellipse', 'two-blobs', 'gaussian', 'elliptic-gaussian'; peak, noise (sd) [counts].");
 }
 
 }  // namespace palpate::python

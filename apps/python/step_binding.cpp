@@ -1,5 +1,4 @@
 // Binds palpate.fit_step(), step_response() and calibrate_step().
-#include <stdexcept>
 #include <string>
 
 #include <pybind11/stl.h>
@@ -103,14 +102,6 @@ DoubleArray response(const Numbers& t,
                         [&](std::size_t i) { return stepResponse(parameters, times[i]); });
 }
 
-SignalKind signalNamed(const std::string& name) {
-  if (const auto kind = signalKindNamed(name)) return *kind;
-  std::string known;
-  for (const SignalKind kind : kAllSignalKinds)
-    known += (known.empty() ? "" : ", ") + std::string(signalName(kind));
-  throw std::invalid_argument("signal is '" + name + "'; it is one of " + known);
-}
-
 py::object calibrateStep(const Profile& profile,
                          std::int64_t matrix,
                          const std::string& signal,
@@ -120,7 +111,7 @@ py::object calibrateStep(const Profile& profile,
                          double least) {
   const std::size_t m = checkedIndex("matrix", matrix, profile.layout().numMatrices());
   StepReportOptions options;
-  options.steps.signal = signalNamed(signal);
+  options.steps.signal = named("signal", signal, kAllSignalKinds, signalName);
   options.steps.aboveCounts = above;
   options.steps.minDurationS = least;
   options.fit = fitOptions(loss, damping);
@@ -142,25 +133,24 @@ py::object calibrateStep(const Profile& profile,
 }  // namespace
 
 void bindSteps(py::module_& module) {
-  module.def(
-      "fit_step",
-      &fit,
-      py::arg("t"),
-      py::arg("y"),
-      py::kw_only(),
-      py::arg("loss") = "squares",
-      py::arg("damping") = "over",
-      py::arg("loss_scale") = 0.0,
-      "Fits the step response of a second order lag with drift (study, 3.1), by least squares: t "
-      "(n,) [s] from the step's begin, y (n,) [counts]. dict K [counts], m [counts/s], T1, T2, T "
-      "[s], d, rmse, residual_sd [counts], converged, identifiable, "
-      "time_constants_identifiable, gain_reached, usable, "
-      "covariance (4, 4) of K, m, T1, T2 (d < 1: K, m, T, d; NaN: not to be had), interval95 (4,): "
-      "half widths, samples, dropped, downweighted, notes; inflection_s, inflection_counts, "
-      "tangent_per_s, dead_time_s, t_k_s, equivalent_tangent_per_s, steady_s: what is read off "
-      "it. loss: 'squares', 'huber', 'cauchy' (beyond loss_scale sd; 0: the customary); damping: "
-      "'over' (d >= 1) or 'any'. Data that can't be fitted raises nothing: converged is False, "
-      "what isn't known NaN, and notes say why.");
+  module.def("fit_step",
+             &fit,
+             py::arg("t"),
+             py::arg("y"),
+             py::kw_only(),
+             py::arg("loss") = "squares",
+             py::arg("damping") = "over",
+             py::arg("loss_scale") = 0.0,
+             "Fits the step response of a second order lag with drift (study, 3.1), by least "
+             "squares: t (n,) [s] from the beginning of the step, y (n,) [counts]. dict K "
+             "[counts], m [counts/s], T1, T2, T [s], d, rmse, residual_sd [counts], converged, "
+             "identifiable, time_constants_identifiable, gain_reached, usable, covariance (4, 4) "
+             "of K, m, T1, T2 (d < 1: K, m, T, d; NaN: not available), interval95 (4,): half "
+             "widths, samples, dropped, downweighted, notes; inflection_s, inflection_counts, "
+             "tangent_per_s, dead_time_s, t_k_s, equivalent_tangent_per_s, steady_s: read off the "
+             "fitted response. loss: 'squares', 'huber', 'cauchy' (beyond loss_scale sd; 0: the "
+             "usual value); damping: 'over' (d >= 1) or 'any'. Data that can't be fitted doesn't "
+             "raise: converged is False, unknown values are NaN, and notes say why.");
   module.def("step_response",
              &response,
              py::arg("t"),
@@ -171,22 +161,22 @@ void bindSteps(py::module_& module) {
              py::arg("T2") = py::none(),
              py::arg("T") = py::none(),
              py::arg("d") = py::none(),
-             "That step response at times t (n,) [s]: (n,) [counts]; by its time constants T1, T2 "
+             "The step response at times t (n,) [s]: (n,) [counts]; by its time constants T1, T2 "
              "[s], or by T [s] and damping d.");
-  module.def("calibrate_step",
-             &calibrateStep,
-             py::arg("profile"),
-             py::arg("matrix"),
-             py::kw_only(),
-             py::arg("signal") = "filtered_mean",
-             py::arg("loss") = "squares",
-             py::arg("damping") = "over",
-             py::arg("above") = LoadingStepOptions{}.aboveCounts,
-             py::arg("least") = LoadingStepOptions{}.minDurationS,
-             "Finds the loading steps of a matrix and fits each: dict matrix, signal, steps, "
-             "notes, as `palpate calibrate step` prints it; of each step also t (n,) [s] and y "
-             "(n,): what was fitted. above: loaded is above it; least: shorter contacts are no "
-             "steps [s].");
+  module.def(
+      "calibrate_step",
+      &calibrateStep,
+      py::arg("profile"),
+      py::arg("matrix"),
+      py::kw_only(),
+      py::arg("signal") = "filtered_mean",
+      py::arg("loss") = "squares",
+      py::arg("damping") = "over",
+      py::arg("above") = LoadingStepOptions{}.aboveCounts,
+      py::arg("least") = LoadingStepOptions{}.minDurationS,
+      "Finds the loading steps of a matrix and fits each: dict matrix, signal, steps, notes, as "
+      "`palpate calibrate step` prints it; of each step also t (n,) [s] and y (n,): what was "
+      "fitted. above: the matrix is loaded above it; least: shorter contacts are not steps [s].");
 }
 
 }  // namespace palpate::python

@@ -82,7 +82,8 @@ TrainedModel train(const py::object& source,
   search.components = wishes.components;
   if (wishes.cost) search.costs = {*wishes.cost};
   const std::vector<PipelineOptions> grid = modelGrid(samples, search);
-  if (grid.empty()) throw py::value_error("no classifier fits what was asked for");
+  if (grid.empty())
+    throw py::value_error("no classifier fits these options: leave some of them out");
   return unlocked([&](const Progress& progress) {
     ModelSearchReport found;
     if (grid.size() > 1) found = searchModel(samples, search, progress);
@@ -171,29 +172,30 @@ void bindTraining(py::module_& module) {
              py::arg("c") = py::none(),
              py::arg("shrinkage") = py::none(),
              "Trains a model of the objects in a folder (a folder of recordings per class), or of "
-             "Features. What isn't given is chosen by cross-validation; of the set 'best' it is "
-             "gauss, the one classifier that carries over to another session. classifier: 'svm', "
-             "'qda', 'lda', 'gauss'; lda: components of a discriminant analysis before it; c: cost "
-             "of svm; shrinkage: of the discriminant analysis, 0..1 or 'auto'. Error when nothing "
-             "can be learnt.");
-  module.def("evaluate",
-             &evaluate,
-             py::arg("source"),
-             py::kw_only(),
-             py::arg("set") = "best",
-             py::arg("lda") = py::none(),
-             py::arg("classifier") = py::none(),
-             py::arg("protocol") = "S",
-             py::arg("splits") = 10,
-             py::arg("seed") = 0,
-             py::arg("c") = py::none(),
-             py::arg("shrinkage") = py::none(),
-             "How well grasps are recognised, by cross-validation; everything is fitted to the "
-             "training part of each split. source as of train(); set also 'diameter', 'first4', "
-             "'moments' (parts of 'study'); protocol 'S': stratified shuffles (20 % examine), 'B': "
-             "five contiguous blocks per class. dict accuracy_mean, accuracy_sd, top3, accuracies "
-             "(splits,), grasps, splits, pipeline, classes [{name, precision, recall, f, "
-             "support}], confusion (classes, classes): counts [truth][called], confusion_labels.");
+             "Features. Options that aren't given are chosen by cross-validation; for the set "
+             "'best' the classifier is gauss, the only one that carries over to another session. "
+             "classifier: 'svm', 'qda', 'lda', 'gauss'; lda: components of a discriminant analysis "
+             "before it; c: cost of svm; shrinkage: of the discriminant analysis, 0..1 or 'auto'. "
+             "Error when the grasps don't suffice.");
+  module.def(
+      "evaluate",
+      &evaluate,
+      py::arg("source"),
+      py::kw_only(),
+      py::arg("set") = "best",
+      py::arg("lda") = py::none(),
+      py::arg("classifier") = py::none(),
+      py::arg("protocol") = "S",
+      py::arg("splits") = 10,
+      py::arg("seed") = 0,
+      py::arg("c") = py::none(),
+      py::arg("shrinkage") = py::none(),
+      "How well grasps are recognised, by cross-validation; everything is fitted to the training "
+      "part of each split. source as for train(); set also 'diameter', 'first4', 'moments' (parts "
+      "of 'study'); protocol 'S': stratified shuffles (20 % are tested), 'B': five contiguous "
+      "blocks per class. dict accuracy_mean, accuracy_sd, top3, accuracies (splits,), grasps, "
+      "splits, pipeline, classes [{name, precision, recall, f, support}], confusion (classes, "
+      "classes): counts [truth][called], confusion_labels.");
 }
 
 }  // namespace palpate::python

@@ -49,7 +49,8 @@ const Profile& countsOf(const Profile& profile, const ComputedOptions& options) 
 
 std::string missingForForces(const Profile& profile, const ComputedOptions& options) {
   if (!options.calibration)
-    return "needs a calibration: --calibration C.json, in the window Calibrate > Force > Choose";
+    return "needs a calibration: --calibration C.json, in Python calibration=.., in the window "
+           "Calibrate > Force > Choose";
   try {
     PressureReader(
         countsOf(profile, options), *options.calibration, options.pressure, options.tare);

@@ -313,15 +313,6 @@ void refuseUnknownFunctions(const std::string& text, const std::string& parsed) 
   }
 }
 
-// Why a series that could be computed isn't: " (needs a calibration: ..)"; empty for others.
-std::string reasonFor(const Profile& profile, const SeriesChoice& choice) {
-  if (choice.kind != SeriesChoice::Kind::kColumn) return {};
-  for (const SeriesDescription& series : profile.series())
-    if (series.name == choice.series && series.role == kComputedRole)
-      return " (" + series.source + ")";
-  return {};
-}
-
 // The times of the last sample before a run of samples that can't be read and of the first one
 // behind it, from the first frame [s].
 TimeSpan readableAround(const Profile& profile,
@@ -552,10 +543,12 @@ Series formulaSeries(const Profile& profile,
                                   "temperature0, " +
                                   further + "t");
     }
-    if (!hasSeries(profile, *choice))
+    if (!hasSeries(profile, *choice)) {
+      const std::string why = whyMissing(profile, *choice);
       throw std::invalid_argument("formula \"" + shortened(formula.text()) +
                                   "\": the recording has no " + shortened(name) +
-                                  reasonFor(profile, *choice));
+                                  (why.empty() ? "" : ": " + why));
+    }
     choices.push_back(*choice);
   }
   const auto part = [&](std::size_t which) {

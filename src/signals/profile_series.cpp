@@ -260,6 +260,16 @@ bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
   return choice.index <= profile.layout().numMatrices();
 }
 
+std::string whyMissing(const Profile& profile, const SeriesChoice& choice) {
+  if (hasSeries(profile, choice)) return {};
+  if (choice.kind == ProfileSeriesKind::kMatrix && isComponent(choice.signal))
+    return "only a matrix whose sensor sends readings has it, unfiltered";
+  if (choice.kind == ProfileSeriesKind::kColumn)
+    for (const SeriesDescription& series : profile.series())
+      if (series.name == choice.series && series.role == kComputedRole) return series.source;
+  return {};
+}
+
 bool isReady(const Profile& profile, const SeriesChoice& choice) {
   if (choice.kind != ProfileSeriesKind::kFormula) {
     const auto column = columnOf(profile, choice);

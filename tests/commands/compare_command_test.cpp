@@ -1,11 +1,13 @@
 #include <sstream>
 
+#include "palpate/calibration/calibration.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/dsa_writer.h"
 
+#include "calibration/sample_calibrations.h"
 #include "commands/palpate_program.h"
 
 namespace palpate::compare_command_test {
@@ -152,6 +154,36 @@ TEST_F(CompareCommandTest, PrintsTheAverageOverGrasps) {
   const auto whole =
       lines(palpate({"compare", a, b, "--average", "2*m1_mean", "--of", "recordings"}).out);
   EXPECT_TRUE(whole.at(1 + 10).starts_with("0.000000,2,800,")) << whole.at(11);
+}
+
+// The four taxels are those of columns 2 and 3, 3.4 mm apart.
+TEST_F(CompareCommandTest, AveragesComputedSeries) {
+  const auto a = recording("a.dsa", 10, 2, 1500.0F), b = recording("b.dsa", 12, 5, 1300.0F);
+  const auto averageOf = [&](const std::string& signal, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"compare", a, b, "--of", "recordings", "--average", signal});
+    return palpate(more);
+  };
+  const auto centroid = averageOf("m1_centroid_x_mm");
+  ASSERT_EQ(centroid.exitCode, 0) << centroid.err;
+  EXPECT_NE(centroid.out.find("\n0.000000,2,8.5,8.5,8.5,8.5,8.5\n"), std::string::npos)
+      << centroid.out;
+  EXPECT_NE(averageOf("m1_pressure_kpa").err.find("needs a calibration: --calibration"),
+            std::string::npos);
+  // Of an indenter without area pressures are known, forces not.
+  const std::string known = folder_ / "c.json";
+  Calibration calibration = testing::linearCalibration({});
+  for (std::size_t i = 0; i < calibration.samples.size(); ++i)  // 35 deg C is assumed
+    calibration.samples[i].nearestDegC = 28.0 + 8.0 * static_cast<double>(i % 3);
+  calibration.pressure = fitPressureModel(calibration.samples, {});
+  saveCalibration(calibration, known, Overwrite::kRefuse);
+  const auto pressure = averageOf("m1_pressure_kpa", {"--calibration", known});
+  EXPECT_EQ(pressure.exitCode, 0) << pressure.err;
+  EXPECT_NE(pressure.out.find("\n0.000000,2,"), std::string::npos) << pressure.out;
+  const auto force = averageOf("m1_force_n", {"--calibration", known, "--quiet"});
+  EXPECT_EQ(force.exitCode, 3) << force.err;
+  EXPECT_EQ(lines(force.err).size(), 1u) << force.err;
+  expectOneLineError(
+      palpate({"compare", a, b, "--calibration", known}), 2, {"--calibration needs --average"});
 }
 
 TEST_F(CompareCommandTest, SaysWhatIsWrongWithAnAverage) {

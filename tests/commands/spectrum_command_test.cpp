@@ -175,6 +175,29 @@ TEST(SpectrumCommand, TakesSignalsFramesAndWindowsAsAsked) {
   EXPECT_NEAR(kept[0].magnitude, 500.0, 1e-6);
 }
 
+// The centroid moves between column 3 and the taxel that swings.
+TEST(SpectrumCommand, ComputedSeriesAreSignals) {
+  const testing::TemporaryFolder folder;
+  writeTone(folder / "tone.dsa");
+  const std::string file = folder / "tone.dsa";
+  const auto result =
+      palpate({"spectrum", file, "--signal", "m1_centroid_x_mm", "--from", "100", "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NEAR(Json::parse(result.out).at("strongest").at("frequency_hz").asDouble(), 6.25, 1e-9);
+  EXPECT_EQ(palpate({"spectrum", file, "--coherence", "m1_centroid_x_mm,m1_mean", "--window", "16"})
+                .exitCode,
+            0);
+  expectOneLineError(palpate({"spectrum", file, "--signal", "m1_force_n"}),
+                     1,
+                     {"has no m1_force_n: needs a calibration: --calibration C.json"});
+  expectOneLineError(palpate({"spectrum", file, "--signal", "m1_slip_mm", "--no-tare"}),
+                     2,
+                     {"--no-tare needs --calibration"});
+  for (const char* named : {"m1_slip_mm", "m3_sum*2"})
+    expectOneLineError(
+        palpate({"spectrum", file, "--matrix", "1", "--signal", named}), 2, {"leave out --matrix"});
+}
+
 TEST(SpectrumCommand, SaysWhichTaxelsThereAre) {
   const testing::TemporaryFolder folder;
   writeTone(folder / "tone.dsa", 40);

@@ -129,6 +129,10 @@ def test_calibration_from_recordings(recordings, tmp_path):
     assert np.median(forces["force_n"][late, 1]) == pytest.approx(4.905, rel=0.2)
     assert forces["pressure_kpa"].shape == (len(profile), 6) and forces["assumptions"]
     np.testing.assert_allclose(forces["hand_force_n"], forces["force_n"].sum(axis=1), rtol=1e-5)
+    known = forces["in_range"][:, 1]
+    force = palpate.derive(profile, "m1_force_n", calibration=again)
+    np.testing.assert_allclose(force[known], forces["force_n"][known, 1], rtol=1e-5)
+    assert np.isnan(force[~known]).all() and known.sum() > 20
     with pytest.raises(palpate.Error, match="filtered"):
         again.apply(palpate.filter(profile, "median"))
     (tmp_path / "c.json").write_text("{}")

@@ -48,6 +48,15 @@ def test_compare_says_why_not(tmp_path):
     assert len(palpate.compare(still, tmp_path / "a.palpate", align="start")["time_s"]) == 20
 
 
+def test_compare_notes_what_was_lost():
+    whole = recording_of(np.ones((20, 4, 5)))
+    recording, form, _ = whole.__getstate__()
+    damaged = palpate.Profile.__new__(palpate.Profile)
+    damaged.__setstate__((recording, form, ["lost: 2 frames of 22"]))
+    assert palpate.compare(whole, whole, align="start").notes == []
+    assert palpate.compare(whole, damaged, align="start").notes == ["b: 2 frames of 22"]
+
+
 def test_labels_are_those_of_the_recording(tmp_path):
     profile = recording_of(np.ones((20, 4, 5)))
     us = T_MS * 1000

@@ -175,6 +175,13 @@ def test_derived_curves_are_those_of_numpy():
     np.testing.assert_allclose(palpate.derive(profile, "m0_sum / 2 - abs(m0_x1_y2)"),
                                sums / 2 - values[:, 2, 1])
     np.testing.assert_allclose(palpate.derive(profile, "der(hand_sum)"), np.gradient(sums, seconds))
+    columns = np.arange(4)[None, None, :]
+    np.testing.assert_allclose(palpate.derive(profile, "m0_centroid_x_mm"),
+                               3.4 * (values * columns).sum(axis=(1, 2)) / sums, rtol=1e-6)
+    with pytest.raises(ValueError, match="no m0_force_n: needs a calibration: .*calibration="):
+        palpate.derive(profile, "m0_force_n")
+    with pytest.raises(ValueError, match="need a calibration"):
+        palpate.derive(profile, "m0_sum", tare=True)
     for wrong in ("m0_sum +", "m7_sum", "angle0"):
         with pytest.raises(ValueError, match="formula"):
             palpate.derive(profile, wrong)

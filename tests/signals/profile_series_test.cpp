@@ -158,6 +158,24 @@ TEST(ProfileSeries, WhatIsNotThereIsSaid) {
   EXPECT_EQ(numSamples(bare, {.kind = Kind::kAngle}, 0.0, 1.0), 0u);
 }
 
+TEST(ProfileSeries, SaysWhyASeriesIsMissing) {
+  const Profile profile = small();
+  EXPECT_EQ(whyMissing(profile, {Kind::kMatrix, 1}), "") << "it isn't missing";
+  EXPECT_EQ(whyMissing(profile, {.kind = Kind::kAngle, .index = 99}), "");
+  EXPECT_NE(whyMissing(profile, {Kind::kMatrix, 1, SignalKind::kX}).find("sends readings"),
+            std::string::npos);
+  // Computed series say it in their source.
+  ProfileBuilder builder(sdh2().layout);
+  builder.addSeries({.name = "m1_force",
+                     .role = kComputedRole,
+                     .columns = {{"n", "N"}},
+                     .source = "needs a calibration"});
+  builder.addFrame(kStartUs, TactileFrame(sdh2().layout).values);
+  EXPECT_EQ(
+      whyMissing(builder.finish({}), {.kind = Kind::kColumn, .series = "m1_force", .column = "n"}),
+      "needs a calibration");
+}
+
 TEST(ProfileSeries, CanBeCancelled) {
   EXPECT_THROW(readSeries(small(), {}, 0.0, 9.0, [](double) { return false; }), Cancelled);
 }

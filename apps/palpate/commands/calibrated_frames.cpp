@@ -1,10 +1,18 @@
 #include "commands/calibrated_frames.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <utility>
+
 #include "palpate/calibration/force_series.h"
+#include "palpate/calibration/pressure_reader.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/hand_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -122,6 +130,35 @@ ComputedOptions computedOptions(const std::optional<CalibrationChoice>& choice,
   options.pressure = withSerial(withNoted(choice->options, file, recording), recording.profile);
   if (choice->tare) options.tare = tareIn(file, recording);
   return options;
+}
+
+NamedSignals namedSignals(const std::optional<CalibrationChoice>& choice,
+                          const std::filesystem::path& file,
+                          const Recording& recording,
+                          const Profile& frames) {
+  ComputedOptions computed = computedOptions(choice, file, recording);
+  return {withComputedSeries(frames, computed), std::move(computed)};
+}
+
+void reportAssumptions(const NamedSignals& signals,
+                       const std::vector<std::string>& names,
+                       bool quiet) {
+  const ComputedOptions& computed = signals.computed;
+  if (!computed.calibration) return;
+  const bool unknown = !computed.calibration->pressure.knowsArea() &&
+                       std::ranges::any_of(names, [](const std::string& name) {
+                         return name.ends_with("_force_n");
+                       });
+  static std::set<std::string> printed;
+  const PressureReader reader(
+      *computed.counts, *computed.calibration, computed.pressure, computed.tare);
+  for (const std::string& sentence : reader.assumptions()) {
+    if (!printed.insert(sentence).second) continue;
+    if (unknown && sentence == kUnknownAreaText)
+      reportLoss(sentence);
+    else if (!quiet)
+      sayLine(sentence);
+  }
 }
 
 CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,

@@ -1,5 +1,5 @@
 // Applies a calibration to the frames of a recording; used by `palpate calibrate apply` and
-// by `contact` and `derive` with --calibration.
+// by `contact`, `derive`, `spectrum` and `compare` with --calibration.
 #pragma once
 
 #include <filesystem>
@@ -37,6 +37,22 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given);
 ComputedOptions computedOptions(const std::optional<CalibrationChoice>& choice,
                                 const std::filesystem::path& file,
                                 const Recording& recording);
+
+// The signals that a command may name: those of a recording and those computed from its frames.
+struct NamedSignals {
+  Profile profile;
+  ComputedOptions computed;
+};
+// `frames`: those of the recording, as they are or filtered. Throws as computedOptions().
+NamedSignals namedSignals(const std::optional<CalibrationChoice>& choice,
+                          const std::filesystem::path& file,
+                          const Recording& recording,
+                          const Profile& frames);
+// Prints what the forces assume, each sentence once, where there is a calibration; where `names`
+// has a force that isn't known, by reportLoss().
+void reportAssumptions(const NamedSignals& signals,
+                       const std::vector<std::string>& names,
+                       bool quiet);
 
 // Computes the pressures of one frame after the other.
 class CalibratedFrames {

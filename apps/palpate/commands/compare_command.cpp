@@ -18,6 +18,7 @@
 #include "palpate/signals/curve_rows.h"
 #include "palpate/signals/formula.h"
 
+#include "commands/calibrated_frames.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/recording_list.h"
@@ -162,15 +163,19 @@ std::vector<std::string> shownNames(const std::vector<std::string>& files, const
 
 void addCurvesOf(const CommandLine& given,
                  const AverageChoices& choices,
+                 const std::optional<CalibrationChoice>& calibration,
                  const std::string& file,
                  NamedCurves& all) {
   const TimedRecording whole = opened(file, given.quiet());
   const TimedProfile& timed = whole.timed;
   if (timed.profile.numFrames() == 0) throw Error(file + ": has no frames");
-  const TypedSignal signal = typedSignal(*given.text("average"), timed.profile, file, "--average");
+  const NamedSignals signals = namedSignals(calibration, file, whole.recording, timed.profile);
+  const TypedSignal signal =
+      typedSignal(*given.text("average"), signals.profile, file, "--average");
+  reportAssumptions(signals, namesOf(signal, signals.profile.layout()), given.quiet());
   ProgressLine progress("reading " + file, given.quiet());
   const auto series = std::make_shared<const Series>(
-      typedSeries(timed.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));
+      typedSeries(signals.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));
   const double longestS = gapFromS(timed.timing);
   if (!choices.ofGrasps) {
     const Alignment how = given.chosen("align", alignmentWords()).value_or(Alignment::kContact);
@@ -205,7 +210,8 @@ int writeAverage(const CommandLine& given, AverageChoices choices) {
   AverageOptions& options = choices.average;
   takePercentiles(given, options);
   NamedCurves all;
-  for (const std::string& file : given.words()) addCurvesOf(given, choices, file, all);
+  const auto calibration = calibrationGiven(given);
+  for (const std::string& file : given.words()) addCurvesOf(given, choices, calibration, file, all);
   const AverageCurve average = averageCurve(all.curves, options);
   return writeTable(given,
                     *averageTable(average, options, all.curves, shownNames(given.words(), all)));
@@ -219,7 +225,7 @@ int compareCommand(const Arguments& words) {
       {.synopsis =
            "palpate compare A B [--align contact|start|clock | --grasp I:J | --offset S]\n"
            "       palpate compare FILE.. --average SIGNAL [--of grasps|recordings] [--band "
-           "sd|percentiles]",
+           "sd|percentiles] [--calibration C.json]",
        .purpose =
            "Aligns two recordings in time. For every frame of A it takes the frame of B at "
            "the same time (or the last one before it) and prints of each matrix: the mean "
@@ -231,7 +237,7 @@ int compareCommand(const Arguments& words) {
            "moment it prints the mean of a signal with mean -+ standard deviation (n - 1), or "
            "the median with percentiles, then the value of every grasp: "
            "time_s,curves,mean,low,high,.. The column curves is the number of grasps with a value.",
-       .options = withOneTableOptions(
+       .options = withOneTableOptions(withCalibration(
            {worded("align",
                    "HOW",
                    "by first contacts, first frames, or host time",
@@ -244,7 +250,7 @@ int compareCommand(const Arguments& words) {
             ranged("offset", "S", "begin B at this time after A's first frame", kOffsetS),
             {"average",
              "SIGNAL",
-             "average a signal: m1_mean, hand_sum, m5_x2_y9, angle3, or a formula as for "
+             "average a signal: m1_mean, hand_sum, m5_x2_y9, angle3, m1_force_n, or a formula as for "
              "derive"},
             boundChoice("of",
                         "WHAT",
@@ -272,14 +278,15 @@ int compareCommand(const Arguments& words) {
                   "N",
                   "minimum number of values for a mean",
                   choices.average.least,
-                  AverageOptions::kLeast)}),
+                  AverageOptions::kLeast)})),
        .example = "palpate compare run_1.dsa run_2.dsa > differences.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   if (given.has("average")) return writeAverage(given, choices);
-  for (const char* only : {"of", "band", "percentiles", "margin", "step", "least"})
+  for (const char* only : {"of", "band", "percentiles", "margin", "step", "least", "calibration"})
     if (given.has(only)) throw UsageError(std::string("--") + only + " needs --average");
+  calibrationGiven(given);
   if (given.words().size() != 2) throw UsageError("compare needs two recordings, or --average");
   const TimedRecording a = opened(given.words()[0], given.quiet());
   const TimedRecording b = opened(given.words()[1], given.quiet());

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "palpate/calibration/pressure_reader.h"
 #include "palpate/core/error.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/curve_rows.h"
@@ -39,23 +38,6 @@ NamedFormula namedFormula(const std::string& word) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-}
-
-// Says what the forces assume; returns whether forces that a formula names aren't known, which is
-// reported with --quiet as well.
-bool sayAssumptions(const ComputedOptions& computed,
-                    const std::vector<NamedFormula>& formulas,
-                    bool quiet) {
-  const bool wanted = std::ranges::any_of(formulas, [](const NamedFormula& one) {
-    return std::ranges::any_of(one.formula.names(),
-                               [](const std::string& name) { return name.ends_with("_force_n"); });
-  });
-  const bool unknown = wanted && !computed.calibration->pressure.knowsArea();
-  const PressureReader reader(
-      *computed.counts, *computed.calibration, computed.pressure, computed.tare);
-  for (const std::string& sentence : reader.assumptions())
-    if (!quiet || (unknown && sentence == kUnknownAreaText)) sayLine(sentence);
-  return unknown;
 }
 
 }  // namespace
@@ -99,10 +81,13 @@ int deriveCommand(const Arguments& words) {
   takeTimes(given, recorded, file, line.callback());
   const Profile frames = filteredBy(recipe, recorded, file, line.callback());
   if (frames.numFrames() == 0) throw Error(file + ": has no frames");
-  const ComputedOptions computed = computedOptions(calibration, file, recorded);
-  const Profile profile = withComputedSeries(frames, computed);
+  const NamedSignals signals = namedSignals(calibration, file, recorded, frames);
+  const Profile& profile = signals.profile;
   const auto [from, to] = framesOf(frameChoice, file, profile);
-  const bool unknown = calibration && sayAssumptions(computed, formulas, given.quiet());
+  std::vector<std::string> used;
+  for (const NamedFormula& one : formulas)
+    used.insert(used.end(), one.formula.names().begin(), one.formula.names().end());
+  reportAssumptions(signals, used, given.quiet());
   // The whole recording is computed, so that a slope at the ends of the part is that of its
   // neighbours.
   std::vector<NamedCurve> curves;
@@ -120,8 +105,7 @@ int deriveCommand(const Arguments& words) {
     }
   }
   line.wipe();
-  const int code = writeTable(given, *curveTable(std::move(curves), from, to));
-  return unknown ? kPartlyDone : code;
+  return writeTable(given, *curveTable(std::move(curves), from, to));
 }
 
 }  // namespace palpate::commands

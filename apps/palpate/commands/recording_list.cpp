@@ -329,13 +329,17 @@ std::string lostLine(const fs::path& file, const Profile& profile) {
   return lost.empty() ? lost : file.string() + ": " + lost;
 }
 
+void reportLoss(const std::string& line) {
+  sayLine(line);
+  lossReported = true;
+}
+
 int reportOpened(const fs::path& file, const Profile& profile, bool quiet) {
   if (!quiet)
     for (const std::string& line : notedWarnings(file, profile, false)) sayLine(line);
   const std::string lost = lostLine(file, profile);
   if (lost.empty()) return kDone;
-  sayLine(lost);
-  lossReported = true;
+  reportLoss(lost);
   return kPartlyDone;
 }
 

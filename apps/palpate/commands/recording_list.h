@@ -68,8 +68,10 @@ Recording openReported(const std::filesystem::path& file,
                        ProgressLine& line,
                        bool quiet,
                        const Progress& progress = {});
-// `code`, the exit code of the program; kPartlyDone in the place of kDone after a loss that
-// reportOpened() has printed.
+// Prints what a result lacks, with --quiet, too.
+void reportLoss(const std::string& line);
+// `code`, the exit code of the program; kPartlyDone in the place of kDone after reportLoss() or a
+// loss that reportOpened() has printed.
 int partlyDoneAfterLoss(int code);
 
 // Runs `work` for every file, one at a time, and prints on standard error one line for each file

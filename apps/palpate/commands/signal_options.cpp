@@ -92,6 +92,11 @@ TypedSignal typedSignal(const std::string& text,
   return {.choice = signalNamed(text, layout)};
 }
 
+std::vector<std::string> namesOf(const TypedSignal& signal, const SensorLayout& layout) {
+  if (signal.formula) return signal.formula->names();
+  return {nameOf(*signal.choice, layout)};
+}
+
 Series typedSeries(const Profile& profile,
                    const TypedSignal& signal,
                    double fromS,
@@ -103,12 +108,11 @@ Series typedSeries(const Profile& profile,
   } catch (const std::invalid_argument& error) {
     throw Error(file + ": " + error.what());
   }
-  if (!hasSeries(profile, *signal.choice))
-    throw Error(
-        file + ": has no " + nameOf(*signal.choice, profile.layout()) +
-        (signal.choice->kind == SeriesChoice::Kind::kMatrix && isComponent(signal.choice->signal)
-             ? ": only a matrix whose sensor sends readings has it, unfiltered"
-             : ""));
+  if (!hasSeries(profile, *signal.choice)) {
+    const std::string why = whyMissing(profile, *signal.choice);
+    throw Error(file + ": has no " + nameOf(*signal.choice, profile.layout()) +
+                (why.empty() ? "" : ": " + why));
+  }
   return readSeries(profile, *signal.choice, fromS, toS, progress);
 }
 

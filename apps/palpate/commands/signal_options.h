@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
@@ -14,7 +15,9 @@ namespace palpate::commands {
 // The names of signals, for a help text.
 inline constexpr const char* kSignalNames =
     "m1_mean, hand_sum, m5_x2_y9 (matrix, column, row), angle3, temperature4; of a series its name "
-    "and column, such as wrist_fz";
+    "and column, such as wrist_fz; computed from the frames m1_centroid_x_mm, m1_slip_mm, "
+    "m1_force_n "
+    "and others";
 
 // Either is set.
 struct TypedSignal {
@@ -35,6 +38,9 @@ TypedSignal typedSignal(const std::string& text,
                         const Profile& profile,
                         const std::string& file,
                         const std::string& option);
+
+// The names of the signals in it.
+std::vector<std::string> namesOf(const TypedSignal& signal, const SensorLayout& layout);
 
 // The series within fromS..toS, and perhaps its neighbours. Throws Error (the recording doesn't
 // have the signal; a frame that can't be read) and Cancelled.

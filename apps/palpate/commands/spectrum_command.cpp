@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "palpate/signals/spectrum_rows.h"
 #include "palpate/signals/welch.h"
 
+#include "commands/calibrated_frames.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
@@ -32,6 +34,7 @@ namespace palpate::commands {
 namespace {
 
 constexpr double kPercent = 100.0;
+
 TypedSignal choiceOf(const CommandLine& given, const Profile& profile) {
   const SensorLayout& layout = profile.layout();
   const std::string& file = given.words().front();
@@ -45,12 +48,12 @@ TypedSignal choiceOf(const CommandLine& given, const Profile& profile) {
       return {.choice =
                   SeriesChoice{.index = static_cast<std::size_t>(matrix.value_or(numMatrices)),
                                .signal = *signal}};
-    if (matrix && parseSignalName(*text))
-      throw UsageError("--signal " + *text + " names its matrix itself: leave out --matrix");
     // A plain word is one of the signals of a matrix, and refused with their names.
     if (text->find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos)
       return {.choice = SeriesChoice{.index = static_cast<std::size_t>(numMatrices),
                                      .signal = *signalChosen(given)}};
+    if (matrix)
+      throw UsageError("--signal " + *text + " names its matrix itself: leave out --matrix");
     return typedSignal(*text, profile, file, "--signal");
   }
   if (!matrix || !x || !y)
@@ -58,18 +61,18 @@ TypedSignal choiceOf(const CommandLine& given, const Profile& profile) {
   return {.choice = taxelOf(layout, static_cast<std::size_t>(*matrix), *x, *y, file)};
 }
 
-// The two signals of --coherence.
-std::pair<TypedSignal, TypedSignal> coherenceChoices(const CommandLine& given,
-                                                     const Profile& profile) {
-  const std::string text = *given.text("coherence");
-  const std::vector<std::string> parts = splitAtCommas(text);
-  if (parts.size() != 2)
+// The signal, or the two of --coherence.
+std::vector<TypedSignal> chosenSignals(const CommandLine& given, const Profile& profile) {
+  const auto text = given.text("coherence");
+  if (!text) return {choiceOf(given, profile)};
+  std::vector<TypedSignal> chosen;
+  for (const std::string& part : splitAtCommas(*text))
+    chosen.push_back(typedSignal(part, profile, given.words().front(), "--coherence"));
+  if (chosen.size() != 2)
     throw UsageError(
-        "--coherence needs two signals A,B, as m1_mean,m3_mean or m5_x2_y9,m5_x3_y9; is \"" + text +
-        "\"");
-  const std::string& file = given.words().front();
-  return {typedSignal(parts[0], profile, file, "--coherence"),
-          typedSignal(parts[1], profile, file, "--coherence")};
+        "--coherence needs two signals A,B, as m1_mean,m3_mean or m5_x2_y9,m5_x3_y9; is \"" +
+        *text + "\"");
+  return chosen;
 }
 
 // The series from frame `from` to frame `to`, both inclusive.
@@ -199,10 +202,11 @@ int writeMeanSpectrum(const CommandLine& given,
 
 int writeCoherence(const CommandLine& given,
                    const Profile& profile,
+                   const std::vector<TypedSignal>& chosen,
                    const SpectrumOptions& options,
                    ProgressLine& line) {
   const std::string& file = given.words().front();
-  const auto [signalA, signalB] = coherenceChoices(given, profile);
+  const TypedSignal &signalA = chosen[0], &signalB = chosen[1];
   const Series a = seriesOf(given, profile, signalA, line.callback());
   const Series b = seriesOf(given, profile, signalB, line.callback());
   // Joint angles and temperatures have other stamps than frames.
@@ -254,7 +258,7 @@ int spectrumCommand(const Arguments& words) {
            "peaks of this spectrum; with --coherence what two signals have in common: "
            "frequency_hz,coherence,phase_deg,psd_a,psd_b.",
        .options = withOneTableOptions(
-           withFilterOptions(withFrameOptions(
+           withCalibration(withFilterOptions(withFrameOptions(
                {rangedWhole("matrix", "M", "matrix", kMatrixOption),
                 rangedWhole("x", "X", "column of the taxel", kMatrixOption),
                 rangedWhole("y", "Y", "row of the taxel; row 0 is the fingertip", kMatrixOption),
@@ -262,7 +266,7 @@ int spectrumCommand(const Arguments& words) {
                  "NAME",
                  "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
                  "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
-                 "m5_x2_y9, angle3, m1_sum-m3_sum"},
+                 "m5_x2_y9, angle3, m1_slip_mm, m1_sum-m3_sum"},
                 {"welch", "", "print one spectrum, the mean over all segments (Welch)"},
                 {"peaks",
                  "",
@@ -293,7 +297,7 @@ int spectrumCommand(const Arguments& words) {
                        "interval that sets the sampling rate after interpolation",
                        kGridRateWords,
                        "mean"),
-                timeOption()})),
+                timeOption()}))),
            "no table: rate, Nyquist, jitter, strongest line (or line and peaks) as JSON"),
        .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
        .minArguments = 1,
@@ -313,13 +317,21 @@ int spectrumCommand(const Arguments& words) {
   frameChoiceOf(given);
   const SpectrumOptions options = spectrumOptionsOf(given, twoSignals || oneLine);
   const Recipe recipe = recipeOf(given);
+  const auto calibration = calibrationGiven(given);
   const std::string& file = given.words().front();
   ProgressLine line("reading " + file, given.quiet());
   Recording recorded = openReported(file, line, given.quiet());
   takeTimes(given, recorded, file, line.callback());
-  const Profile profile = filteredBy(recipe, recorded, file, line.callback());
-  if (twoSignals) return writeCoherence(given, profile, options, line);
-  const TypedSignal signal = choiceOf(given, profile);
+  const NamedSignals signals = namedSignals(
+      calibration, file, recorded, filteredBy(recipe, recorded, file, line.callback()));
+  const Profile& profile = signals.profile;
+  const std::vector<TypedSignal> chosen = chosenSignals(given, profile);
+  std::vector<std::string> used;
+  for (const TypedSignal& one : chosen)
+    for (const std::string& name : namesOf(one, profile.layout())) used.push_back(name);
+  reportAssumptions(signals, used, given.quiet());
+  if (twoSignals) return writeCoherence(given, profile, chosen, options, line);
+  const TypedSignal& signal = chosen.front();
   const Series series = seriesOf(given, profile, signal, line.callback());
   const std::string unit = unitOf(profile, signal);
   if (oneLine) return writeMeanSpectrum(given, series, unit, options, line);

@@ -71,6 +71,8 @@ struct Series {
 // Returns whether the profile has the series. (Series may be missing, and another hand has other
 // matrices.)
 bool hasSeries(const Profile& profile, const SeriesChoice& choice);
+// Why it hasn't, with the remedy, where that is known: "needs a calibration: .."; else empty.
+std::string whyMissing(const Profile& profile, const SeriesChoice& choice);
 
 // Whether its values are at hand; false: the first to read them computes series of the profile that
 // are computed (Profile::isReady()), of a formula those that it names. True where hasSeries()
