@@ -1,14 +1,12 @@
 #include "commands/calibrated_frames.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <utility>
 
 #include "palpate/calibration/force_series.h"
 #include "palpate/calibration/pressure_reader.h"
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/hand_options.h"
