@@ -76,7 +76,7 @@ std::string missingForSpheres(const Profile& profile) {
 
 std::string missingForSlip(const Profile& profile, const SlipSeriesOptions& options) {
   try {
-    SensorSlipDetector(profile.hand(), detectorOptions(options));
+    slipDetectors(profile.hand(), detectorOptions(options));
     return {};
   } catch (const std::invalid_argument& error) {
     return error.what();

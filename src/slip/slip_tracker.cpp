@@ -213,13 +213,6 @@ void SensorSlipTracker::setReference() {
   }
 }
 
-void SensorSlipTracker::clearReference() {
-  for (std::size_t m = 0; m < trackers_.size(); ++m) {
-    trackers_[m].clearReference();
-    motions_[m] = trackers_[m].last();
-  }
-}
-
 void SensorSlipTracker::reset() {
   for (SlipTracker& tracker : trackers_) tracker.reset();
   std::fill(motions_.begin(), motions_.end(), SlipMotion{});
