@@ -1,7 +1,6 @@
 #include "palpate/recognition/discriminant_analysis.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 

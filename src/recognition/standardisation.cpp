@@ -1,6 +1,5 @@
 #include "palpate/recognition/standardisation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>

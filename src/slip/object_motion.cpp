@@ -1,6 +1,5 @@
 #include "palpate/slip/object_motion.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

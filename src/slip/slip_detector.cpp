@@ -1,7 +1,6 @@
 #include "palpate/slip/slip_detector.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>

@@ -1,6 +1,5 @@
 #include "palpate/calibration/noise_threshold.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 

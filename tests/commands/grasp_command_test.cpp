@@ -2,7 +2,6 @@
 // hand.
 #include <algorithm>
 #include <csignal>
-#include <fstream>
 
 #include "palpate/control/motion_sequence.h"
 #include "palpate/core/number_text.h"

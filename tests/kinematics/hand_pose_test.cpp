@@ -1,7 +1,6 @@
 #include "palpate/kinematics/hand_pose.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 

@@ -1,8 +1,6 @@
 #include "palpate/recognition/discriminant_analysis.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "recognition/golden_samples.h"

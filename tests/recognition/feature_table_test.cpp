@@ -1,6 +1,5 @@
 #include "palpate/recognition/feature_table.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 

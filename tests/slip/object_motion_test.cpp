@@ -1,7 +1,6 @@
 #include "palpate/slip/object_motion.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>

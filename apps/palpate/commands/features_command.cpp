@@ -1,6 +1,5 @@
 // The command `palpate features PATH...` prints the features of the grasps in recordings as CSV.
 #include <cstdio>
-#include <filesystem>
 
 #include "palpate/batch/batch_task.h"
 #include "palpate/core/escaped_line.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <stdexcept>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
