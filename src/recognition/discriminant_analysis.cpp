@@ -127,10 +127,6 @@ Eigen::MatrixXd DiscriminantAnalysis::apply(const Eigen::MatrixXd& x) const {
   return (x.rowwise() - mean.transpose()) * directions;
 }
 
-Eigen::VectorXd DiscriminantAnalysis::applyRow(const Eigen::VectorXd& row) const {
-  return apply(row.transpose()).transpose();
-}
-
 Eigen::VectorXd DiscriminantAnalysis::featureWeights() const {
   const Eigen::VectorXd squared = directions.cwiseAbs2() * separation;
   const Eigen::VectorXd weights = squared.cwiseSqrt();
