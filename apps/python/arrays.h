@@ -24,7 +24,6 @@ namespace palpate::python {
 using DoubleArray = pybind11::array_t<double, pybind11::array::c_style>;
 using FloatArray = pybind11::array_t<float, pybind11::array::c_style>;
 using TimeArray = pybind11::array_t<std::int64_t, pybind11::array::c_style>;
-using FlagArray = pybind11::array_t<bool, pybind11::array::c_style>;
 // For arguments: any array or list of numbers.
 using Floats = pybind11::array_t<float, pybind11::array::c_style | pybind11::array::forcecast>;
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;

@@ -1,6 +1,5 @@
 // Binds palpate.from_arrays(), which makes a profile from NumPy arrays.
 #include <array>
-#include <cmath>
 #include <string>
 #include <variant>
 

@@ -1,6 +1,5 @@
 // Binds palpate.calibrate_noise(), calibrate_sensitivity(), calibrate_tare(), calibrate_pressure()
 // and Calibration.
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <string>

@@ -1,5 +1,4 @@
 // Binds palpate.synthesize(), emulate(), scenes() and noisy_contacts().
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>

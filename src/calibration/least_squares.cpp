@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include <ceres/ceres.h>

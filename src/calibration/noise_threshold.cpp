@@ -17,15 +17,6 @@ void requireNoiseThreshold(bool good, const std::string& what) {
 
 }  // namespace
 
-TactileThresholds resetThresholds(const SensorCharacteristics& sensor) {
-  TactileThresholds reset;
-  for (const MatrixCharacteristics& matrix : sensor.matrices) {
-    reset.sensitivity = matrix.sensitivity;
-    reset.counts.push_back(matrix.thresholdCounts);
-  }
-  return reset;
-}
-
 std::vector<std::optional<std::size_t>> nearestSensors(const HandDescription& hand) {
   std::vector<std::optional<std::size_t>> sensors;
   for (const MatrixDescription& matrix : hand.matrices) sensors.push_back(matrix.temperatureSensor);

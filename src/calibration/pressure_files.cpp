@@ -1,6 +1,5 @@
 // Writes and reads the pressure model as JSON (pressure_model.h).
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -77,7 +76,7 @@ std::string missingForSpheres(const Profile& profile) {
 
 std::string missingForSlip(const Profile& profile, const SlipSeriesOptions& options) {
   try {
-    SensorSlipDetector(profile.hand(), detectorOptions(options));
+    slipDetectors(profile.hand(), detectorOptions(options));
     return {};
   } catch (const std::invalid_argument& error) {
     return error.what();

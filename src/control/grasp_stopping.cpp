@@ -1,5 +1,4 @@
 // How a grasp is stopped, how it fails and how it ends.
-#include <algorithm>
 #include <utility>
 
 #include "palpate/control/grasp_state_machine.h"

@@ -1,6 +1,5 @@
 #include "palpate/control/motion_sequence.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 

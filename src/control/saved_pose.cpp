@@ -1,7 +1,5 @@
 #include "palpate/control/saved_pose.h"
 
-#include <cmath>
-
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 

@@ -1,8 +1,6 @@
 #include "palpate/control/sensitivity_control.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "palpate/device/dsa_packet.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 

@@ -6,7 +6,6 @@
 #include <memory>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include <netdb.h>
 #include <netinet/tcp.h>

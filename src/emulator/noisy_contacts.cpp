@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
-#include <string>
 
 #include "palpate/emulator/assumed_characteristics.h"
 #include "palpate/emulator/sensor_model.h"

@@ -7,7 +7,6 @@
 // its usual approximation).
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 

@@ -1,8 +1,6 @@
 #include "palpate/emulator/scene.h"
 
 #include <algorithm>
-#include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <stdexcept>
 

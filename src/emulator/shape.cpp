@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "palpate/core/escaped_line.h"

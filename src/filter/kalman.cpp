@@ -15,11 +15,6 @@ void KalmanOptions::validate() const {
     throw std::invalid_argument("kalman: r must be above 0, is " + std::to_string(r));
 }
 
-double KalmanOptions::steadyGain() const {
-  const double predicted = 0.5 * (q + std::sqrt(q * q + 4.0 * q * r));
-  return predicted / (predicted + r);
-}
-
 KalmanFilter::KalmanFilter(const KalmanOptions& options) : options_(options) { options.validate(); }
 
 double KalmanFilter::step(double value) noexcept {

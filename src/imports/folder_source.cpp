@@ -1,8 +1,6 @@
 #include "imports/folder_source.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <exception>
 #include <limits>
 #include <map>

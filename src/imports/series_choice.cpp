@@ -1,7 +1,6 @@
 // The columns of a table that become further series: which of them belong together, and their
 // names; and the series of other files.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>

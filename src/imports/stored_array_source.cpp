@@ -1,7 +1,6 @@
 #include "imports/stored_array_source.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cerrno>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <utility>

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
-#include <utility>
 
 #include <CGAL/Min_sphere_of_spheres_d.h>
 #include <Eigen/QR>

@@ -187,12 +187,4 @@ const Isometry3d& HandPose::baseFromLink(std::size_t finger, std::size_t link) c
   return links_.at(finger).at(link);
 }
 
-Isometry3d HandPose::baseFromFinger(std::size_t finger) const {
-  const Finger& of = description().fingers.at(finger);
-  Isometry3d baseFromFinger = Isometry3d::Identity();
-  baseFromFinger.linear() = of.baseRotation;
-  baseFromFinger.translation() = of.baseMm;
-  return baseFromFinger;
-}
-
 }  // namespace palpate

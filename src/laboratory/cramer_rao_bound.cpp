@@ -1,6 +1,5 @@
 #include "palpate/laboratory/cramer_rao_bound.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <stdexcept>
 
 #include "palpate/core/error.h"
 #include "palpate/laboratory/cramer_rao_bound.h"

@@ -1,7 +1,6 @@
 #include "palpate/library/recording_folder.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>

@@ -57,18 +57,7 @@ SlipDetectorOptions SlipStage::options() const {
 
 void SlipStage::setReference(std::optional<std::size_t> matrix) {
   const std::lock_guard lock(mutex_);
-  referenceRequests_.push_back({matrix, false});
-}
-
-void SlipStage::clearReference() {
-  const std::lock_guard lock(mutex_);
-  referenceRequests_.push_back({{}, true});
-}
-
-void SlipStage::setOn(std::size_t matrix, bool on) {
-  const std::lock_guard lock(mutex_);
-  if (off_.size() <= matrix) off_.resize(matrix + 1, false);
-  off_[matrix] = !on;
+  referenceRequests_.push_back(matrix);
 }
 
 void SlipStage::reset() {
@@ -96,14 +85,10 @@ void SlipStage::setOpens(bool opens) {
 void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
   const std::lock_guard lock(mutex_);
   if (changed_ || detectors_.size() != layout.numMatrices()) {
-    detectors_.clear();
-    for (std::size_t m = 0; m < layout.numMatrices(); ++m)
-      detectors_.emplace_back(layout.matrix(m), withScaleOf(hand_, m, options_));
+    detectors_ = slipDetectors(hand_, options_);
     slipping_.assign(detectors_.size(), std::nullopt);
     changed_ = false;
   }
-  for (std::size_t m = 0; m < detectors_.size(); ++m)
-    detectors_[m].setOn(m >= off_.size() || !off_[m]);
   dueRequests_.swap(referenceRequests_);
   referenceRequests_.clear();
 }
@@ -118,12 +103,9 @@ void SlipStage::onFrame(LiveResults& results, std::vector<Event>& out) {
   results.slip.resize(detectors_.size());
   for (std::size_t m = 0; m < detectors_.size(); ++m) {
     results.slip[m] = detectors_[m].update(frame.matrix(m), frame.hostUs, jointsDeg_);
-    for (const ReferenceRequest& wish : dueRequests_) {
-      if (wish.matrix && *wish.matrix != m) continue;
-      if (wish.clear)
-        detectors_[m].clearReference();
-      else
-        detectors_[m].setReference();
+    for (const std::optional<std::size_t>& matrix : dueRequests_) {
+      if (matrix.value_or(m) != m) continue;
+      detectors_[m].setReference();
       results.slip[m] = detectors_[m].last();
     }
     if (opens_) {

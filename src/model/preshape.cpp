@@ -1,7 +1,6 @@
 #include "palpate/model/preshape.h"
 
 #include <stdexcept>
-#include <utility>
 
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"

@@ -1,7 +1,5 @@
 #include "palpate/model/timing.h"
 
-#include <algorithm>
-
 #include "palpate/core/statistics.h"
 #include "palpate/model/gap_detector.h"
 

@@ -168,12 +168,6 @@ Baseline RestMeter::baseline() const {
   return baseline;
 }
 
-Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames) {
-  RestMeter meter;
-  for (const auto& frame : frames) meter.add(frame->stored());
-  return meter.baseline();
-}
-
 std::string baselineText(const Baseline& baseline, std::size_t numFrames) {
   const auto [low, high] = std::minmax_element(baseline.rest.begin(), baseline.rest.end());
   std::string text =

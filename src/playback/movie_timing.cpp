@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "palpate/core/time.h"
 #include "palpate/model/gap_detector.h"

@@ -1,13 +1,11 @@
 #include "palpate/recognition/classifier_pipeline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <utility>
 
 #include "palpate/recognition/sample_splits.h"
 #include "palpate/recognition/session_offset.h"

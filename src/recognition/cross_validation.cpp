@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
-#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/parallel.h"

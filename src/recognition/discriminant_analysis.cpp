@@ -1,7 +1,6 @@
 #include "palpate/recognition/discriminant_analysis.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -126,10 +125,6 @@ Eigen::MatrixXd DiscriminantAnalysis::apply(const Eigen::MatrixXd& x) const {
     throw std::invalid_argument("DiscriminantAnalysis: " + std::to_string(x.cols()) +
                                 " features, fitted to " + std::to_string(mean.size()));
   return (x.rowwise() - mean.transpose()) * directions;
-}
-
-Eigen::VectorXd DiscriminantAnalysis::applyRow(const Eigen::VectorXd& row) const {
-  return apply(row.transpose()).transpose();
 }
 
 Eigen::VectorXd DiscriminantAnalysis::featureWeights() const {

@@ -141,12 +141,6 @@ std::size_t keepNewestSession(FeatureTable& table) {
   return std::erase_if(table.rows, [&](const FeatureRow& row) { return row.timeUs < fromUs; });
 }
 
-std::optional<std::size_t> FeatureTable::column(std::string_view name) const noexcept {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - names.begin());
-}
-
 std::vector<std::string> FeatureTable::classes() const {
   std::set<std::string> all;
   for (const FeatureRow& row : rows)

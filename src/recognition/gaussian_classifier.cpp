@@ -1,6 +1,5 @@
 #include "palpate/recognition/gaussian_classifier.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

@@ -1,7 +1,6 @@
 // Reads and writes a trained model as a JSON file (the functions of trained_model.h).
 #include <cstdint>
 #include <exception>
-#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"

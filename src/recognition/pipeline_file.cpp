@@ -1,5 +1,4 @@
 // Converts a fitted ClassifierPipeline to JSON and back (the functions of classifier_pipeline.h).
-#include <cmath>
 #include <utility>
 
 #include "palpate/core/error.h"

@@ -1,6 +1,5 @@
 #include "palpate/recognition/standardisation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -10,12 +9,6 @@ namespace {
 
 // A standard deviation below this fraction of the magnitude is due to rounding.
 constexpr double kConstant = 1e-12;
-
-void requireFeatures(Eigen::Index given, Eigen::Index fitted) {
-  if (given != fitted)
-    throw std::invalid_argument("Standardisation: " + std::to_string(given) +
-                                " features, fitted to " + std::to_string(fitted));
-}
 
 }  // namespace
 
@@ -33,13 +26,10 @@ Standardisation Standardisation::of(const Eigen::MatrixXd& x) {
 }
 
 Eigen::MatrixXd Standardisation::apply(const Eigen::MatrixXd& x) const {
-  requireFeatures(x.cols(), mean.size());
+  if (x.cols() != mean.size())
+    throw std::invalid_argument("Standardisation: " + std::to_string(x.cols()) +
+                                " features, fitted to " + std::to_string(mean.size()));
   return (x.rowwise() - mean.transpose()) * scale.asDiagonal();
-}
-
-Eigen::VectorXd Standardisation::applyRow(const Eigen::VectorXd& row) const {
-  requireFeatures(row.size(), mean.size());
-  return (row - mean).cwiseProduct(scale);
 }
 
 }  // namespace palpate

@@ -1,6 +1,5 @@
 #include "palpate/recognition/support_vector_machine.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "palpate/core/error.h"

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <tuple>
 #include <vector>
 
 #include <sys/stat.h>

@@ -1,7 +1,6 @@
 #include "palpate/recording/hdf5_process.h"
 
 #include <array>
-#include <bit>
 #include <cerrno>
 #include <chrono>
 #include <csignal>

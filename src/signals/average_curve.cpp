@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 #include "palpate/core/error.h"
 #include "palpate/signals/resampled_series.h"

@@ -1,7 +1,6 @@
 #include "palpate/signals/characteristic_signals.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>

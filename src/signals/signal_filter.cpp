@@ -64,7 +64,6 @@ SignalFilter::~SignalFilter() = default;
 void SignalFilter::push(std::int64_t hostUs, std::span<const CharacteristicSignals> rows) {
   impl_->push(hostUs, rows);
 }
-void SignalFilter::restart() { impl_->chain().restart(); }
 void SignalFilter::finish() { impl_->chain().finish(); }
 
 void requireBelowHalfRate(const Recipe& recipe,

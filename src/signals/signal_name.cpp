@@ -1,6 +1,5 @@
 #include "palpate/signals/signal_name.h"
 
-#include <array>
 #include <cctype>
 
 #include "palpate/core/number_text.h"

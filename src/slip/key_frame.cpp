@@ -1,7 +1,6 @@
 #include "palpate/slip/key_frame.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>

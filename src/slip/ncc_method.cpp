@@ -6,7 +6,6 @@
 // If it were normalised over the whole frames, the peak would be biased towards 0. A shift at which
 // less than half of the sum of squares of either frame overlaps counts as no match.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

@@ -1,6 +1,5 @@
 #include "palpate/slip/object_motion.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -43,30 +42,6 @@ SlipArrow slipArrow(const HandPose& pose,
   if (turnDeg) arrow.turnRad = -*turnDeg * kObjectMotionRadians;
   arrow.weight = weight;
   return arrow;
-}
-
-std::vector<SlipArrow> slipArrows(const HandPose& pose,
-                                  const SensorLayout& layout,
-                                  std::span<const SlipMotion> motions,
-                                  bool sinceReference) {
-  std::vector<SlipArrow> arrows;
-  for (std::size_t m = 0; m < motions.size() && m < layout.numMatrices(); ++m) {
-    const SlipMotion& motion = motions[m];
-    if (!(sinceReference ? motion.refValid : motion.valid)) continue;
-    const SlipRotation& rotation = motion.rotation;
-    const bool turns = sinceReference ? rotation.refValid : rotation.valid;
-    std::optional<double> turnDeg;
-    if (turns) turnDeg = sinceReference ? rotation.refRotationDeg : rotation.rotationDeg;
-    arrows.push_back(slipArrow(pose,
-                               m,
-                               layout.matrix(m).pitchMm,
-                               motion.x,
-                               motion.y,
-                               sinceReference ? motion.refDx : motion.dx,
-                               sinceReference ? motion.refDy : motion.dy,
-                               turnDeg));
-  }
-  return arrows;
 }
 
 ObjectMotion objectMotion(std::span<const SlipArrow> arrows) {

@@ -1,7 +1,6 @@
 #include "palpate/slip/slip_detector.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -148,10 +147,6 @@ const SlipDetection& SlipDetector::update(const ConstMatrixMap& given,
     }
   }
   detection_.motion.sum /= options_.countsScale;
-  if (!on_) {
-    detection_.indicator = SlipIndicator::kOff;
-    detection_.slipping = detection_.alarm = detection_.rotating = false;
-  }
   return detection_;
 }
 
@@ -286,6 +281,15 @@ void SlipDetector::decideByThresholds() {
   detection_.state = detection_.slipping ? SlipState::kSlip : SlipState::kStill;
   detection_.residual = motion.residual;
   detection_.confidence = motion.confidence;
+}
+
+std::vector<SlipDetector> slipDetectors(const HandDescription& hand,
+                                        const SlipDetectorOptions& options) {
+  std::vector<SlipDetector> detectors;
+  detectors.reserve(hand.layout->numMatrices());
+  for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
+    detectors.emplace_back(hand.layout->matrix(m), withScaleOf(hand, m, options));
+  return detectors;
 }
 
 }  // namespace palpate

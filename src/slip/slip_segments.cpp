@@ -21,7 +21,7 @@ constexpr std::size_t kMaxBlockBytes = 16u << 20;
 SlipRun::SlipRun(Profile profile, const SlipRunOptions& options, UnreadableSamples* unreadable)
     : profile_(std::move(profile)),
       unreadable_(unreadable),
-      detector_(profile_.hand(), options.detector),
+      detectors_(slipDetectors(profile_.hand(), options.detector)),
       threads_(options.threads) {
   if (threads_ != 1)
     maxSteps_ = std::clamp<std::size_t>(
@@ -68,7 +68,7 @@ bool SlipRun::read(Step& step) {
 
 // The matrices don't depend on each other: this is the same for any number of threads.
 void SlipRun::detect(std::size_t matrix) {
-  SlipDetector& detector = detector_.matrix(matrix);
+  SlipDetector& detector = detectors_[matrix];
   for (std::size_t i = 0; i < numSteps_; ++i) {
     Step& step = block_[i];
     if (step.isAfterLoss) detector.setLoss();

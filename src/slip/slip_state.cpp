@@ -23,12 +23,6 @@ std::string_view nameOf(SlipState state) noexcept {
   return "invalid";
 }
 
-std::optional<SlipState> slipStateNamed(std::string_view name) noexcept {
-  for (const auto& [state, known] : kStates)
-    if (known == name) return state;
-  return std::nullopt;
-}
-
 std::string_view nameOf(SlipIndicator indicator) noexcept {
   switch (indicator) {
     case SlipIndicator::kOff:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "slip/translation_method.h"
 
@@ -209,13 +208,6 @@ const std::vector<SlipMotion>& SensorSlipTracker::update(const TactileFrame& fra
 void SensorSlipTracker::setReference() {
   for (std::size_t m = 0; m < trackers_.size(); ++m) {
     trackers_[m].setReference();
-    motions_[m] = trackers_[m].last();
-  }
-}
-
-void SensorSlipTracker::clearReference() {
-  for (std::size_t m = 0; m < trackers_.size(); ++m) {
-    trackers_[m].clearReference();
     motions_[m] = trackers_[m].last();
   }
 }

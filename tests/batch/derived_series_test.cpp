@@ -1,6 +1,5 @@
 #include "palpate/batch/derived_series.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 

@@ -1,6 +1,5 @@
 #include "palpate/batch/grasp_files.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

@@ -1,9 +1,7 @@
 // Recordings to HDF5 (target: 100 MB of taxels per second, two bytes per taxel, in 300 MB of
 // memory): a synthetic recording of an hour in a .palpate, alone, with its signals, and with
 // signals and slip; beside it the same taxels written to a file as they are.
-#include <filesystem>
 #include <fstream>
-#include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,6 @@
 // Recordings to MCAP (target: 100 MB of taxels per second, two bytes per taxel, in 300 MB of
 // memory) and back: a synthetic recording of an hour in a .palpate, in each compression, and with
 // its signals; beside it the same frames only read.
-#include <filesystem>
 
 #include <benchmark/benchmark.h>
 

@@ -4,10 +4,8 @@
 // sender is a process of its own. Then the parsers alone, next to the checksum alone and to strtof
 // on the same bytes.
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <random>
 #include <string>
 #include <vector>
 

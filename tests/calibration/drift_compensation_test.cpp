@@ -1,7 +1,5 @@
 #include "palpate/calibration/drift_compensation.h"
 
-#include <cmath>
-
 #include "palpate/calibration/step_model.h"
 
 #include "testing/testing.h"

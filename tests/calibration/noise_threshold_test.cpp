@@ -1,6 +1,5 @@
 #include "palpate/calibration/noise_threshold.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -42,10 +41,7 @@ TEST(NoiseThreshold, IsTheLinePlusThreeRmseRoundedUp) {
   EXPECT_EQ(noiseThreshold(floorOfTwo().lines[0], 40.0, {.maxCounts = 50}), 50);
 }
 
-TEST(NoiseThreshold, ResetIsWhatTheControllerPowersUpWith) {
-  const TactileThresholds reset = resetThresholds(sdh2Sensor());
-  EXPECT_EQ(reset.sensitivity, 0.5);
-  EXPECT_EQ(reset.counts, (std::vector{150, 300, 150, 300, 150, 300}));
+TEST(NoiseThreshold, EveryMatrixOfTheSdh2HasItsSensor) {
   EXPECT_EQ(nearestSensors(sdh2()), (std::vector<std::optional<std::size_t>>{1, 2, 3, 4, 5, 6}));
 }
 

@@ -1,6 +1,5 @@
 #include "palpate/calibration/pressure_reader.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "palpate/calibration/force_series.h"

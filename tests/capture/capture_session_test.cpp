@@ -37,12 +37,6 @@ std::map<std::string, std::string> readTable(const std::filesystem::path& path, 
   return rows;
 }
 
-RecordingOptions to(const std::filesystem::path& path) {
-  RecordingOptions options;
-  options.path = path;
-  return options;
-}
-
 TEST(CaptureSession, RecordsWhatTheDeviceDelivers) {
   const TemporaryFolder folder;
   ScriptedSession scripted;

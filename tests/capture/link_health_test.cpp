@@ -1,7 +1,5 @@
 #include "palpate/capture/link_health.h"
 
-#include <algorithm>
-
 #include "palpate/device/dsa_frame.h"
 
 #include "testing/testing.h"

@@ -24,12 +24,6 @@ CaptureOptions onFaultyDisk() {
   return options;
 }
 
-RecordingOptions to(const fs::path& path) {
-  RecordingOptions options;
-  options.path = path;
-  return options;
-}
-
 bool hasAlarm(const CaptureSession& session, AlarmKind kind) {
   for (const Alarm& alarm : session.health().alarms)
     if (alarm.kind == kind) return true;

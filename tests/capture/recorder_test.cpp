@@ -16,26 +16,6 @@ namespace {
 using namespace testing;
 namespace fs = std::filesystem;
 
-RecordingOptions to(const fs::path& path) {
-  RecordingOptions options;
-  options.path = path;
-  return options;
-}
-
-std::vector<std::size_t> numbersIn(const fs::path& path) {
-  std::vector<std::size_t> numbers;
-  const Profile profile = openRecording(path);
-  for (std::size_t i = 0; i < profile.numFrames(); ++i)
-    numbers.push_back(numberOf(profile.frame(i)));
-  return numbers;
-}
-
-std::vector<std::size_t> upTo(std::size_t begin, std::size_t end) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t n = begin; n < end; ++n) numbers.push_back(n);
-  return numbers;
-}
-
 TEST(Recorder, writesFirstWhatCameInTheTwoSecondsBeforeTheStart) {
   const TemporaryFolder folder;
   ScriptedSession scripted;

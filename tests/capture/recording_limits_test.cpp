@@ -1,6 +1,5 @@
 #include "palpate/capture/recording_limits.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "palpate/core/time.h"
 #include "palpate/device/device.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/recording/recording.h"
 
 namespace palpate::testing {
 
@@ -133,6 +136,27 @@ struct ScriptedSession {
 inline std::size_t numberOf(const TactileFrame& frame) {
   return static_cast<std::size_t>(frame.values[0]) +
          4096 * static_cast<std::size_t>(frame.values[1]);
+}
+
+inline RecordingOptions to(const std::filesystem::path& path) {
+  RecordingOptions options;
+  options.path = path;
+  return options;
+}
+
+// The numbers of the frames of a recording.
+inline std::vector<std::size_t> numbersIn(const std::filesystem::path& path) {
+  std::vector<std::size_t> numbers;
+  const Profile profile = openRecording(path);
+  for (std::size_t i = 0; i < profile.numFrames(); ++i)
+    numbers.push_back(numberOf(profile.frame(i)));
+  return numbers;
+}
+
+inline std::vector<std::size_t> upTo(std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t n = begin; n < end; ++n) numbers.push_back(n);
+  return numbers;
 }
 
 }  // namespace palpate::testing

@@ -1,5 +1,4 @@
 // `palpate filter`, and --filter of the commands that look at recordings.
-#include <cmath>
 #include <sstream>
 
 #include "palpate/core/number_text.h"

@@ -2,7 +2,6 @@
 // hand.
 #include <algorithm>
 #include <csignal>
-#include <fstream>
 
 #include "palpate/control/motion_sequence.h"
 #include "palpate/core/number_text.h"
@@ -108,19 +107,15 @@ TEST(GraspCommand, DamagedMemoryOfTouchesIsRefusedBeforeAnythingMoves) {
   EXPECT_TRUE(bench.log.deeds().empty());
 }
 
+std::vector<std::string> slowClosing(const EmulatedBench& bench) {
+  const std::string port = bench.hand->sdhPort();
+  return {"grasp", "--sdh", port, "--preshape", "centrical", "--close", "1", "--velocity", "5"};
+}
+
 // From the signal to the stop that arrives at the hand.
 void stopBySignal(Punctuality& stops, int number) {
   EmulatedBench bench(stillHand());
-  BackgroundProgram program(PALPATE_PROGRAM,
-                            {"grasp",
-                             "--sdh",
-                             bench.hand->sdhPort(),
-                             "--preshape",
-                             "centrical",
-                             "--close",
-                             "1",
-                             "--velocity",
-                             "5"});
+  BackgroundProgram program(PALPATE_PROGRAM, slowClosing(bench));
   ASSERT_TRUE(program.awaitLine("closing").has_value()) << program.err();
   ASSERT_TRUE(bench.awaitMotion());
   const std::int64_t pressedUs = systemClock().monotonicUs();
@@ -149,16 +144,7 @@ TEST(GraspCommand, CtrlCStopsTheHandFirst) {
 // which the crash handler and palpate_stop both send stops. docs/notes/safety.md
 void dieInAMotion(int number, std::size_t stops) {
   EmulatedBench bench(stillHand());
-  BackgroundProgram program(PALPATE_PROGRAM,
-                            {"grasp",
-                             "--sdh",
-                             bench.hand->sdhPort(),
-                             "--preshape",
-                             "centrical",
-                             "--close",
-                             "1",
-                             "--velocity",
-                             "5"});
+  BackgroundProgram program(PALPATE_PROGRAM, slowClosing(bench));
   ASSERT_TRUE(program.awaitLine("closing").has_value()) << program.err();
   ASSERT_TRUE(bench.awaitMotion());
   EXPECT_EQ(program.err(), "") << "palpate_stop runs";
@@ -182,16 +168,7 @@ TEST(GraspCommand, CrashedInAMotionTheHandIsStopped) {
 
 TEST(GraspCommand, AHandThatIsUnpluggedIsSaid) {
   EmulatedBench bench(stillHand());
-  BackgroundProgram program(PALPATE_PROGRAM,
-                            {"grasp",
-                             "--sdh",
-                             bench.hand->sdhPort(),
-                             "--preshape",
-                             "centrical",
-                             "--close",
-                             "1",
-                             "--velocity",
-                             "5"});
+  BackgroundProgram program(PALPATE_PROGRAM, slowClosing(bench));
   ASSERT_TRUE(program.awaitLine("closing").has_value()) << program.err();
   ASSERT_TRUE(bench.awaitMotion());
   bench.hand->unplug(false, true);

@@ -3,7 +3,6 @@
 // hand.
 #include <algorithm>
 #include <csignal>
-#include <map>
 #include <memory>
 #include <optional>
 #include <regex>

@@ -1,8 +1,6 @@
 // The real program at both ends: `palpate record --remote` (and the window) there, `palpate remote`
 // here.
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "palpate/core/json.h"
 #include "palpate/emulator/emulated_hand.h"

@@ -1,8 +1,6 @@
 // C-A2: exceptions while fingers move. The process continues, a stop is sent, and the failure is
 // reported.
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <thread>

@@ -1,6 +1,5 @@
 #include "palpate/control/grasp_request.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 

@@ -1,6 +1,5 @@
 #include "palpate/core/file_name.h"
 
-#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "palpate/core/interruption.h"
 
-#include <chrono>
 #include <csignal>
 #include <future>
 

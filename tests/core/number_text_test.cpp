@@ -2,8 +2,6 @@
 
 #include <array>
 #include <clocale>
-#include <cmath>
-#include <limits>
 
 #include "testing/testing.h"
 

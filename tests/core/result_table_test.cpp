@@ -1,7 +1,6 @@
 #include "palpate/core/result_table.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 #include "palpate/core/text_table.h"
 
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 

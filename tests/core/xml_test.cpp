@@ -255,9 +255,5 @@ TEST(Xml, letsTheHandlersExceptionThrough) {
   EXPECT_LE(parser.offset(), 7u);
 }
 
-TEST(Xml, escapesTheFiveSpecialCharacters) {
-  EXPECT_EQ(xmlEscaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&apos;");
-}
-
 }  // namespace
 }  // namespace palpate::xml_test

@@ -1,7 +1,6 @@
 // Fake tactile controller, written from the protocol document; answers on a ScriptedChannel.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "device/dsa_wire.h"

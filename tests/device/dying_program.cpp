@@ -1,10 +1,8 @@
 // A program that moves a hand and dies: for last_stop_test.
 //   dying_program PORT HOW [STOP_PROGRAM]
 // prints its alarms, then "moves" when the hand does. With HOW "hold" it only opens the port.
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <thread>
 
 #include <spawn.h>

@@ -1,6 +1,5 @@
 // End-to-end tests of the SDH-2's driver: a real connection (pty or TCP), a fake hand on its own
 // thread that was written from the protocol document, and real time.
-#include <algorithm>
 #include <atomic>
 #include <optional>
 #include <thread>

@@ -3,7 +3,6 @@
 #include "palpate/device/stream_device.h"
 
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>

@@ -1,6 +1,5 @@
 // Forms of lines that sketches and programs print: rows, a line per matrix, labels, lists; times
 // that were guessed; values outside of the description.
-#include <cmath>
 #include <functional>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // The senders that docs/stream_senders gives to others: the Python programs are started and
 // recorded, the Arduino sketches are compiled and run; every value is compared.
 #include <algorithm>
-#include <set>
 
 #include <gtest/gtest.h>
 

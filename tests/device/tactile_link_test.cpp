@@ -2,7 +2,6 @@
 // counts, settings with their masks, a second start.
 #include "device/tactile_link.h"
 
-#include <cmath>
 #include <functional>
 
 #include <gtest/gtest.h>

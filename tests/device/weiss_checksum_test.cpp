@@ -1,6 +1,5 @@
 #include "palpate/device/weiss_checksum.h"
 
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 // touched, where the object is, and the values fit the description.
 #include "palpate/emulator/default_scene.h"
 
-#include <cmath>
 #include <memory>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 #include "palpate/emulator/sdh_server.h"
 
-#include <cmath>
 #include <cstring>
 #include <random>
 #include <stdexcept>

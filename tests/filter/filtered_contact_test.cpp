@@ -1,7 +1,5 @@
 // What counts as touched in filtered values: what was active as recorded. Expected numbers are
 // computed here from the frames as they came and from what the filters gave, taxel by taxel.
-#include <algorithm>
-#include <cmath>
 
 #include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"

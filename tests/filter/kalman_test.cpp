@@ -51,9 +51,7 @@ TEST(Kalman, GainGoesToTheSteadyOne) {
   KalmanFilter filter;
   for (int i = 0; i < 100; ++i) filter.step(0.0);
   EXPECT_NEAR(filter.gain(), 0.270156, 1e-6);  // methods, section 1
-  EXPECT_NEAR(KalmanOptions{}.steadyGain(), 0.270156, 1e-6);
   EXPECT_NEAR(filter.variance(), 0.270156 * 0.5, 1e-6);
-  EXPECT_EQ((KalmanOptions{.q = 0.0}).steadyGain(), 0.0);
 }
 
 TEST(Kalman, StartsAtTheFirstValueAndFollowsAStep) {

@@ -1,7 +1,5 @@
 #include "palpate/filter/recipe.h"
 
-#include <stdexcept>
-
 #include "palpate/core/error.h"
 #include "palpate/filter/filter_chain.h"
 

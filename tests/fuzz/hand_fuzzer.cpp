@@ -1,7 +1,6 @@
 // Fuzzes descriptions of hands: hand.json, and behind a zero byte the URDF that it names. What is
 // accepted is consistent, its geometry is finite or refused, and a small hand can be emulated with
 // values in its range.
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <stdexcept>

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <string>
 
 #include "palpate/core/error.h"
 #include "palpate/emulator/scene.h"

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "palpate/core/error.h"
 #include "palpate/kinematics/hand_geometry.h"

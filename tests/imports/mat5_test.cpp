@@ -1,5 +1,4 @@
 // MAT files of version 5 as tables: what is read of them, and that none is read in part.
-#include <cmath>
 #include <map>
 
 #include "palpate/imports/recording_import.h"

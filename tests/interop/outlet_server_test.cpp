@@ -4,10 +4,8 @@
 
 #include <atomic>
 #include <list>
-#include <mutex>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/write.hpp>

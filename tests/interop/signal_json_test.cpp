@@ -1,6 +1,5 @@
 #include "palpate/interop/signal_json.h"
 
-#include <cmath>
 #include <limits>
 
 #include "palpate/core/json.h"

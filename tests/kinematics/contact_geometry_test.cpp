@@ -1,7 +1,6 @@
 #include "palpate/kinematics/contact_geometry.h"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include <Eigen/Geometry>

@@ -1,7 +1,6 @@
 #include "palpate/kinematics/hand_pose.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -40,7 +39,6 @@ TEST(HandPose, LinksEndWhereTrigonometrySays) {
     const HandPose pose = geometry.pose(angles);
     for (std::size_t f = 0; f < 3; ++f) {
       const Vector3d base = geometry.description().fingers[f].baseMm;
-      EXPECT_EQ(pose.baseFromFinger(f).translation(), base);
       for (std::size_t l = 0; l < 3; ++l) expectRigid(pose.baseFromLink(f, l));
       const Vector3d root = pose.baseFromLink(f, 0).translation();
       const Vector3d knuckle = pose.baseFromLink(f, 1).translation();
@@ -174,7 +172,6 @@ TEST(HandPose, WrongQuestionsAreRefused) {
   EXPECT_THROW(pose.cornerMm(6, 0, 0), std::out_of_range);
   EXPECT_THROW(pose.baseFromLink(3, 0), std::out_of_range);
   EXPECT_THROW(pose.baseFromLink(0, 3), std::out_of_range);
-  EXPECT_THROW(pose.baseFromFinger(3), std::out_of_range);
   EXPECT_THROW(pose.baseFromSurface(6, 0, 0), std::out_of_range);
   EXPECT_THROW(pose.baseFromSurface(0, std::nan(""), 0), std::invalid_argument);
   std::vector<Vector3d> corners;
@@ -189,7 +186,6 @@ TEST(HandPose, AnEmptyPoseSaysSo) {
   EXPECT_THROW(none.positionMm(0, 0, 0), std::out_of_range);
   EXPECT_THROW(none.pointMm(0, 0, 0), std::out_of_range);
   EXPECT_THROW(none.baseFromLink(0, 0), std::out_of_range);
-  EXPECT_THROW(none.baseFromFinger(0), std::out_of_range);
   EXPECT_FALSE(HandGeometry(sdh2Geometry()).pose(std::vector<double>(7, 0.0)).empty());
 }
 

@@ -1,7 +1,6 @@
 #include "palpate/laboratory/slip_accuracy.h"
 
 #include <cmath>
-#include <memory>
 
 #include "palpate/core/error.h"
 #include "palpate/slip/slip_method.h"

@@ -1,7 +1,6 @@
 #include "palpate/laboratory/slip_evaluation.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 

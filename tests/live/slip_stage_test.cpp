@@ -134,12 +134,6 @@ TEST(SlipStage, DoesNotTellOfSlipWhileTheHandOpensByItself) {
   EXPECT_EQ(slips(60, 70), 2U);
 }
 
-TEST(SlipStage, MatricesCanBeSwitchedOff) {
-  const Found found = processed(slipOnce(), [](SlipStage& stage) { stage.setOn(3, false); });
-  EXPECT_TRUE(found.events.empty());
-  EXPECT_EQ(found.detections[104][3].indicator, SlipIndicator::kOff);
-}
-
 TEST(SlipStage, ReferenceIsTakenFromTheNextFrame) {
   const Found found = processed(slipOnce(), {}, [](SlipStage& stage, std::size_t frames) {
     if (frames == 101) stage.setReference(3);

@@ -1,6 +1,5 @@
 #include "palpate/model/frame_coding.h"
 
-#include <limits>
 #include <random>
 #include <stdexcept>
 

@@ -86,16 +86,14 @@ TEST(Touch, OfThreeComponentsTheLengthDecidesAndZPresses) {
 }
 
 TEST(Touch, TheBaselineIsMeanAndDeviation) {
-  std::vector<std::shared_ptr<const TactileFrame>> frames;
-  for (const float value : {1.0F, 2.0F, 6.0F})
-    frames.push_back(
-        std::make_shared<TactileFrame>(frameOf({.isSigned = true}, {value, -value, 4.0F})));
-  const Baseline baseline = baselineOf(frames);
+  RestMeter meter;
+  for (const float value : {1.0F, 2.0F, 6.0F}) meter.add(Values{value, -value, 4.0F});
+  const Baseline baseline = meter.baseline();
   EXPECT_EQ(baseline.rest, (Values{3.0F, -3.0F, 4.0F}));
   // Of 1, 2, 6: squares 4 + 1 + 9 = 14, over 2.
   EXPECT_FLOAT_EQ(baseline.noise[0], std::sqrt(7.0F));
   EXPECT_EQ(baseline.noise[2], 0.0F);
-  EXPECT_THROW(baselineOf({}), std::invalid_argument);
+  EXPECT_THROW(RestMeter().baseline(), std::invalid_argument);
 }
 
 TEST(Touch, WhatMovesIsNoRest) {

@@ -1,5 +1,4 @@
 // Rules of the project: sizes, names, headers, lists and pages agree with each other.
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <regex>

@@ -1,8 +1,6 @@
 #include "palpate/recognition/discriminant_analysis.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "recognition/golden_samples.h"
@@ -45,7 +43,7 @@ TEST(DiscriminantAnalysis, FindsFishersDirectionOfTwoClasses) {
   EXPECT_GT(w[0], 0.0) << "its largest entry is positive";
   const Eigen::MatrixXd z = fitted.apply(cross.x);
   EXPECT_NEAR(z.col(0).sum(), 0.0, 1e-9);
-  EXPECT_NEAR(fitted.applyRow(cross.x.row(0).transpose())[0], z(0, 0), 1e-12);
+  EXPECT_NEAR(fitted.apply(cross.x.row(0))(0, 0), z(0, 0), 1e-12);
 }
 
 TEST(DiscriminantAnalysis, SolvesTheGeneralisedEigenproblem) {

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <set>
-#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 #include "palpate/recognition/plateau_features.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>

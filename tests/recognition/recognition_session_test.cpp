@@ -1,6 +1,5 @@
 #include "palpate/recognition/recognition_session.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "palpate/core/error.h"

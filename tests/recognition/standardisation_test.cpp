@@ -16,14 +16,14 @@ TEST(Standardisation, TakesMeanAndPopulationDeviation) {
   const Eigen::MatrixXd z = fitted.apply(x);
   EXPECT_DOUBLE_EQ(z(0, 0), -std::sqrt(2.0));
   EXPECT_DOUBLE_EQ(z(3, 1), 1.0);
-  EXPECT_DOUBLE_EQ(fitted.applyRow(Eigen::Vector2d(4.0, 50.0))[1], 3.0);
+  EXPECT_DOUBLE_EQ(fitted.apply(Eigen::RowVector2d(4.0, 50.0))(0, 1), 3.0);
 }
 
 TEST(Standardisation, AConstantFeatureBecomesZero) {
   Eigen::MatrixXd x(3, 2);
   x << 0.1, 1, 0.1, 2, 0.1, 3;
   const Standardisation fitted = Standardisation::of(x);
-  EXPECT_EQ(fitted.applyRow(Eigen::Vector2d(99.0, 2.0))[0], 0.0);
+  EXPECT_EQ(fitted.apply(Eigen::RowVector2d(99.0, 2.0))(0, 0), 0.0);
   EXPECT_TRUE(fitted.apply(x).allFinite());
 }
 
@@ -31,7 +31,7 @@ TEST(Standardisation, RefusesOtherSizes) {
   EXPECT_THROW(Standardisation::of(Eigen::MatrixXd(0, 3)), std::invalid_argument);
   const Standardisation fitted = Standardisation::of(Eigen::MatrixXd::Random(3, 2));
   EXPECT_THROW(fitted.apply(Eigen::MatrixXd::Zero(1, 3)), std::invalid_argument);
-  EXPECT_THROW(fitted.applyRow(Eigen::VectorXd::Zero(1)), std::invalid_argument);
+  EXPECT_THROW(fitted.apply(Eigen::MatrixXd::Zero(1, 1)), std::invalid_argument);
 }
 
 }  // namespace

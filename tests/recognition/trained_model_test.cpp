@@ -1,8 +1,6 @@
 #include "palpate/recognition/trained_model.h"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 #include "palpate/core/error.h"
 #include "palpate/recognition/plateau_features.h"

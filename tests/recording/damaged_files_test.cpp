@@ -1,6 +1,5 @@
 // Damaged, cut, huge and hostile files: exactly one error each, whose message names the place, and
 // little memory.
-#include <algorithm>
 #include <random>
 
 #include <sys/resource.h>

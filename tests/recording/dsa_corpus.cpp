@@ -2,7 +2,6 @@
 
 #include <cstring>
 #include <fstream>
-#include <memory>
 #include <stdexcept>
 
 #include <bzlib.h>

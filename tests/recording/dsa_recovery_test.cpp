@@ -2,7 +2,6 @@
 // and nothing that was not written.
 #include "palpate/recording/dsa_recovery.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <random>
 

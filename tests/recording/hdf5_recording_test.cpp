@@ -1,21 +1,17 @@
 #include "palpate/recording/hdf5_recording.h"
 
-#include <csignal>
 #include <random>
-#include <thread>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/file_descriptor.h"
-#include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
 #include "imports/import_samples.h"
+#include "recording/exchange_samples.h"
 #include "recording/palpate_samples.h"
 #include "recording/series_samples.h"
 #include "testing/testing.h"
@@ -24,68 +20,12 @@ namespace palpate::hdf5_recording_test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::expectSame;
+using testing::openingError;
+using testing::randomProfile;
 using testing::TemporaryFolder;
 
 const Event kOddEvent{5, 9, "note", 1, std::string("a\0b\xC0 \xC3\xBC", 7), "{\"k\":1}"};
-
-// Two pads and four axes. Every third frame is filtered, some values of which are below zero.
-Profile randomProfile(std::uint32_t seed, bool floats, std::size_t frames) {
-  std::mt19937 random(seed);
-  const auto layout = std::make_shared<const SensorLayout>(
-      std::vector<MatrixLayout>{MatrixLayout::full(3, 5, 1.25), MatrixLayout::full(1, 2, 7.0)});
-  ProfileBuilder builder(layout);
-  std::int64_t timeUs = 1'600'000'000'000'000;
-  for (std::size_t i = 0; i < frames; ++i) {
-    TactileFrame frame(layout);
-    frame.hostUs = timeUs += 1 + random() % 50'000;
-    if (i > 10 && random() % 4 != 0) frame.deviceUs = 1000 * static_cast<std::int64_t>(random());
-    for (float& value : frame.values)
-      value = random() % 3 == 0 ? static_cast<float>(random() % 4096) : 0.0F;
-    if (floats && i % 3 == 0) {
-      std::vector<float> all;
-      std::vector<bool> active;
-      for (std::size_t k = 0; k < frame.values.size(); ++k) {
-        all.push_back(static_cast<float>(random() % 2000) / 7.0F - 40.0F);
-        active.push_back(random() % 2 == 0);
-      }
-      frame.setFiltered(std::move(all), active);
-    }
-    builder.addFrame(frame);
-    if (i % 2 == 0) builder.addAngles(frame.hostUs, std::vector<double>{0.1 * i, -3.0, 1.0 / 3, 7});
-    if (i % 100 == 0) builder.addTemperatures(frame.hostUs, std::vector<double>{20.5, 0.1 * i});
-  }
-  ProfileInfo info;
-  info.serial = "12AB";
-  info.firmware = "2.9";
-  return builder.finish(std::move(info));
-}
-
-void expectSame(const Profile& a, const Profile& b) {
-  ASSERT_EQ(a.numFrames(), b.numFrames());
-  ASSERT_EQ(a.numAngles(), b.numAngles());
-  ASSERT_EQ(a.numTemperatures(), b.numTemperatures());
-  EXPECT_TRUE(a.layout() == b.layout());
-  EXPECT_EQ(a.hand().name, b.hand().name);
-  EXPECT_EQ(a.info().valueType, b.info().valueType);
-  EXPECT_EQ(a.info().serial, b.info().serial);
-  EXPECT_EQ(a.info().firmware, b.info().firmware);
-  for (std::size_t i = 0; i < a.numFrames(); ++i) {
-    const TactileFrame x = a.frame(i);
-    const TactileFrame y = b.frame(i);
-    ASSERT_EQ(x.hostUs, y.hostUs) << i;
-    ASSERT_EQ(x.deviceUs, y.deviceUs) << i;
-    ASSERT_TRUE(x.values == y.values) << i;
-    ASSERT_TRUE(x.filtered == y.filtered) << i;
-  }
-  for (std::size_t i = 0; i < a.numAngles(); ++i) {
-    ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i));
-    ASSERT_EQ(a.angles(i).values, b.angles(i).values);
-  }
-  for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
-    ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i));
-    ASSERT_EQ(a.temperatures(i).values, b.temperatures(i).values);
-  }
-}
 
 void write(const Profile& profile, const fs::path& path, const Hdf5WriteOptions& options = {}) {
   ExportExtras extras;
@@ -99,16 +39,7 @@ void write(const Profile& profile, const fs::path& path, const Hdf5WriteOptions&
             options);
 }
 
-std::string errorOf(const fs::path& path) {
-  try {
-    openRecording(path);
-  } catch (const Error& error) {
-    const std::string line = error.what();
-    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-    return line;
-  }
-  return "opened";
-}
+void writeUsual(const Profile& profile, const fs::path& path) { write(profile, path); }
 
 TEST(Hdf5Recording, randomRecordingsComeBackBitByBit) {
   const TemporaryFolder folder;
@@ -129,45 +60,13 @@ TEST(Hdf5Recording, randomRecordingsComeBackBitByBit) {
 
 // Also by way of a native recording: what was said of the recording stays as well.
 TEST(Hdf5Recording, aNativeRecordingComesBackAsItWas) {
-  const TemporaryFolder folder;
-  testing::writeSamples(folder / "a.palpate", 3000);
-  const Profile profile = openRecording(folder / "a.palpate");
-  SaveExtras extras;
-  extras.meta = readRecordingMeta(folder / "a.palpate");
-  extras.meta["settings"] = "[{\"sensitivity\":0.5}]";
-  const auto events = readEvents(folder / "a.palpate").events;
-  saveRecording(profile, events, folder / "a.h5", Overwrite::kRefuse, {}, extras);
-  EXPECT_EQ(testing::dumped(openRecording(folder / "a.h5")), testing::dumped(profile));
-  EXPECT_EQ(readEvents(folder / "a.h5").events, events);
-  SaveExtras back;
-  back.meta = readRecordingMeta(folder / "a.h5");
-  saveRecording(openRecording(folder / "a.h5"),
-                readEvents(folder / "a.h5").events,
-                folder / "b.palpate",
-                Overwrite::kRefuse,
-                {},
-                back);
-  EXPECT_EQ(testing::dumped(openRecording(folder / "b.palpate")), testing::dumped(profile));
-  EXPECT_EQ(readEvents(folder / "b.palpate").events, events);
-  // This source doesn't name its hand; a conversion does.
-  auto meta = readRecordingMeta(folder / "b.palpate");
-  for (const char* key : {"hand", "hand_json", "hand_urdf"}) EXPECT_EQ(meta.erase(key), 1u) << key;
-  EXPECT_EQ(meta, extras.meta);
+  testing::expectNativeComesBackFrom("a.h5");
 }
 
 TEST(Hdf5Recording, realRecordingsComeBackBitByBit) {
-  const auto recordings = testing::recordingsFolder();
-  if (!recordings) GTEST_SKIP() << "no recordings: set PALPATE_RECORDINGS";
-  const TemporaryFolder folder;
-  std::size_t tried = 0;
-  for (const fs::path& file : testing::recordingsToTry(*recordings)) {
-    if (++tried > 12 && !testing::exhaustive()) break;
-    const Profile profile = openRecording(file);
-    writeHdf5({profile, {}, {}, ExportExtras{}}, folder / "a.h5", Overwrite::kReplace);
-    SCOPED_TRACE(file.string());
-    expectSame(profile, openRecording(folder / "a.h5"));
-  }
-  EXPECT_GT(tried, 0u);
+  testing::expectRealRecordingsComeBack("a.h5", [](const Profile& profile, const fs::path& path) {
+    writeHdf5({profile, {}, {}, ExportExtras{}}, path, Overwrite::kReplace);
+  });
 }
 
 TEST(Hdf5Recording, theFileDoesNotDependOnTheNumberOfThreads) {
@@ -179,22 +78,7 @@ TEST(Hdf5Recording, theFileDoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Hdf5Recording, severalThreadsReadAtOnce) {
-  const TemporaryFolder folder;
-  const Profile profile = randomProfile(5, true, 2600);
-  write(profile, folder / "a.h5");
-  const Profile read = openRecording(folder / "a.h5");
-  std::vector<std::jthread> threads;
-  std::array<int, 4> wrong{};
-  for (std::size_t t = 0; t < wrong.size(); ++t)
-    threads.emplace_back([&, t] {
-      for (std::size_t i = t; i < 2600; i += 7) {
-        const std::size_t k = (i * 977) % 2600;
-        if (!(read.frame(k).values == profile.frame(k).values)) ++wrong[t];
-        if (read.angles(k / 2).values != profile.angles(k / 2).values) ++wrong[t];
-      }
-    });
-  threads.clear();
-  EXPECT_EQ(wrong, (std::array<int, 4>{}));
+  testing::expectThreadsReadAtOnce("a.h5", writeUsual);
 }
 
 TEST(Hdf5Recording, h5pyReadsArraysScalesAndUnits) {
@@ -270,12 +154,11 @@ with changed('text.h5') as f:
   del f['tactile/m0']; f['tactile/m0'] = 'hello'
 )");
   const auto expectError = [&](const char* name, const std::string& words) {
-    const std::string error = errorOf(folder / name);
-    EXPECT_NE(error.find(words), std::string::npos) << name << ": " << error;
+    testing::expectOpeningError(folder / name, words);
   };
   expectError("foreign.h5", "palpate import");
   expectError("touched.h5", "changed by another program: its checksum doesn't fit");
-  EXPECT_EQ(errorOf(folder / "restamped.h5"), "opened");
+  EXPECT_EQ(openingError(folder / "restamped.h5"), "");
   expectError("newer.h5", "newer Palpate");
   expectError("no_joints.h5", "the group 'joints' is missing");
   expectError("no_mask.h5", "\"tactile/m1_static_mask\" is missing");
@@ -297,7 +180,7 @@ TEST(Hdf5Recording, aFileThatIsCutOffAnywhereIsOneLine) {
   const std::string whole = testing::readFile(folder / "a.h5");
   for (std::size_t length = 8; length < whole.size(); length += whole.size() / 40) {
     testing::writeFile(folder / "cut.h5", whole.substr(0, length));
-    EXPECT_NE(errorOf(folder / "cut.h5"), "opened") << length;
+    EXPECT_NE(openingError(folder / "cut.h5"), "") << length;
   }
 }
 
@@ -311,7 +194,7 @@ TEST(Hdf5Recording, changedBytesAnywhereAreOneLine) {
     std::string bad = whole;
     for (int i = 0; i < 8; ++i) bad[random() % bad.size()] ^= static_cast<char>(1 + random() % 255);
     testing::writeFile(folder / "bad.h5", bad);
-    EXPECT_NE(errorOf(folder / "bad.h5"), "opened") << round;
+    EXPECT_NE(openingError(folder / "bad.h5"), "") << round;
   }
 }
 
@@ -328,25 +211,7 @@ TEST(Hdf5Recording, aFileThatTookThePlaceOfAnOpenOneIsReadAnew) {
 }
 
 TEST(Hdf5Recording, aFullDiskIsAnErrorAndLeavesNothing) {
-  const TemporaryFolder folder;
-  const Profile profile = randomProfile(1, false, 20'000);
-  for (const rlim_t bytes : {0, 2'000, 50'000, 200'000}) {
-    const auto full = [&] {
-      ::signal(SIGXFSZ, SIG_IGN);
-      const rlimit limit{bytes, bytes};
-      ::setrlimit(RLIMIT_FSIZE, &limit);
-      try {
-        write(profile, folder / "a.h5");
-      } catch (const FileError& error) {
-        ::_exit(std::string(error.what()).find("File too large") != std::string::npos ? 7 : 8);
-      }
-      ::_exit(0);
-    };
-    EXPECT_EXIT(full(), ::testing::ExitedWithCode(7), "") << bytes;
-    EXPECT_TRUE(fs::is_empty(folder.path())) << bytes;
-  }
-  write(profile, folder / "a.h5");
-  EXPECT_GT(fs::file_size(folder / "a.h5"), 200'000u);
+  testing::expectFullDiskLeavesNothing("a.h5", writeUsual);
 }
 
 TEST(Hdf5Recording, aFileThatAnotherProgramWritesIsNotReplaced) {
@@ -356,7 +221,7 @@ TEST(Hdf5Recording, aFileThatAnotherProgramWritesIsNotReplaced) {
   const FileDescriptor other(::open((folder / "a.h5").c_str(), O_RDWR | O_CLOEXEC));
   ASSERT_EQ(::flock(other.get(), LOCK_EX | LOCK_NB), 0);
   EXPECT_THROW(write(profile, folder / "a.h5"), FileError);
-  EXPECT_NE(errorOf(folder / "a.h5").find("is being written by another program"),
+  EXPECT_NE(openingError(folder / "a.h5").find("is being written by another program"),
             std::string::npos);
   ::flock(other.get(), LOCK_UN);
   write(profile, folder / "a.h5");

@@ -1,6 +1,5 @@
 // GNU Octave reads what writeMat() writes. It is a large package, so this is a slow test; the fast
 // tests (mat_export_test) read the same files with SciPy.
-#include <fstream>
 
 #include <gtest/gtest.h>
 

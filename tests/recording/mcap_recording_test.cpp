@@ -3,7 +3,6 @@
 #include <cmath>
 #include <csignal>
 #include <random>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -16,6 +15,7 @@
 #include "palpate/recording/recording.h"
 
 #include "imports/import_samples.h"
+#include "recording/exchange_samples.h"
 #include "recording/palpate_samples.h"
 #include "recording/series_samples.h"
 #include "testing/testing.h"
@@ -24,6 +24,10 @@ namespace palpate::mcap_recording_test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::expectSame;
+using testing::maskedPads;
+using testing::openingError;
+using testing::randomProfile;
 using testing::TemporaryFolder;
 
 // NUL, a byte that is no UTF-8, a character of two bytes, and the one that stands for a NUL in
@@ -31,76 +35,6 @@ using testing::TemporaryFolder;
 const Event kOddEvent{
     5, 9, "note", 1, std::string("a\0b\xC0 \xC3\xBC \xF4\x8F\xBC\x80", 12), "{\"k\":1}"};
 const std::vector<Event> kEvents{kOddEvent, {7, 7, "gap", {}, "", ""}};
-
-std::shared_ptr<const SensorLayout> twoPads() {
-  MatrixLayout first = MatrixLayout::full(3, 5, 1.25);
-  first.staticMask[4] = 0;
-  first.dynamicMask[7] = 0;
-  first.uniqueId = "28FF";
-  return std::make_shared<const SensorLayout>(
-      std::vector<MatrixLayout>{first, MatrixLayout::full(1, 2, 7.1)});
-}
-
-// Two pads and four axes. Every third frame is filtered, some values of which are below zero.
-Profile randomProfile(std::uint32_t seed, bool floats, std::size_t frames) {
-  std::mt19937 random(seed);
-  const auto layout = twoPads();
-  ProfileBuilder builder(layout);
-  std::int64_t timeUs = 1'600'000'000'000'000;
-  for (std::size_t i = 0; i < frames; ++i) {
-    TactileFrame frame(layout);
-    frame.hostUs = timeUs += 1 + random() % 50'000;
-    if (i > 10 && random() % 4 != 0) frame.deviceUs = 1000 * static_cast<std::int64_t>(random());
-    for (float& value : frame.values)
-      value = random() % 3 == 0 ? static_cast<float>(random() % 4096) : 0.0F;
-    if (floats && i % 3 == 0) {
-      std::vector<float> all;
-      std::vector<bool> active;
-      for (std::size_t k = 0; k < frame.values.size(); ++k) {
-        all.push_back(static_cast<float>(random() % 2000) / 7.0F - 40.0F);
-        active.push_back(random() % 2 == 0);
-      }
-      frame.setFiltered(std::move(all), active);
-    }
-    builder.addFrame(frame);
-    const double x = static_cast<double>(i);
-    if (i % 2 == 0) builder.addAngles(frame.hostUs, std::vector<double>{0.1 * x, -3.0, 1.0 / 3, 7});
-    if (i % 100 == 0) builder.addTemperatures(frame.hostUs, std::vector<double>{20.5, 0.1 * x});
-  }
-  ProfileInfo info;
-  info.serial = "12AB";
-  info.firmware = "2.9";
-  return builder.finish(std::move(info));
-}
-
-void expectSame(const Profile& a, const Profile& b) {
-  ASSERT_EQ(a.numFrames(), b.numFrames());
-  ASSERT_EQ(a.numAngles(), b.numAngles());
-  ASSERT_EQ(a.numTemperatures(), b.numTemperatures());
-  EXPECT_TRUE(a.layout() == b.layout());
-  for (std::size_t m = 0; m < a.layout().numMatrices(); ++m)
-    EXPECT_EQ(a.layout().matrix(m).uniqueId, b.layout().matrix(m).uniqueId);
-  EXPECT_EQ(a.hand().name, b.hand().name);
-  EXPECT_EQ(a.info().valueType, b.info().valueType);
-  EXPECT_EQ(a.info().serial, b.info().serial);
-  EXPECT_EQ(a.info().firmware, b.info().firmware);
-  for (std::size_t i = 0; i < a.numFrames(); ++i) {
-    const TactileFrame x = a.frame(i);
-    const TactileFrame y = b.frame(i);
-    ASSERT_EQ(x.hostUs, y.hostUs) << i;
-    ASSERT_EQ(x.deviceUs, y.deviceUs) << i;
-    ASSERT_TRUE(x.values == y.values) << i;
-    ASSERT_TRUE(x.filtered == y.filtered) << i;
-  }
-  for (std::size_t i = 0; i < a.numAngles(); ++i) {
-    ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i));
-    ASSERT_EQ(a.angles(i).values, b.angles(i).values);
-  }
-  for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
-    ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i));
-    ASSERT_EQ(a.temperatures(i).values, b.temperatures(i).values);
-  }
-}
 
 McapWriteOptions smallChunks(McapCompression compression = McapCompression::kNone) {
   McapWriteOptions options;
@@ -122,16 +56,7 @@ void write(const Profile& profile,
             options);
 }
 
-std::string errorOf(const fs::path& path) {
-  const std::string line = testing::errorOf([&] { openRecording(path); });
-  EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-  return line;
-}
-
-void expectError(const fs::path& path, const std::string& words) {
-  const std::string error = errorOf(path);
-  EXPECT_NE(error.find(words), std::string::npos) << path << ": " << error;
-}
+void writeUsual(const Profile& profile, const fs::path& path) { write(profile, path); }
 
 // Runs Python with mcap_check.py.
 void runMcapPython(const TemporaryFolder& folder, const std::string& script) {
@@ -167,28 +92,7 @@ TEST(McapRecording, randomRecordingsComeBackBitByBit) {
 
 // Also by way of a native recording: what was said of the recording stays as well.
 TEST(McapRecording, aNativeRecordingComesBackAsItWas) {
-  const TemporaryFolder folder;
-  testing::writeSamples(folder / "a.palpate", 3000);
-  const Profile profile = openRecording(folder / "a.palpate");
-  SaveExtras extras;
-  extras.meta = readRecordingMeta(folder / "a.palpate");
-  extras.meta["settings"] = "[{\"sensitivity\":0.5}]";
-  const auto events = readEvents(folder / "a.palpate").events;
-  saveRecording(profile, events, folder / "a.mcap", Overwrite::kRefuse, {}, extras);
-  EXPECT_EQ(testing::dumped(openRecording(folder / "a.mcap")), testing::dumped(profile));
-  EXPECT_EQ(readEvents(folder / "a.mcap").events, events);
-  SaveExtras back;
-  back.meta = readRecordingMeta(folder / "a.mcap");
-  saveRecording(openRecording(folder / "a.mcap"),
-                readEvents(folder / "a.mcap").events,
-                folder / "b.palpate",
-                Overwrite::kRefuse,
-                {},
-                back);
-  EXPECT_EQ(testing::dumped(openRecording(folder / "b.palpate")), testing::dumped(profile));
-  auto meta = readRecordingMeta(folder / "b.palpate");
-  for (const char* key : {"hand", "hand_json", "hand_urdf"}) EXPECT_EQ(meta.erase(key), 1u) << key;
-  EXPECT_EQ(meta, extras.meta);
+  testing::expectNativeComesBackFrom("a.mcap");
 }
 
 TEST(McapRecording, aHandOfAnotherLayoutComesBackWithItsFiles) {
@@ -211,24 +115,15 @@ TEST(McapRecording, aHandOfAnotherLayoutComesBackWithItsFiles) {
 }
 
 TEST(McapRecording, realRecordingsComeBackBitByBit) {
-  const auto recordings = testing::recordingsFolder();
-  if (!recordings) GTEST_SKIP() << "no recordings: set PALPATE_RECORDINGS";
-  const TemporaryFolder folder;
-  std::size_t tried = 0;
-  for (const fs::path& file : testing::recordingsToTry(*recordings)) {
-    if (++tried > 12 && !testing::exhaustive()) break;
-    const Profile profile = openRecording(file);
-    writeMcap({profile, {}, {}, ExportExtras{}}, folder / "a.mcap", Overwrite::kReplace);
-    SCOPED_TRACE(file.string());
-    expectSame(profile, openRecording(folder / "a.mcap"));
-  }
-  EXPECT_GT(tried, 0u);
+  testing::expectRealRecordingsComeBack("a.mcap", [](const Profile& profile, const fs::path& path) {
+    writeMcap({profile, {}, {}, ExportExtras{}}, path, Overwrite::kReplace);
+  });
 }
 
 TEST(McapRecording, stampsBeyondThoseOfMcapComeBack) {
   const TemporaryFolder folder;
-  ProfileBuilder builder(twoPads());
-  TactileFrame frame(twoPads());
+  ProfileBuilder builder(maskedPads());
+  TactileFrame frame(maskedPads());
   for (const std::int64_t us :
        {-(std::int64_t{1} << 60), std::int64_t{-1}, std::int64_t{1} << 60}) {
     frame.hostUs = us;
@@ -252,22 +147,7 @@ TEST(McapRecording, theFileDoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(McapRecording, severalThreadsReadAtOnce) {
-  const TemporaryFolder folder;
-  const Profile profile = randomProfile(5, true, 2600);
-  write(profile, folder / "a.mcap");
-  const Profile read = openRecording(folder / "a.mcap");
-  std::vector<std::jthread> threads;
-  std::array<int, 4> wrong{};
-  for (std::size_t t = 0; t < wrong.size(); ++t)
-    threads.emplace_back([&, t] {
-      for (std::size_t i = t; i < 2600; i += 7) {
-        const std::size_t k = (i * 977) % 2600;
-        if (!(read.frame(k).values == profile.frame(k).values)) ++wrong[t];
-        if (read.angles(k / 2).values != profile.angles(k / 2).values) ++wrong[t];
-      }
-    });
-  threads.clear();
-  EXPECT_EQ(wrong, (std::array<int, 4>{}));
+  testing::expectThreadsReadAtOnce("a.mcap", writeUsual);
 }
 
 // mcap_check.py checks checksums, indexes, statistics and the summary by the specification.
@@ -515,15 +395,15 @@ w.close()
 with open(folder + 'version.mcap', 'wb') as f: f.write(b'\x89MCAP1\r\n' + bytes(100))
 with open(folder + 'hello.mcap', 'w') as f: f.write('hello')
 )");
-  expectError(folder / "none.mcap", "has no images");
-  expectError(folder / "type.mcap", "has no images");
-  expectError(folder / "large.mcap", "257 x 1 pixels");
-  expectError(folder / "colors.mcap", "encoding \"rgb8\"");
-  expectError(folder / "ros1.mcap", "only cdr");
-  expectError(folder / "compression.mcap", "unknown compression, \"snappy\"");
-  expectError(folder / "short.mcap", "damaged image");
-  expectError(folder / "version.mcap", "MCAP file of version 0");
-  expectError(folder / "hello.mcap", "MCAP file of version 0");
+  testing::expectOpeningError(folder / "none.mcap", "has no images");
+  testing::expectOpeningError(folder / "type.mcap", "has no images");
+  testing::expectOpeningError(folder / "large.mcap", "257 x 1 pixels");
+  testing::expectOpeningError(folder / "colors.mcap", "encoding \"rgb8\"");
+  testing::expectOpeningError(folder / "ros1.mcap", "only cdr");
+  testing::expectOpeningError(folder / "compression.mcap", "unknown compression, \"snappy\"");
+  testing::expectOpeningError(folder / "short.mcap", "damaged image");
+  testing::expectOpeningError(folder / "version.mcap", "MCAP file of version 0");
+  testing::expectOpeningError(folder / "hello.mcap", "MCAP file of version 0");
 }
 
 // Replaces bytes in a file without compression and makes the checksums unknown.
@@ -544,9 +424,10 @@ TEST(McapRecording, damagedAndNewerFilesNameWhatIsWrong) {
   const TemporaryFolder folder;
   write(randomProfile(1, false, 300), folder / "a.mcap");
   changeBytes(folder / "a.mcap", folder / "data.mcap", "00ff", "00fe");
-  expectError(folder / "data.mcap", "the checksum of its data section is wrong; 'palpate recover'");
+  testing::expectOpeningError(folder / "data.mcap",
+                              "the checksum of its data section is wrong; 'palpate recover'");
   changeBytes(folder / "a.mcap", folder / "changed.mcap", "mono16", "mono17");
-  expectError(folder / "changed.mcap", "chunk 0 is damaged: its checksum is wrong");
+  testing::expectOpeningError(folder / "changed.mcap", "chunk 0 is damaged: its checksum is wrong");
   const std::string whole = testing::readFile(folder / "a.mcap");
   // Without the checksum of the data section, too.
   std::string bytes = testing::readFile(folder / "changed.mcap");
@@ -554,27 +435,27 @@ TEST(McapRecording, damagedAndNewerFilesNameWhatIsWrong) {
   ASSERT_NE(end, std::string::npos);
   bytes.replace(end + 9, 4, 4, '\0');
   testing::writeFile(folder / "chunk.mcap", bytes);
-  expectError(folder / "chunk.mcap", "chunk 0 is damaged: its checksum is wrong");
+  testing::expectOpeningError(folder / "chunk.mcap", "chunk 0 is damaged: its checksum is wrong");
   // Metadata of a newer layout; the data's checksum is switched off, too.
   bytes = whole;
   bytes.replace(end + 9, 4, 4, '\0');
   const std::string version = "layout_version" + std::string("\1\0\0\0", 4);
   bytes[bytes.find(version) + version.size()] = '4';
   testing::writeFile(folder / "newer.mcap", bytes);
-  expectError(folder / "newer.mcap", "newer Palpate");
+  testing::expectOpeningError(folder / "newer.mcap", "newer Palpate");
   bytes = whole;
   bytes.replace(end + 9, 4, 4, '\0');
   bytes.replace(bytes.find("/palpate/frames"), 15, "/palpate/framez");
   bytes.replace(bytes.rfind("/palpate/frames"), 15, "/palpate/framez");
   testing::writeFile(folder / "summary.mcap", bytes);
-  expectError(folder / "summary.mcap", "the checksum of its summary is wrong");
+  testing::expectOpeningError(folder / "summary.mcap", "the checksum of its summary is wrong");
   // Lengths that lie, at any place.
   std::mt19937 random(1);
   for (int round = 0; round < 300; ++round) {
     bytes = whole;
     bytes.replace(random() % (bytes.size() - 8), 8, 8, '\xFF');
     testing::writeFile(folder / "bad.mcap", bytes);
-    EXPECT_NE(errorOf(folder / "bad.mcap"), "") << round;
+    EXPECT_NE(openingError(folder / "bad.mcap"), "") << round;
   }
 }
 
@@ -589,7 +470,7 @@ TEST(McapRecording, anyChangedByteIsFoundAndTheRestIsSaved) {
     std::string bad = whole;
     bad[8 + random() % (bad.size() - 16)] ^= static_cast<char>(1 + random() % 255);
     testing::writeFile(folder / "bad.mcap", bad);
-    EXPECT_NE(errorOf(folder / "bad.mcap"), "") << round;
+    EXPECT_NE(openingError(folder / "bad.mcap"), "") << round;
     const VerifyReport report = verifyRecording(folder / "bad.mcap");
     EXPECT_NE(report.state, VerifyReport::State::kSound) << round;
     if (report.state == VerifyReport::State::kUnreadable) continue;
@@ -614,7 +495,7 @@ TEST(McapRecording, aFileThatIsCutOffAnywhereIsReadUpToThere) {
   std::size_t before = 0;
   for (std::size_t length = 8; length < whole.size(); length += whole.size() / 40) {
     testing::writeFile(folder / "cut.mcap", whole.substr(0, length));
-    const std::string error = errorOf(folder / "cut.mcap");
+    const std::string error = openingError(folder / "cut.mcap");
     EXPECT_NE(error.find("cut off"), std::string::npos) << error;
     EXPECT_NE(error.find("'palpate recover'"), std::string::npos) << error;
     std::size_t frames = 0;
@@ -634,23 +515,7 @@ TEST(McapRecording, aFileThatIsCutOffAnywhereIsReadUpToThere) {
 }
 
 TEST(McapRecording, aFullDiskIsAnErrorAndLeavesNothing) {
-  const TemporaryFolder folder;
-  const Profile profile = randomProfile(1, false, 20'000);
-  for (const rlim_t bytes : {0, 2'000, 50'000, 200'000}) {
-    const auto full = [&] {
-      ::signal(SIGXFSZ, SIG_IGN);
-      const rlimit limit{bytes, bytes};
-      ::setrlimit(RLIMIT_FSIZE, &limit);
-      try {
-        write(profile, folder / "a.mcap");
-      } catch (const FileError& error) {
-        ::_exit(std::string(error.what()).find("File too large") != std::string::npos ? 7 : 8);
-      }
-      ::_exit(0);
-    };
-    EXPECT_EXIT(full(), ::testing::ExitedWithCode(7), "") << bytes;
-    EXPECT_TRUE(fs::is_empty(folder.path())) << bytes;
-  }
+  testing::expectFullDiskLeavesNothing("a.mcap", writeUsual);
 }
 
 TEST(McapRecording, cancellingAndASeriesThatFailsLeaveNothing) {
@@ -692,7 +557,7 @@ TEST(McapLiveWriter, whatIsFlushedCanBeReadBeforeTheEnd) {
   for (std::size_t i = 0; i < 300; ++i) writer.addFrame(profile.frame(i));
   writer.flush();
   writer.addFrame(profile.frame(300));
-  EXPECT_NE(errorOf(folder / "a.mcap").find("is being written"), std::string::npos);
+  EXPECT_NE(openingError(folder / "a.mcap").find("is being written"), std::string::npos);
   const Recording read = recoverMcap(folder / "a.mcap");
   ASSERT_EQ(read.profile.numFrames(), 300u);
   EXPECT_EQ(read.profile.frame(299).values, profile.frame(299).values);

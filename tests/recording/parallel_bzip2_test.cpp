@@ -1,13 +1,10 @@
 // Decompression on several threads: the same profiles, and word for word the same messages, as on
 // the caller's thread alone, whatever the data.
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 #include <filesystem>
-#include <optional>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>

@@ -1,6 +1,5 @@
 // All shared real recordings, against the facts known about them (survey of 1052 files).
 #include <algorithm>
-#include <map>
 #include <vector>
 
 #include "palpate/core/error.h"

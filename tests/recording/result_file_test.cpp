@@ -1,7 +1,6 @@
 #include "palpate/recording/result_file.h"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <gtest/gtest.h>

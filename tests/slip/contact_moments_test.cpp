@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "slip_scene.h"
 #include "testing/testing.h"

@@ -1,7 +1,6 @@
 #include "palpate/slip/object_motion.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -114,25 +113,6 @@ TEST(SlipArrow, LiesOnTheSurface) {
   EXPECT_NEAR(both.vectorMm.dot(both.alongY), -10.28, 1e-9);
   EXPECT_THROW(slipArrow(pose, 0, 0.0, 0, 0, 1, 0), std::invalid_argument);
   EXPECT_THROW(slipArrow(pose, 0, {1.0, 0.0}, 0, 0, 1, 0), std::invalid_argument);
-}
-
-TEST(SlipArrows, TakeWhatIsValid) {
-  const HandGeometry geometry(sdh2Geometry());
-  const HandPose pose = geometry.pose({0, 0, 0, 0, 0, 0, 0});
-  std::vector<SlipMotion> motions(6);
-  motions[1].valid = true;
-  motions[1].dx = 1.0;
-  motions[1].x = 2.0;
-  motions[1].y = 5.0;
-  motions[5].refValid = true;
-  motions[5].refDy = 1.0;
-  const auto steps = slipArrows(pose, *sdh2().layout, motions, false);
-  ASSERT_EQ(steps.size(), 1U);
-  EXPECT_EQ(steps[0].matrix, 1U);
-  EXPECT_FALSE(steps[0].turnRad);
-  const auto ways = slipArrows(pose, *sdh2().layout, motions, true);
-  ASSERT_EQ(ways.size(), 1U);
-  EXPECT_EQ(ways[0].matrix, 5U);
 }
 
 }  // namespace

@@ -268,14 +268,6 @@ TEST(SlipDetector, ReferencesAreAsAskedFor) {
   EXPECT_FALSE(watch.read({.y = 7.5}).motion.refValid);
 }
 
-TEST(SlipDetector, SwitchedOffSaysNothing) {
-  Watch watch;
-  watch.detector.setOn(false);
-  watch.rest(40);
-  for (int i = 1; i <= 5; ++i) EXPECT_FALSE(watch.read({.y = 6.5 + 0.3 * i}).slipping);
-  EXPECT_EQ(watch.detector.last().indicator, SlipIndicator::kOff);
-}
-
 TEST(SlipDetector, RefusesOtherSizes) {
   Watch watch;
   const MatrixValues other = MatrixValues::Zero(13, 6);
@@ -293,6 +285,10 @@ TEST(SlipDetector, AMatrixWithItsOwnFullScaleIsRelativeToThat) {
   EXPECT_EQ(withScaleOf(hand, 1, {}).countsScale, 4.0);
   EXPECT_EQ(withScaleOf(hand, 1, {}).tracker.saturationCounts, 4000.0);
   EXPECT_EQ(withScaleOf(hand, 1, {}).windows.hypotheses.registration.saturationCounts, 4000.0);
+  const std::vector<SlipDetector> detectors = slipDetectors(hand);
+  ASSERT_EQ(detectors.size(), 2U);
+  EXPECT_EQ(detectors[0].options().countsScale, 1.0);
+  EXPECT_EQ(detectors[1].options().countsScale, 4.0);
 }
 
 // The same contact on a hand with another full scale gives the same motion and the same alarm.

@@ -1,7 +1,6 @@
 // Makes synthetic frames of one matrix for the slip tests.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "palpate/laboratory/synthetic_slip.h"

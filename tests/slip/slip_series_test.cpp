@@ -1,7 +1,5 @@
 #include "palpate/slip/slip_series.h"
 
-#include <cmath>
-
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
 #include "palpate/laboratory/synthetic_slip.h"

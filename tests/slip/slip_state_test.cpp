@@ -15,17 +15,6 @@ TEST(SlipState, HasTheWordsOfTheTable) {
   EXPECT_EQ(nameOf(SlipState::kInvalid), "invalid");
 }
 
-TEST(SlipState, IsFoundByItsWord) {
-  for (const SlipState state : {SlipState::kInvalid,
-                                SlipState::kStill,
-                                SlipState::kLoading,
-                                SlipState::kLoadShift,
-                                SlipState::kAmbiguous,
-                                SlipState::kSlip})
-    EXPECT_EQ(slipStateNamed(nameOf(state)), state);
-  EXPECT_FALSE(slipStateNamed("slipping"));
-}
-
 TEST(SlipIndicator, HasFourFaces) {
   EXPECT_EQ(nameOf(SlipIndicator::kOff), "off");
   EXPECT_EQ(nameOf(SlipIndicator::kNotComputable), "not computable");

@@ -1,6 +1,5 @@
 // The command `palpate adapt MODEL.json [PATH] -o MODEL2.json` adapts a model to a session: it
 // determines the session offset from the zero of the empty hand and labelled grasps.
-#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <utility>

@@ -1,10 +1,7 @@
 // The command `palpate calibrate KIND ..` selects the kind of calibration; here are also the
 // functions that the kinds share.
-#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdio>
-#include <utility>
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/core/time.h"

@@ -1,6 +1,5 @@
 // The command `palpate classify MODEL.json FILE...` names the grasped objects.
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "palpate/core/error.h"

@@ -1,7 +1,6 @@
 // The command `palpate compare A B [--align HOW]` prints two recordings side by side, frame by
 // frame, as CSV; with --average the average of a signal over grasps or recordings.
 #include <array>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <set>

@@ -1,12 +1,10 @@
 // The command `palpate contact PATH...` computes where a hand touches in space, frame by frame, as
 // CSV.
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"

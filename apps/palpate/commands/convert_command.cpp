@@ -1,6 +1,5 @@
 // The command `palpate convert IN OUT` converts a recording, or a whole folder of them, to another
 // form.
-#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 

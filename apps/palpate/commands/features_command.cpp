@@ -1,5 +1,4 @@
 // The command `palpate features PATH...` prints the features of the grasps in recordings as CSV.
-#include <filesystem>
 
 #include "palpate/batch/batch_task.h"
 #include "palpate/core/interruption.h"

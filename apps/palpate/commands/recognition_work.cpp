@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <stdexcept>
 
 #include "palpate/core/error.h"
 #include "palpate/core/hash.h"

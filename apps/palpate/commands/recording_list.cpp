@@ -7,7 +7,6 @@
 #include <new>
 #include <optional>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include <unistd.h>

@@ -1,6 +1,5 @@
 #include "commands/render_movie.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 

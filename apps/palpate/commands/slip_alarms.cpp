@@ -1,7 +1,5 @@
 #include "commands/slip_alarms.h"
 
-#include <string>
-
 #include "palpate/core/error.h"
 #include "palpate/laboratory/slip_evaluation.h"
 #include "palpate/recording/recording.h"

@@ -1,6 +1,5 @@
 // The command `palpate slip FILE...` prints as CSV how contacts move on every matrix, and whether
 // that is slip.
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 

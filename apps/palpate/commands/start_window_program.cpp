@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include <unistd.h>

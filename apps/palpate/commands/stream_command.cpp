@@ -3,8 +3,6 @@
 #include <atomic>
 #include <cstdio>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 
 #include <unistd.h>

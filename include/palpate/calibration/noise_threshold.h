@@ -24,9 +24,6 @@ struct TactileThresholds {
   bool operator==(const TactileThresholds&) const = default;
 };
 
-// Settings at power-up, to which "reset" returns (SDH-2: 0.5; 150 proximal, 300 distal).
-TactileThresholds resetThresholds(const SensorCharacteristics& sensor);
-
 struct NoiseThresholdOptions {
   double sigmas = 3.0;       // distance of the threshold from the line [RMSE]; 0..20
   double sensitivity = 1.0;  // of the mode; 0..1

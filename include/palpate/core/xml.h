@@ -64,7 +64,4 @@ class XmlParser {
   std::unique_ptr<Impl> impl_;
 };
 
-// Returns `text` with the five special characters as entities, for text and attributes.
-std::string xmlEscaped(std::string_view text);
-
 }  // namespace palpate

@@ -28,8 +28,6 @@ struct KalmanOptions {
 
   // Throws std::invalid_argument that names the field.
   void validate() const;
-  // Returns the gain that the filter approaches, 0..1.
-  double steadyGain() const;
 };
 
 // Filters values one by one.

@@ -65,9 +65,6 @@ class HandPose {
   const Eigen::Isometry3d& baseFromLink(std::size_t finger, std::size_t link) const;
   // The same of any place, also of the base frame itself.
   const Eigen::Isometry3d& baseFrom(const LinkPlace& place) const;
-  // The frame of a finger's base on the palm, which does not depend on the angles. Throws
-  // std::out_of_range.
-  Eigen::Isometry3d baseFromFinger(std::size_t finger) const;
   // The frame of a matrix' surface (SensorSurface): origin at the centre of taxel (0, 0) unless it
   // is bent there, x along rising columns, y along rising rows, z into the body. For a surface
   // that is described by its taxels: origin and axes at its middle. Throws std::out_of_range.

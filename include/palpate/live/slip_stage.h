@@ -34,10 +34,6 @@ class SlipStage final : public Stage {
   // The next frame becomes the reference of one matrix or of all matrices; motion is measured
   // against it from the following frame on.
   void setReference(std::optional<std::size_t> matrix = {});
-  void clearReference();
-  // While a matrix is off, its state is still updated but nothing is reported; after switching it
-  // on, results are available at once.
-  void setOn(std::size_t matrix, bool on);
 
   // Whether the hand opens now though nothing has ordered it; asked for each frame, in the thread
   // of the chain. To be set before the first frame. Empty: it opens on orders only.
@@ -53,10 +49,6 @@ class SlipStage final : public Stage {
     double pathTaxels = 0.0;
     double dx = 0.0, dy = 0.0, turnDeg = 0.0;
   };
-  struct ReferenceRequest {
-    std::optional<std::size_t> matrix;
-    bool clear = false;
-  };
   void resetDetection();
   void setOpens(bool opens);
   void applyReferenceRequests(const SensorLayout& layout);
@@ -67,7 +59,7 @@ class SlipStage final : public Stage {
 
   std::vector<SlipDetector> detectors_;
   std::vector<std::optional<Slipping>> slipping_;
-  std::vector<ReferenceRequest> dueRequests_;  // requests for this frame
+  std::vector<std::optional<std::size_t>> dueRequests_;  // requests for this frame
   std::vector<double> jointsDeg_;
   bool ordered_ = false;  // to open
   bool opens_ = false;
@@ -76,8 +68,7 @@ class SlipStage final : public Stage {
   const HandDescription hand_;
   SlipDetectorOptions options_;
   bool changed_ = true;
-  std::vector<ReferenceRequest> referenceRequests_;
-  std::vector<bool> off_;
+  std::vector<std::optional<std::size_t>> referenceRequests_;
 };
 
 }  // namespace palpate

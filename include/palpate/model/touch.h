@@ -63,10 +63,6 @@ class RestMeter {
 // What was taken, in one line: "33 frames: 486 readings at rest from 0 to 12, noise up to 0.8".
 std::string baselineText(const Baseline& baseline, std::size_t numFrames);
 
-// Mean and standard deviation of the readings of frames that follow each other at rest, at least
-// two of the same layout. Throws std::invalid_argument.
-Baseline baselineOf(std::span<const std::shared_ptr<const TactileFrame>> frames);
-
 // The event of a baseline, its JSON {"rest": [..], "noise": [..]}: taken while recording, or later
 // by a person, who can remove it. Throws Error when it would be longer than an event may be.
 inline constexpr const char* kBaselineKind = "baseline";

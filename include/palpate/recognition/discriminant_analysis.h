@@ -51,7 +51,6 @@ struct DiscriminantAnalysis {
                                  const DiscriminantOptions& options = {});
   // Projects samples; returns samples x components.
   Eigen::MatrixXd apply(const Eigen::MatrixXd& x) const;
-  Eigen::VectorXd applyRow(const Eigen::VectorXd& row) const;
   // Weight of each feature: sqrt(sum_k separation_k directions(j, k)^2), scaled to a sum of 1.
   Eigen::VectorXd featureWeights() const;
 };

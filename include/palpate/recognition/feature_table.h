@@ -66,8 +66,6 @@ struct FeatureTable {
   // Number of grasps without features.
   std::size_t failedGrasps = 0;
 
-  // Index of a feature by its name.
-  std::optional<std::size_t> column(std::string_view name) const noexcept;
   // The classes of the rows, sorted, each once. Rows without a class are ignored.
   std::vector<std::string> classes() const;
 };

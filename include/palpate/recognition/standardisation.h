@@ -18,7 +18,6 @@ struct Standardisation {
   // Standardises samples x features; the result has the same shape. Throws std::invalid_argument
   // (another number of features).
   Eigen::MatrixXd apply(const Eigen::MatrixXd& x) const;
-  Eigen::VectorXd applyRow(const Eigen::VectorXd& row) const;
 };
 
 }  // namespace palpate

@@ -15,7 +15,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include <palpate/core/option_check.h>

@@ -41,7 +41,6 @@ class SignalFilter {
   // Takes the signals of the next frame, one row per matrix. Values are filtered as floats (7
   // digits). Throws std::invalid_argument for another number of rows.
   void push(std::int64_t hostUs, std::span<const CharacteristicSignals> rows);
-  void restart();
   // Passes on the frames that the filters held back; call it after the last frame.
   void finish();
 

@@ -56,13 +56,6 @@ SlipArrow slipArrow(const HandPose& pose,
                     std::optional<double> turnDeg = std::nullopt,
                     double weight = 1.0);
 
-// Returns the arrows of all matrices with a valid motion: since the reference if `sinceReference`,
-// otherwise of the last step.
-std::vector<SlipArrow> slipArrows(const HandPose& pose,
-                                  const SensorLayout& layout,
-                                  std::span<const SlipMotion> motions,
-                                  bool sinceReference);
-
 struct ObjectMotion {
   std::size_t contacts = 0;
   // Number of determined components of t and w, 0..6.

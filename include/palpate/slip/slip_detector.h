@@ -1,5 +1,5 @@
 // Slip detector of one matrix: it measures how the contact moves and decides whether that is slip.
-// The live slip stage and SensorSlipDetector use one per matrix.
+// The live slip stage and SlipRun use one per matrix, see slipDetectors().
 //
 // The motion is measured by one of the methods of SlipTracker, or by the method `contest`: the
 // motion of `register`, multiplied by the score P(moved) of the reference frame and the present
@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <palpate/model/hand_description.h>
 #include <palpate/slip/slip_motion.h>
@@ -96,8 +97,6 @@ class SlipDetector {
   void reset();
   // Frames before the next one are lost: there is a gap, however short it is.
   void setLoss() noexcept { windows_.setLoss(); }
-  // While it is off, the detector reports nothing but keeps its state up to date.
-  void setOn(bool on) noexcept { on_ = on; }
 
   const SlipDetection& last() const noexcept { return detection_; }
   // Whether the shape of the contact at the reference allows motion to be distinguished from a tilt
@@ -124,7 +123,6 @@ class SlipDetector {
   MotionSdInflation condition_;
   SlipDetection detection_;
   std::optional<SlipHypothesisResult> referenceHypotheses_;
-  bool on_ = true;
   bool hasReference_ = false;
   bool wantsReference_ = false;
   // Whether the contact slipped since the reference was taken.
@@ -137,5 +135,10 @@ class SlipDetector {
   double lastScoredX_ = 0.0, lastScoredY_ = 0.0;
   bool hasLastScored_ = false;
 };
+
+// Returns a detector per matrix of a hand, each with the scale of its matrix. Throws
+// std::invalid_argument.
+std::vector<SlipDetector> slipDetectors(const HandDescription& hand,
+                                        const SlipDetectorOptions& options = {});
 
 }  // namespace palpate

@@ -10,7 +10,7 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
-#include <palpate/slip/sensor_slip_detector.h>
+#include <palpate/slip/slip_detector.h>
 
 namespace palpate {
 
@@ -59,7 +59,7 @@ class SlipRun {
   Profile profile_;
   std::optional<std::size_t> reference_;
   UnreadableSamples* unreadable_;
-  SensorSlipDetector detector_;
+  std::vector<SlipDetector> detectors_;
   std::size_t threads_;
   std::size_t maxSteps_ = 1;
   std::vector<double> jointsDeg_;

@@ -2,7 +2,6 @@
 // SlipDetector determines both.
 #pragma once
 
-#include <optional>
 #include <string_view>
 
 namespace palpate {
@@ -29,7 +28,6 @@ inline constexpr double kMinMotionScore = 0.75;
 
 // Returns "invalid", "still", "loading", "load_shift", "ambiguous" or "slip".
 std::string_view nameOf(SlipState state) noexcept;
-std::optional<SlipState> slipStateNamed(std::string_view name) noexcept;
 
 enum class SlipIndicator {
   // The detector is switched off.

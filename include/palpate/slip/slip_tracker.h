@@ -88,9 +88,7 @@ class SensorSlipTracker {
   // std::invalid_argument (another layout).
   const std::vector<SlipMotion>& update(const TactileFrame& frame);
   void setReference();
-  void clearReference();
   void reset();
-  SlipTracker& tracker(std::size_t matrix) { return trackers_.at(matrix); }
   const std::vector<SlipMotion>& last() const noexcept { return motions_; }
 
  private:

@@ -1,7 +1,6 @@
 // The content of a .dsa recording: takes its XML element by element and builds a profile.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include "palpate/core/error.h"

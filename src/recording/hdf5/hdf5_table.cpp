@@ -1,5 +1,4 @@
 // writeHdf5Table() of result_writers.h.
-#include <limits>
 #include <utility>
 
 #include "recording/hdf5/hdf5_arrays.h"

@@ -1,12 +1,9 @@
 // readMcap() and recoverMcap() of mcap_recording.h.
 #include <algorithm>
-#include <bit>
-#include <charconv>
 #include <cmath>
 #include <future>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <system_error>
 #include <thread>
 #include <utility>

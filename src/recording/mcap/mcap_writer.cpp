@@ -1,7 +1,5 @@
 // writeMcap() and McapLiveWriter of mcap_recording.h.
-#include <algorithm>
 #include <cerrno>
-#include <exception>
 #include <map>
 #include <stdexcept>
 #include <utility>

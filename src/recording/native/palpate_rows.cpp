@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <stdexcept>
 #include <string_view>
 
 #include "palpate/core/byte_order.h"

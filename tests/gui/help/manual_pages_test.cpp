@@ -1,7 +1,6 @@
 #include "gui/help/manual_pages.h"
 
 #include <QTextDocument>
-#include <fstream>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // Heat maps of readings with a sign and three components.
 #include <QImage>
 #include <QPainter>
-#include <cmath>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include <QPainter>
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
 
 #include <palpate/core/child_program.h>
 #include <palpate/core/error.h>

@@ -1,7 +1,6 @@
 // The window starts whatever its settings hold.
 #include <QDir>
 #include <QRegularExpression>
-#include <fstream>
 #include <set>
 
 #include "gui/testing/window_fixture.h"

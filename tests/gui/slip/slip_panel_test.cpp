@@ -17,6 +17,7 @@
 
 #include "palpate/device/sdh2.h"
 #include <palpate/core/number_text.h>
+#include <palpate/slip/slip_segments.h>
 
 #include "gui/appearance/text_size.h"
 #include "gui/slip/slip_chart.h"
@@ -263,13 +264,10 @@ TEST_F(SlipPanelTest, OfWhatIsLiveTheNewestIsShown) {
   panel_->setSource(nullptr, true);
   EXPECT_TRUE(panel_->emptyText().contains("Waiting"));
   panel_->setLiveHand(sdh2());
-  SensorSlipDetector detector(*sdh2().layout,
-                              {.method = SlipMethod::kCentroid, .hypothesisAlarm = false});
   const Profile profile = movingContact();
-  for (std::size_t i = 0; i < kRests + 10; ++i) {
-    const TactileFrame frame = profile.frame(i);
-    panel_->showLive(frame, detector.update(frame));
-  }
+  SlipRun run(profile, {.detector = {.method = SlipMethod::kCentroid, .hypothesisAlarm = false}});
+  while (run.next() && run.frame() < kRests + 10)
+    panel_->showLive(profile.frame(run.frame()), run.detections());
   ASSERT_TRUE(panel_->shown());
   panel_->choose(kMoving);
   EXPECT_EQ(cell(kMoving, kVerdict), "slip");

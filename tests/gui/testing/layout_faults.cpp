@@ -21,7 +21,6 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <algorithm>
-#include <cmath>
 
 namespace palpate::gui {
 namespace {

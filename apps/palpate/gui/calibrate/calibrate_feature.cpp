@@ -1,7 +1,6 @@
 #include "gui/calibrate/calibrate_feature.h"
 
 #include <QFileInfo>
-#include <utility>
 
 #include <palpate/control/grasp_request.h>
 #include <palpate/core/error.h>

@@ -1,7 +1,6 @@
 #include "gui/calibrate/force_chart.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "gui/appearance/captions.h"

@@ -4,7 +4,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
-#include <cmath>
 
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>

@@ -1,7 +1,6 @@
 #include "gui/calibrate/noise_chart.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "gui/chart/chart_picture.h"

@@ -5,7 +5,6 @@
 #include <QSignalBlocker>
 #include <QStyle>
 #include <algorithm>
-#include <cmath>
 
 #include <palpate/core/error.h>
 #include <palpate/core/hash.h>

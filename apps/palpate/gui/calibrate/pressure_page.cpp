@@ -8,7 +8,6 @@
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QStackedWidget>
-#include <algorithm>
 
 #include <palpate/control/grasp_request.h>
 #include <palpate/core/error.h>

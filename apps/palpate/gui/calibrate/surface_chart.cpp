@@ -1,7 +1,6 @@
 #include "gui/calibrate/surface_chart.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <palpate/calibration/student_t.h>
 

@@ -5,7 +5,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <stdexcept>
 #include <utility>
 
 #include "gui/connect/sensor_rows.h"

@@ -7,7 +7,6 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QToolButton>
-#include <algorithm>
 #include <numeric>
 
 #include <palpate/core/error.h>

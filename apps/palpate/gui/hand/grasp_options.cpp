@@ -9,7 +9,6 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <algorithm>
-#include <utility>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/settings_table.h"

@@ -9,7 +9,6 @@
 #include <QPushButton>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include <palpate/core/error.h>

@@ -10,9 +10,7 @@
 #include <QSet>
 #include <QSlider>
 #include <algorithm>
-#include <initializer_list>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 
 #include <palpate/core/error.h>

@@ -12,7 +12,6 @@
 #include <QPushButton>
 #include <QTableWidget>
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include <palpate/core/number_text.h>

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <QAction>
-#include <functional>
-#include <optional>
 
 #include "gui/import/import_request.h"
 #include "gui/source/background_job.h"

@@ -1,7 +1,6 @@
 #include "gui/matrices/drawn_taxels.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <palpate/model/touch.h>
 

@@ -2,7 +2,6 @@
 
 #include <QMenu>
 #include <set>
-#include <utility>
 
 #include <palpate/recording/table_export.h>
 

@@ -5,7 +5,6 @@
 #include <QPainter>
 #include <QPdfWriter>
 #include <QPicture>
-#include <algorithm>
 #include <cmath>
 
 #include <palpate/core/error.h>

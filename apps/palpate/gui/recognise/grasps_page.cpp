@@ -11,8 +11,6 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <algorithm>
-#include <numeric>
-#include <utility>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/settings_file.h"

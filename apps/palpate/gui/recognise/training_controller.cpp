@@ -324,12 +324,6 @@ void TrainingController::takeOut(std::size_t index) {
   emit folderChanged();
 }
 
-std::optional<std::size_t> TrainingController::newestAccepted() const {
-  for (std::size_t i = clips_.size(); i-- > 0;)
-    if (clips_[i].state == TrainingClip::State::kAccepted) return i;
-  return std::nullopt;
-}
-
 void TrainingController::train(const fs::path& out, const std::optional<EmptyHandZero>& zero) {
   struct Made {
     std::shared_ptr<const FeatureTable> table;

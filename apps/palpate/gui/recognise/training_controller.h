@@ -103,8 +103,6 @@ class TrainingController : public QObject {
   void accept(std::size_t clip);
   // Moves a clip out of the training folder; nothing is deleted.
   void takeOut(std::size_t clip);
-  // The newest clip in the training folder; nothing when there is none.
-  std::optional<std::size_t> newestAccepted() const;
 
   // Trains with the present content of the folder; emits trained().
   void train(const std::filesystem::path& out, const std::optional<EmptyHandZero>& zero);

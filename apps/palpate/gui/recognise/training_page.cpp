@@ -315,12 +315,6 @@ void TrainingPage::actOnClip() {
     controller_.accept(index);
 }
 
-bool TrainingPage::undo() {
-  const auto newest = controller_.newestAccepted();
-  if (newest) controller_.takeOut(*newest);
-  return newest.has_value();
-}
-
 void TrainingPage::train() {
   const auto& folder = controller_.folder();
   // Not beside the recordings: they may be shared, or read-only.

@@ -30,8 +30,6 @@ class TrainingPage : public QWidget {
   QString object() const;
   // Call this when a grasp ended.
   void take(const Profile& clip);
-  // Takes the newest grasp out; returns whether there was one.
-  bool undo();
 
   // The zero of the empty hand that the new model will store.
   std::function<std::optional<EmptyHandZero>()> zeroNow;

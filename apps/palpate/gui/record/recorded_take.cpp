@@ -1,7 +1,6 @@
 #include "gui/record/recorded_take.h"
 
 #include <QFile>
-#include <stdexcept>
 #include <utility>
 
 #include <palpate/capture/recording_name.h>

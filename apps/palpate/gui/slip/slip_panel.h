@@ -7,7 +7,6 @@
 #include <list>
 #include <memory>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "gui/appearance/color_map.h"

@@ -1,6 +1,5 @@
 #include "gui/spectrum/spectrum_worker.h"
 
-#include <algorithm>
 #include <optional>
 
 #include <palpate/recognition/filtered_recording.h>

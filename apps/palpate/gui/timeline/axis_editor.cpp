@@ -5,7 +5,6 @@
 #include <QLabel>
 #include <QScreen>
 #include <algorithm>
-#include <limits>
 
 #include "gui/chart/plot.h"
 #include "gui/widgets/make.h"

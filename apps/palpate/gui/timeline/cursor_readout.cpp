@@ -1,7 +1,6 @@
 #include "gui/timeline/cursor_readout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

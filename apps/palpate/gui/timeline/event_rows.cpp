@@ -133,10 +133,6 @@ double EventRows::pixelOf(double seconds) const {
   return left_ + (seconds - fromS_) / (toS_ - fromS_) * (right_ - left_);
 }
 
-double EventRows::secondsAt(double pixel) const {
-  return fromS_ + (pixel - left_) / (right_ - left_) * (toS_ - fromS_);
-}
-
 QRectF EventRows::barOf(std::size_t index) const {
   const EventMark& mark = marks_[index];
   const bool dragged = drag_ != Part::kNone && chosen_ == index && dragged_;

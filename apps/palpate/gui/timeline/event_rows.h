@@ -78,7 +78,6 @@ class EventRows : public QWidget {
   };
   int rowHeight() const;
   double pixelOf(double seconds) const;
-  double secondsAt(double pixel) const;
   // The marks in the row of the chosen one, or in the first row; in order of time.
   std::vector<std::size_t> rowOfChosen() const;
   std::vector<std::size_t> rowOf(std::optional<EventLane> lane) const;

@@ -2,9 +2,7 @@
 
 #include <QComboBox>
 #include <QLabel>
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <palpate/core/number_text.h>
 

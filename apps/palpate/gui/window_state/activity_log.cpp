@@ -56,12 +56,6 @@ void ActivityLog::add(LogLine::Severity severity, const QString& text) {
   endInsertRows();
 }
 
-void ActivityLog::clear() {
-  beginResetModel();
-  lines_.clear();
-  endResetModel();
-}
-
 QString ActivityLog::lineText(int row) const {
   const LogLine& at = line(row);
   return timeText(at.timeMs, "yyyy-MM-dd HH:mm:ss.zzz") + "  " +

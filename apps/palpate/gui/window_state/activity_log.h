@@ -37,7 +37,6 @@ class ActivityLog : public QAbstractTableModel {
   explicit ActivityLog(const Clock& clock, QObject* parent = nullptr);
 
   void add(LogLine::Severity severity, const QString& text);
-  void clear();
   const LogLine& line(int row) const { return lines_[static_cast<std::size_t>(row)]; }
   // "2026-11-21 14:03:07.123  warning  text (3 times)"
   QString lineText(int row) const;

@@ -1,7 +1,5 @@
 #include "gui/window_state/current_frame.h"
 
-#include <algorithm>
-
 #include <palpate/core/error.h>
 
 #include "gui/appearance/captions.h"

@@ -2,7 +2,6 @@
 
 #include <QStringList>
 #include <algorithm>
-#include <stdexcept>
 
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
