@@ -57,8 +57,8 @@ Taxels taxelsOf(const py::object& frames, const TaxelPitch& pitchMm, std::size_t
       if (part.ndim() != 3)
         throw py::value_error("a matrix of frames has shape " + shapeText(part) +
                               "; it takes (T, rows, columns)");
-      constexpr py::ssize_t kMost = 256;
-      if (part.shape(1) > kMost || part.shape(2) > kMost)
+      constexpr py::ssize_t kMaximum = 256;
+      if (part.shape(1) > kMaximum || part.shape(2) > kMaximum)
         throw py::value_error("a matrix of frames has shape " + shapeText(part) +
                               "; at most 256 rows and columns");
       matrices.push_back(MatrixLayout::full(

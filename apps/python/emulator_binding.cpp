@@ -70,8 +70,8 @@ Profile emulate(const py::object& scene,
   options.hand.seed = seed;
   options.hand.zeroErrorDeg = zeroErrorDeg;
   options.validate();
-  constexpr int kMost = 10'000;
-  if (grasps < 0 || grasps > kMost) throw py::value_error("grasps is not in 0 .. 10000");
+  constexpr int kMaximum = 10'000;
+  if (grasps < 0 || grasps > kMaximum) throw py::value_error("grasps is not in 0 .. 10000");
   return unlocked([&](const Progress& progress) {
     return grasps == 0 ? simulateRecording(what, options, progress)
                        : simulateGrasps(what, grasps, {}, options, progress);

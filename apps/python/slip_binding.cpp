@@ -82,8 +82,8 @@ Table slipRows(const Profile& profile,
 
 py::dict momentsOf(const Numbers& values) {
   const Eigen::MatrixXd given = matrixOf(values, "values");
-  constexpr Eigen::Index kMost = 256;
-  if (given.size() == 0 || given.rows() > kMost || given.cols() > kMost)
+  constexpr Eigen::Index kMaximum = 256;
+  if (given.size() == 0 || given.rows() > kMaximum || given.cols() > kMaximum)
     throw py::value_error("values has shape " + shapeText(values) +
                           "; it takes 1..256 rows and columns");
   const MatrixValues matrix = given.cast<float>();

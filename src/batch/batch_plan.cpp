@@ -17,7 +17,7 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostNameBytes = 255;
+constexpr std::size_t kMaxNameBytes = 255;
 
 std::string joinedFolders(const fs::path& folder) {
   std::string text;
@@ -201,7 +201,7 @@ fs::path BatchTemplate::pathFor(const BatchNameFields& fields) const {
   const std::string stem = fs::path(name).stem().string();
   if (name.starts_with('.') || stem.empty())
     throw Error("'" + shortened(name) + "' isn't a name for a result: nothing before its ending");
-  if (name.size() > kMostNameBytes)
+  if (name.size() > kMaxNameBytes)
     throw Error("'" + shortened(name) + "' is longer than the 255 bytes of a name");
   return path / name;
 }

@@ -27,9 +27,9 @@ namespace {
 
 using State = BatchResult::State;
 constexpr std::chrono::milliseconds kWatchInterval(100);
-constexpr std::uintmax_t kLeastWeight = 1u << 10;  // a recording is work however small it is
+constexpr std::uintmax_t kMinWeight = 1u << 10;  // a recording is work however small it is
 constexpr int kBackgroundNice = 10;
-constexpr double kLeastFraction = 0.01;  // an estimate of less says nothing
+constexpr double kMinFraction = 0.01;  // an estimate of less says nothing
 
 // What --resume does about a result. kOurs: files of an earlier run, which may be replaced.
 enum class Known { kNew, kWhole, kOurs };
@@ -81,7 +81,7 @@ class BatchRun {
       std::error_code failure;
       const std::uintmax_t size = fs::file_size(item.source, failure);
       sizes_.push_back(failure ? 0 : size);
-      weight_ += static_cast<double>(std::max(sizes_.back(), kLeastWeight));
+      weight_ += static_cast<double>(std::max(sizes_.back(), kMinWeight));
     }
   }
 
@@ -253,7 +253,7 @@ class BatchRun {
     double passed = 0.0;
     double skipped = 0.0;
     for (std::size_t i = 0; i < now.total; ++i) {
-      const auto weight = static_cast<double>(std::max(sizes_[i], kLeastWeight));
+      const auto weight = static_cast<double>(std::max(sizes_[i], kMinWeight));
       const State state = report_.results[i].state;
       now.inPart += state == State::kInPart;
       now.done += state == State::kDone || state == State::kInPart;
@@ -268,7 +268,7 @@ class BatchRun {
     if (elapsedS > 0.0) now.perSecond = static_cast<double>(now.done + now.failed) / elapsedS;
     // What was skipped took no time and says nothing about the rest.
     const double own = passed - skipped;
-    if (own > kLeastFraction * (weight_ - skipped))
+    if (own > kMinFraction * (weight_ - skipped))
       now.remainingS = elapsedS * std::max(0.0, weight_ - passed) / own;
     return now;
   }

@@ -28,9 +28,9 @@ std::string withNumber(std::string text, const std::string& number) {
 }
 
 std::string numberOf(std::size_t number, std::size_t count) {
-  constexpr std::size_t kLeastDigits = 2;
+  constexpr std::size_t kMinDigits = 2;
   std::string text = std::to_string(number);
-  const std::size_t digits = std::max(kLeastDigits, std::to_string(count).size());
+  const std::size_t digits = std::max(kMinDigits, std::to_string(count).size());
   return text.size() < digits ? std::string(digits - text.size(), '0') + text : text;
 }
 

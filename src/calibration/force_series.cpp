@@ -16,13 +16,13 @@ constexpr std::size_t kForceSeriesProgressEvery = 1024;  // frames
 }  // namespace
 
 MatrixForce matrixForce(const MatrixPressure& of) {
-  constexpr int kMost = std::numeric_limits<std::uint16_t>::max();
+  constexpr int kMaximum = std::numeric_limits<std::uint16_t>::max();
   return {.staticResponseCounts = static_cast<float>(of.staticResponseCounts),
           .kpa = static_cast<float>(of.kpa),
           .sdKpa = static_cast<float>(of.sdKpa),
           .forceN = static_cast<float>(of.forceN),
           .sdForceN = static_cast<float>(of.sdForceN),
-          .active = static_cast<std::uint16_t>(std::clamp(of.active, 0, kMost)),
+          .active = static_cast<std::uint16_t>(std::clamp(of.active, 0, kMaximum)),
           .inRange = of.inRange,
           .temperatureKnown = of.temperatureKnown,
           .saturated = of.saturated,

@@ -15,11 +15,11 @@ namespace {
 
 // Derivatives, scaled to columns of length 1, are dependent when the smallest singular value is
 // below this share of the largest.
-constexpr double kLeastSquaresDependent = 1e-14;
+constexpr double kMinSquaresDependent = 1e-14;
 // Width of a difference relative to the parameter, and the smallest size of a parameter that is
 // used for it.
 constexpr double kRelativeWidth = 5e-4;
-constexpr double kLeastSize = 1e-12;
+constexpr double kMinSize = 1e-12;
 
 std::size_t sizeOf(const Eigen::VectorXd& x) { return static_cast<std::size_t>(x.size()); }
 
@@ -53,7 +53,7 @@ bool differences(const LeastSquaresProblem& problem,
                                    std::vector<double>(n)};
   constexpr double kOffsets[4] = {2.0, 1.0, -1.0, -2.0};
   for (std::size_t j = 0; j < p; ++j) {
-    const double width = kRelativeWidth * std::max(std::abs(x[j]), kLeastSize);
+    const double width = kRelativeWidth * std::max(std::abs(x[j]), kMinSize);
     for (int k = 0; k < 4; ++k) {
       at[j] = x[j] + kOffsets[k] * width;
       if (!evaluated(problem, at, values[k])) return false;
@@ -334,7 +334,7 @@ Eigen::MatrixXd unitCovariance(const LeastSquaresProblem& problem, const Eigen::
   const double* const block = ceresProblem.x().data();
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
-  options.min_reciprocal_condition_number = kLeastSquaresDependent * kLeastSquaresDependent;
+  options.min_reciprocal_condition_number = kMinSquaresDependent * kMinSquaresDependent;
   options.num_threads = 1;
   ceres::Covariance covariance(options);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> found(p, p);

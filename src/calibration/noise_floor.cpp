@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kOutlierSigmas = 6.0;
 // All frames are used, unlike in a tare: a matrix must be at rest nearly always.
-constexpr double kLeastRestShare = 0.9;
+constexpr double kMinRestShare = 0.9;
 // Below this range of temperatures the reading at rest stays the same.
 constexpr double kSameRestDegC = 5.0;
 constexpr double kFitShare = 0.5;  // part of the work; the rest is the search for touches
@@ -133,8 +133,8 @@ void judgeRest(const Profile& profile, const Progress& progress, NoiseFloor& flo
       if (!warms(floor.lines[m])) tare.matrices[m] = strict.matrices[m];
   }
   for (std::size_t m = 0; m < floor.lines.size(); ++m)
-    floor.lines[m].atRest = wasAtRest(tare.matrices[m], profile.numFrames(), kLeastRestShare);
-  floor.notAtRest = notAtRest(tare, profile, kLeastRestShare);
+    floor.lines[m].atRest = wasAtRest(tare.matrices[m], profile.numFrames(), kMinRestShare);
+  floor.notAtRest = notAtRest(tare, profile, kMinRestShare);
 }
 
 }  // namespace

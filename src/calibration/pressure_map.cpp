@@ -16,7 +16,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kMostColumns = 64;
+constexpr int kMaxMapColumns = 64;
 constexpr double kNPerKpaMm2 = 1e-3;  // 1 kPa on 1 mm^2
 
 // Returns the weight of each count in the sum of the filtered matrix; the filter is linear.
@@ -122,7 +122,7 @@ void PressureMap::prepare(const HandDescription& hand) {
     matrix.saturationCounts = static_cast<double>(hand.saturationOf(m));
     matrix.sensor =
         m < hand.matrices.size() ? hand.matrices[m].temperatureSensor.value_or(SIZE_MAX) : SIZE_MAX;
-    if (layout.columns <= kMostColumns) {
+    if (layout.columns <= kMaxMapColumns) {
       matrix.weights = filteredSumWeights(layout);
       for (int y = 0; y < layout.rows; ++y) {
         std::uint64_t bits = 0;

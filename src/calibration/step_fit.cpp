@@ -27,7 +27,7 @@ constexpr double kOscillatingGain = 0.98;
 // Time constants that differ by less than this share are equal.
 constexpr double kEqualTimes = 1e-6;
 // A correlation of neighbours above this leaves too few independent samples to be estimated.
-constexpr double kMostCorrelation = 0.98;
+constexpr double kMaxCorrelation = 0.98;
 constexpr int kCorrelationHalvings = 10;
 // K is determined when its 95 % interval is narrower than this share of it, to either side.
 constexpr double kDeterminedShare = 0.5;
@@ -141,7 +141,7 @@ double neighbourCorrelation(const Eigen::VectorXd& residuals,
     return sums.neighbours < seen * sums.left;
   };
   if (!isBelow(0.0)) return 0.0;
-  double low = 0.0, high = kMostCorrelation;
+  double low = 0.0, high = kMaxCorrelation;
   for (int i = 0; i < kCorrelationHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (isBelow(middle) ? low : high) = middle;

@@ -16,17 +16,17 @@ namespace {
 
 // phi and t can be separated when phi differs from a straight line by more than this share of its
 // sum of squares.
-constexpr double kLeastStepBend = 1e-13;
+constexpr double kMinStepBend = 1e-13;
 // Limits of d in the search for oscillating shapes, which ends at 1; the shape from T and d is
 // valid below 2.
-constexpr double kLeastDamping = 0.02, kMostDamping = 1.9;
+constexpr double kMinDamping = 0.02, kMaxDamping = 1.9;
 // Below this d the shape is computed from T and d, which is smooth at d = 1; above it, from T1 and
 // T2.
 constexpr double kStepNearlyCritical = 1.2;
 constexpr double kStepTolerance = 1e-14;
 // A minimum of the grid that is larger than the best one by this factor is not searched further.
 constexpr double kWorthSearching = 1.5;
-constexpr int kMostStepStarts = 3;
+constexpr int kMaxStepStarts = 3;
 // Radius of the first step. A longer one leads from a good start to the plateau where no sample is
 // within the lag.
 constexpr double kFirstRadius = 10.0;
@@ -42,7 +42,7 @@ constexpr std::array kGridSecond{0.03, 0.2, 0.6, 1.0};  // q or d
 // The scale of a robust loss is updated from roughly solved minima until it changes by less than
 // kNearlySettled, then from exact ones until it changes by less than kScaleSettled. It settles
 // within 12 updates, and within 40 where a quarter of the samples are outliers.
-constexpr int kMostRescalings = 100;
+constexpr int kMaxRescalings = 100;
 constexpr double kRoughTolerance = 1e-6;
 constexpr double kNearlySettled = 1e-4, kScaleSettled = 1e-7;
 // Radius of the first step from the minimum of another scale.
@@ -203,7 +203,7 @@ class ProjectedStep {
     const double whole = phi_.squaredNorm(), along = unitT_.dot(phi_);
     phi_ -= along * unitT_;
     const double bend = phi_.squaredNorm();
-    defined_ = bend > kLeastStepBend * whole;
+    defined_ = bend > kMinStepBend * whole;
     if (!defined_) return false;
     gain_ = phi_.dot(y_) / bend;
     const Eigen::Map<const Eigen::VectorXd> t(samples_.timeS.data(), size());
@@ -267,14 +267,14 @@ LeastSquaresReport solveInDomain(LeastSquaresProblem& problem,
                                  double radius) {
   constexpr double kUnbounded = std::numeric_limits<double>::max();
   const bool oscillating = options.domain == StepDomain::kOscillating;
-  const double low = oscillating ? kLeastDamping : 0.0, high = 1.0;
+  const double low = oscillating ? kMinDamping : 0.0, high = 1.0;
   const Eigen::Index last = start.size() - 1;
   problem.lowerBounds.setConstant(start.size(), -kUnbounded);
   problem.upperBounds.setConstant(start.size(), kUnbounded);
   problem.lowerBounds[last - 1] = std::log(options.leastT2S);
   problem.upperBounds[last - 1] = std::log(options.mostS);
-  if (oscillating) problem.lowerBounds[last] = kLeastDamping;
-  if (oscillating) problem.upperBounds[last] = kMostDamping;
+  if (oscillating) problem.lowerBounds[last] = kMinDamping;
+  if (oscillating) problem.upperBounds[last] = kMaxDamping;
   const LeastSquaresOptions solver{.maxIterations = options.maxIterations,
                                    .tolerance = tolerance,
                                    .firstRadii = {radius},
@@ -334,7 +334,7 @@ std::vector<Eigen::Vector2d> startsOf(ProjectedStep& projected,
     }
   std::stable_sort(
       found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  if (found.size() > kMostStepStarts) found.resize(kMostStepStarts);
+  if (found.size() > kMaxStepStarts) found.resize(kMaxStepStarts);
   std::vector<Eigen::Vector2d> starts;
   for (const auto& one : found) starts.push_back(one.second);
   return starts;
@@ -403,7 +403,7 @@ StepMinimum searchRobustStep(const StepSamples& samples,
   double scale = scaleAt(x);
   bool fine = false, settled = false;
   // The scale is 0 when half of the samples fit exactly.
-  for (int i = 0; i < kMostRescalings && !settled && scale > 0.0; ++i) {
+  for (int i = 0; i < kMaxRescalings && !settled && scale > 0.0; ++i) {
     problem.lossScale = scale;
     const LeastSquaresReport report = solveInDomain(problem,
                                                     x,

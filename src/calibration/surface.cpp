@@ -18,7 +18,7 @@ using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 constexpr double kSurfaceNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kMostTerms = 12;
+constexpr std::size_t kMaxTerms = 12;
 // Columns are dependent when they differ by less than this share of their length. Nine independent
 // terms reach 1e-6.
 constexpr long double kSurfaceDependent = 1e-8L;
@@ -180,7 +180,7 @@ std::vector<SurfaceTerm> surfaceTerms(int degree) {
 SurfaceEstimate Surface::at(double x, double t) const {
   SurfaceEstimate estimate;
   if (!valid) return {kSurfaceNaN, kSurfaceNaN, kSurfaceNaN, kSurfaceNaN, false, false};
-  double basis[kMostTerms] = {};
+  double basis[kMaxTerms] = {};
   const auto p = static_cast<Eigen::Index>(terms.size());
   for (Eigen::Index k = 0; k < p; ++k) {
     if (c[k] == 0.0) continue;
@@ -206,7 +206,7 @@ SurfaceEstimate Surface::at(double x, double t) const {
 Surface fitSurface(std::span<const SurfacePoint> points,
                    const std::vector<SurfaceTerm>& terms,
                    SurfaceSelection selection) {
-  if (terms.empty() || terms.size() > kMostTerms)
+  if (terms.empty() || terms.size() > kMaxTerms)
     throw std::invalid_argument("fitSurface: 1 to 12 terms, not " + std::to_string(terms.size()));
   Surface surface;
   surface.terms = terms;

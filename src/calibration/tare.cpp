@@ -58,9 +58,9 @@ class WindowSums {
 
 // The asked length, or as much as it takes to hold the fewest frames [s].
 double windowLengthS(const Profile& profile, double askedS) {
-  constexpr std::size_t kMostIntervals = 4096;
+  constexpr std::size_t kMaxIntervals = 4096;
   std::vector<float> intervals;
-  for (std::size_t i = 1; i < profile.numFrames() && intervals.size() < kMostIntervals; ++i)
+  for (std::size_t i = 1; i < profile.numFrames() && intervals.size() < kMaxIntervals; ++i)
     intervals.push_back(static_cast<float>(profile.frameTimeUs(i) - profile.frameTimeUs(i - 1)));
   if (intervals.empty()) return askedS;
   const double usualS = static_cast<double>(upperMedian(std::span(intervals))) / kUsPerS;

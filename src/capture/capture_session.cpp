@@ -19,8 +19,8 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostRestFrames = 2'000;  // of a baseline: memory is bounded at any rate
-constexpr std::size_t kMostShown = 1000;
+constexpr std::size_t kMaxRestFrames = 2'000;  // of a baseline: memory is bounded at any rate
+constexpr std::size_t kMaxShown = 1000;
 
 std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
   if (!device) throw std::invalid_argument("CaptureSession: no device");
@@ -382,7 +382,7 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
     const std::lock_guard lock(baselineMutex_);
     recent_.push_back(shared);
     const auto keptUs = static_cast<std::int64_t>(options_.baselineS * kUsPerS);
-    while (recent_.front()->hostUs < shared->hostUs - keptUs || recent_.size() > kMostRestFrames)
+    while (recent_.front()->hostUs < shared->hostUs - keptUs || recent_.size() > kMaxRestFrames)
       recent_.pop_front();
   }
   screenFrame_.put(shared);
@@ -431,7 +431,7 @@ void CaptureSession::pass(const CaptureItem& item, bool ofHand) {
 
 void CaptureSession::show(const Event& event) {
   const std::lock_guard lock(shownMutex_);
-  if (shown_.size() == kMostShown) shown_.pop_front();
+  if (shown_.size() == kMaxShown) shown_.pop_front();
   shown_.push_back(event);
 }
 

@@ -27,7 +27,7 @@ constexpr std::int64_t kClockJumpUs = 50'000;
 constexpr std::int64_t kOtherTimeUs = 2'000'000;
 constexpr std::int64_t kFreeBytesUs = 1'000'000;
 constexpr std::int64_t kBlockedUs = 250'000;
-constexpr std::size_t kMostKept = 32'768;
+constexpr std::size_t kMaxKept = 32'768;
 
 void requireRecorder(bool right, const std::string& message) {
   if (!right) throw std::invalid_argument("Recorder: " + message);
@@ -79,12 +79,12 @@ struct Recorder::Impl {
 
   // Keeps the items of the last seconds, measured from the newest stamp.
   void keep(const CaptureItem& item) {
-    if (!leavesRoom(item, kept.size(), kMostKept)) return;
+    if (!leavesRoom(item, kept.size(), kMaxKept)) return;
     kept.push_back(item);
     keptNewestUs = std::max(keptNewestUs, stampOf(item));
     const std::int64_t horizonUs =
         keptNewestUs - static_cast<std::int64_t>(std::llround(options.preTriggerS * 1e6));
-    while (!kept.empty() && (stampOf(kept.front()) < horizonUs || kept.size() > kMostKept))
+    while (!kept.empty() && (stampOf(kept.front()) < horizonUs || kept.size() > kMaxKept))
       kept.pop_front();
   }
 

@@ -16,9 +16,9 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostPart = 60;
+constexpr std::size_t kMaxPart = 60;
 // Leaves room for "_002.palpate-journal" within the 255 bytes of a name.
-constexpr std::size_t kMostStem = 170;  // before run and time are inserted
+constexpr std::size_t kMaxStem = 170;  // before run and time are inserted
 constexpr char kRunMark = '\x01';  // placeholders for them; no text can contain these characters
 constexpr char kTimeMark = '\x02';
 
@@ -76,7 +76,7 @@ std::string markedStem(std::string_view nameTemplate, const RecordingNameFields&
   stem.erase(
       std::unique(stem.begin(), stem.end(), [](char a, char b) { return a == '_' && b == '_'; }),
       stem.end());
-  stem = nameOfAtMost(stem, kMostStem);
+  stem = nameOfAtMost(stem, kMaxStem);
   return stem.empty() ? "recording" : stem;
 }
 
@@ -144,7 +144,7 @@ bool taken(const fs::path& path) {
 
 }  // namespace
 
-std::string fileNamePart(std::string_view text) { return nameOfAtMost(harmless(text), kMostPart); }
+std::string fileNamePart(std::string_view text) { return nameOfAtMost(harmless(text), kMaxPart); }
 
 std::string recordingFileName(std::string_view nameTemplate,
                               const RecordingNameFields& fields,

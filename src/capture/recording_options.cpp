@@ -13,7 +13,7 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::int64_t kLeastBytes = 64 << 10;
+constexpr std::int64_t kMinBytes = 64 << 10;
 
 void requireRecordingOptions(bool right, const std::string& message) {
   if (!right) throw std::invalid_argument("RecordingOptions: " + message);
@@ -52,9 +52,9 @@ void RecordingOptions::validate() const {
   finite(splitS, "splitS");
   finite(stopAfterS, "stopAfterS");
   atLeast(splitS, 1.0, "splitS");
-  atLeast(splitBytes, kLeastBytes, "splitBytes");
+  atLeast(splitBytes, kMinBytes, "splitBytes");
   atLeast(stopAfterFrames, std::int64_t{1}, "stopAfterFrames");
-  atLeast(stopAfterBytes, kLeastBytes, "stopAfterBytes");
+  atLeast(stopAfterBytes, kMinBytes, "stopAfterBytes");
   contact.validate();
   if (stopWithoutContactS)
     OptionCheck{"RecordingOptions"}(

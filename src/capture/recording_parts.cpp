@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kRetryUs = 100'000;
-constexpr std::size_t kMostHeld = 32'768;  // items that wait for a file: 64 MB of frames
+constexpr std::size_t kMaxHeld = 32'768;  // items that wait for a file: 64 MB of frames
 constexpr std::int64_t kHeldWithoutFrameUs = 60'000'000;
-constexpr std::size_t kMostDirty = 4096;  // items of one commit
+constexpr std::size_t kMaxDirty = 4096;  // items of one commit
 constexpr std::int64_t kCountersUs = 1'000'000;
 // Without further frames, the end of the recording is detected after this time.
 constexpr std::int64_t kEndGraceUs = 1'000'000;
@@ -102,7 +102,7 @@ RecordingParts::RecordingParts(RecordingOptions options,
 
 // Keeps the items of the time before a contact, with which the recording then begins.
 void RecordingParts::awaitContact(const CaptureItem& item, RoundTime time) {
-  if (!leavesRoom(item, before_.size(), kMostHeld)) return;
+  if (!leavesRoom(item, before_.size(), kMaxHeld)) return;
   before_.push_back(item);
   const auto* frame = std::get_if<SharedFrame>(&item);
   // A contact from before the request counts if it is still there.
@@ -117,7 +117,7 @@ void RecordingParts::awaitContact(const CaptureItem& item, RoundTime time) {
   const std::int64_t fromUs =
       std::min(stampOf(item), contact_->touchingSinceUs().value_or(INT64_MAX)) -
       microseconds(options_.preTriggerS);
-  while (stampOf(before_.front()) < fromUs || before_.size() > kMostHeld) before_.pop_front();
+  while (stampOf(before_.front()) < fromUs || before_.size() > kMaxHeld) before_.pop_front();
 }
 
 // Sets the end when nothing has been touched for long enough.
@@ -174,7 +174,7 @@ void RecordingParts::take(const CaptureItem& item, RoundTime time) {
 }
 
 void RecordingParts::hold(const CaptureItem& item) {
-  if (!leavesRoom(item, held_.size(), kMostHeld)) {
+  if (!leavesRoom(item, held_.size(), kMaxHeld)) {
     if (frameHeld_) recordLoss(item);
     return;
   }
@@ -183,7 +183,7 @@ void RecordingParts::hold(const CaptureItem& item) {
   // Before the first frame nothing is recorded yet: old angles may be dropped.
   while (!frameHeld_ && stampOf(held_.front()) < stampOf(item) - kHeldWithoutFrameUs)
     held_.pop_front();
-  if (held_.size() <= kMostHeld) return;
+  if (held_.size() <= kMaxHeld) return;
   recordLoss(held_.front());
   held_.pop_front();
 }
@@ -505,9 +505,9 @@ void RecordingParts::writeTo(const CaptureItem& item) {
 }
 
 void RecordingParts::keepUncommitted(const CaptureItem& item) {
-  if (!leavesRoom(item, uncommitted_.size(), kMostHeld)) return;
+  if (!leavesRoom(item, uncommitted_.size(), kMaxHeld)) return;
   uncommitted_.push_back(item);
-  if (uncommitted_.size() <= kMostHeld) return;
+  if (uncommitted_.size() <= kMaxHeld) return;
   if (streamOf(uncommitted_.front()) == CaptureStream::kTactile) {
     const std::int64_t stampUs = stampOf(uncommitted_.front());
     if (!forgottenFrames_) forgottenFrames_ = CaptureLoss{stampUs, stampUs, 0};
@@ -709,7 +709,7 @@ void RecordingParts::round(RoundTime time) {
   }
   if (options_.stopAfterBytes && bytesOnDisk() >= *options_.stopAfterBytes) ended_ = true;
   const bool due = (dirtySinceMonoUs_ && time.monoUs - *dirtySinceMonoUs_ >= commitIntervalUs_) ||
-                   dirtyItems_ >= kMostDirty || !unwrittenEvents_.empty();
+                   dirtyItems_ >= kMaxDirty || !unwrittenEvents_.empty();
   const bool commits = due && time.monoUs >= nextTryMonoUs_;
   // Updated with every commit: losses before a frame are on disk as soon as the frame is.
   if (commits || !countersMonoUs_ || time.monoUs - *countersMonoUs_ >= kCountersUs)

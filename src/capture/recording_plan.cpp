@@ -57,7 +57,7 @@ PlanRow planRowOf(const std::vector<std::string>& cells,
     if (!number) throw Error(", repetitions: " + quotedCell(text) + " is not a whole number");
     // What doesn't fit is out of range in any case.
     row.repetitions =
-        static_cast<int>(std::clamp<std::int64_t>(*number, 0, RecordingPlan::kMostRepetitions + 1));
+        static_cast<int>(std::clamp<std::int64_t>(*number, 0, RecordingPlan::kMaxRepetitions + 1));
   }
   if (const std::string problem = problemOf(row); !problem.empty()) throw Error(", " + problem);
   return row;
@@ -95,23 +95,23 @@ std::string problemOf(const PlanRow& row) {
   for (const auto& [name, text] : {std::pair("object", &row.object),
                                    std::pair("run", &row.run),
                                    std::pair("notes", &row.notes)}) {
-    if (text->size() > RecordingPlan::kMostTextBytes)
+    if (text->size() > RecordingPlan::kMaxTextBytes)
       return std::string(name) + ": is longer than " +
-             std::to_string(RecordingPlan::kMostTextBytes) + " bytes";
+             std::to_string(RecordingPlan::kMaxTextBytes) + " bytes";
     // A plan is kept as JSON, which can't hold other bytes.
     if (!isUtf8(*text)) return std::string(name) + ": is not UTF-8; save the table as UTF-8";
     if (std::any_of(text->begin(), text->end(), isControl))
       return std::string(name) + ": has a control character";
   }
-  if (row.repetitions < 1 || row.repetitions > RecordingPlan::kMostRepetitions)
-    return "repetitions: must be 1.." + std::to_string(RecordingPlan::kMostRepetitions);
+  if (row.repetitions < 1 || row.repetitions > RecordingPlan::kMaxRepetitions)
+    return "repetitions: must be 1.." + std::to_string(RecordingPlan::kMaxRepetitions);
   return {};
 }
 
 void RecordingPlan::addRow(PlanRow row) {
   if (const std::string problem = problemOf(row); !problem.empty()) throw Error(problem);
-  if (rows_.size() >= kMostRows)
-    throw Error("a plan has at most " + std::to_string(kMostRows) + " rows");
+  if (rows_.size() >= kMaxRows)
+    throw Error("a plan has at most " + std::to_string(kMaxRows) + " rows");
   rows_.push_back(std::move(row));
 }
 
@@ -229,7 +229,7 @@ RecordingPlan RecordingPlan::fromJson(std::string_view text) {
     PlanRow read{.object = row.at("object").asString(),
                  .run = row.at("run").asString(),
                  .repetitions = static_cast<int>(std::clamp<std::int64_t>(
-                     row.at("repetitions").asInteger(), 0, kMostRepetitions + 1)),
+                     row.at("repetitions").asInteger(), 0, kMaxRepetitions + 1)),
                  .notes = row.at("notes").asString()};
     const Json takes = row.at("takes");
     for (std::size_t t = 0; t < takes.size(); ++t) {
@@ -258,9 +258,9 @@ PlanTable readPlanTable(std::string_view csv) {
       table.more = true;
       break;
     }
-    if (table.rows.size() == RecordingPlan::kMostRows) {
+    if (table.rows.size() == RecordingPlan::kMaxRows) {
       table.problems.push_back(line + ": a plan has at most " +
-                               std::to_string(RecordingPlan::kMostRows) + " rows");
+                               std::to_string(RecordingPlan::kMaxRows) + " rows");
       break;
     }
     try {

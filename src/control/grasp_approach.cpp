@@ -20,8 +20,8 @@ constexpr double kMinRiseShare = 0.05;
 // Part by which a later touch, or a smaller rise, changes what is remembered; an earlier touch or a
 // larger rise is remembered at once.
 constexpr double kLearningShare = 0.5;
-constexpr std::size_t kMostTouches = 1000;
-constexpr std::size_t kMostTouchBytes = 1000;
+constexpr std::size_t kMaxTouches = 1000;
+constexpr std::size_t kMaxTouchBytes = 1000;
 constexpr std::int64_t kTouchesVersion = 1;
 constexpr std::uint64_t kLargestTouchesFile = 2'000'000;  // [bytes]
 
@@ -151,7 +151,7 @@ std::optional<Touch> TouchMemory::find(const std::string& preshape,
 bool TouchMemory::learn(const GraspReport& report) {
   const GraspRequest& request = report.request;
   if (!report.touch || request.object.empty()) return false;
-  if (touches_.size() >= kMostTouches && !find(request.preshape, request.object)) return false;
+  if (touches_.size() >= kMaxTouches && !find(request.preshape, request.object)) return false;
   const auto [place, isNew] =
       touches_.try_emplace({request.preshape, request.object}, *report.touch);
   if (isNew) return true;
@@ -200,10 +200,10 @@ TouchMemory TouchMemory::parse(std::string_view text, const std::filesystem::pat
     root.fail("is not a list of touches: 'format' must be \"palpate-touches\"");
   root.required("version").integer(1, kTouchesVersion);
   TouchMemory memory;
-  for (const JsonField& each : root.required("touches").items(kMostTouches)) {
+  for (const JsonField& each : root.required("touches").items(kMaxTouches)) {
     const std::string preshape = each.required("preshape").text();
     const std::string object = each.required("object").text();
-    if (object.empty() || preshape.size() + object.size() > kMostTouchBytes)
+    if (object.empty() || preshape.size() + object.size() > kMaxTouchBytes)
       each.fail("has a name that is empty or too long");
     const auto rise = [&](const char* key) {
       std::optional<double> value;

@@ -26,7 +26,7 @@ constexpr std::int64_t kIdleUs = 100'000;
 // Time after which the same failure is reported again.
 constexpr std::int64_t kFaultAgainUs = 10'000'000;
 constexpr std::chrono::milliseconds kGoodbye{300};
-constexpr std::size_t kMostChanges = 1000;
+constexpr std::size_t kMaxChanges = 1000;
 // Frames of two seconds; more can only wait if this thread did not run at all.
 constexpr std::size_t kWaitingFrames = 64;
 
@@ -353,7 +353,7 @@ void GraspControl::reportPhase(GraspPhase phase,
                                const std::string& text,
                                std::optional<GraspReport> report) {
   reportedPhase_ = phase;
-  if (changes_.size() == kMostChanges) changes_.pop_front();
+  if (changes_.size() == kMaxChanges) changes_.pop_front();
   changes_.push_back(
       {session_.nowUs(), phase, text, std::move(report), conditionOf(presentStatus())});
 }

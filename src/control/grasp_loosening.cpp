@@ -11,7 +11,7 @@ namespace {
 constexpr double kLooseningDegPerS = 1.0;
 // Opening for the measurement of friction ends at this fraction of the limit: a safe hold is more
 // important than the result.
-constexpr double kLeastOfLimit = 0.25;
+constexpr double kMinOfLimit = 0.25;
 constexpr double kLongestLooseningS = 20.0;
 
 }  // namespace
@@ -33,7 +33,7 @@ void GraspStateMachine::onLooseningFrame(const FrameEvent& frame) {
     frictionTestRunning_ = false;
     return respondToSlip(*slip, monoUs);
   }
-  const double enough = frictionTestRunning_ ? kLeastOfLimit * report_.request.limitCounts : limit_;
+  const double enough = frictionTestRunning_ ? kMinOfLimit * report_.request.limitCounts : limit_;
   const bool tooMuch = static_cast<double>(loadCounts()) > enough ||
                        (!frictionTestRunning_ && fingerOverForce(report_.request, forces_));
   if (tooMuch && monoUs < settledUs_) return;

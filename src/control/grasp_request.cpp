@@ -135,7 +135,7 @@ void GraspRequest::validate() const {
   requireRange("velocity", velocityDegPerS, kVelocityDegPerS);
   if (mode != GraspMode::kPlain) validateLimits(*this);
   if (touchRatio) requireRange("touch ratio", *touchRatio, 0.0, 1.0, "");
-  if (object.size() > kMostObjectBytes || object.find('\n') != std::string::npos)
+  if (object.size() > kMaxObjectBytes || object.find('\n') != std::string::npos)
     throw std::invalid_argument(
         "grasp: the name of the object must be one line of at most 100 bytes");
   if (isJointMotion(*this)) {

@@ -14,7 +14,7 @@ namespace {
 
 using Kind = SequenceStep::Kind;
 
-constexpr double kMostStepS = 86'400.0;
+constexpr double kMaxStepS = 86'400.0;
 constexpr std::int64_t kSequenceVersion = 1;
 // The answers of a changed tactile setting take about half a second; a step of a sequence waits
 // for them.
@@ -54,7 +54,7 @@ Kind kindFrom(const JsonField& field) {
 
 void validateStep(const SequenceStep& step, const HandDescription& hand) {
   if (!isMotion(step)) {
-    if (!(step.seconds >= 0.0 && step.seconds <= kMostStepS))
+    if (!(step.seconds >= 0.0 && step.seconds <= kMaxStepS))
       throw std::invalid_argument(numberText(step.seconds) + " s is not in 0..86400 s");
     return;
   }
@@ -143,7 +143,7 @@ SequenceStep stepFrom(const JsonField& field) {
   SequenceStep step;
   step.kind = kindFrom(field.required("step"));
   if (!isMotion(step)) {
-    step.seconds = field.required("seconds").number(0.0, kMostStepS);
+    step.seconds = field.required("seconds").number(0.0, kMaxStepS);
     return step;
   }
   step.request.velocityDegPerS =
@@ -173,12 +173,12 @@ std::string describe(const SequenceStep& step) {
 
 void MotionSequence::validate(const HandDescription& of) const {
   if (steps.empty()) throw std::invalid_argument("the sequence has no step");
-  if (steps.size() > kMostSteps)
-    throw std::invalid_argument("the sequence has more than " + std::to_string(kMostSteps) +
+  if (steps.size() > kMaxSteps)
+    throw std::invalid_argument("the sequence has more than " + std::to_string(kMaxSteps) +
                                 " steps");
-  if (repetitions < 1 || repetitions > kMostRepetitions)
+  if (repetitions < 1 || repetitions > kMaxRepetitions)
     throw std::invalid_argument("repetitions " + std::to_string(repetitions) + " is not in 1.." +
-                                std::to_string(kMostRepetitions));
+                                std::to_string(kMaxRepetitions));
   if (hand != of.name) throw std::invalid_argument("the sequence is of another hand: " + hand);
   for (std::size_t i = 0; i < steps.size(); ++i) try {
       validateStep(steps[i], of);
@@ -207,8 +207,8 @@ MotionSequence parseSequence(std::string_view text, const std::filesystem::path&
   MotionSequence sequence;
   sequence.hand = root.required("hand").text();
   sequence.repetitions =
-      static_cast<int>(root.integer("repetitions", 1, 1, MotionSequence::kMostRepetitions));
-  for (const JsonField& each : root.required("steps").items(MotionSequence::kMostSteps))
+      static_cast<int>(root.integer("repetitions", 1, 1, MotionSequence::kMaxRepetitions));
+  for (const JsonField& each : root.required("steps").items(MotionSequence::kMaxSteps))
     sequence.steps.push_back(stepFrom(each));
   return sequence;
 }

@@ -6,16 +6,16 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostNameBytes = 100;
-constexpr std::size_t kMostPoses = 10'000;
-constexpr std::size_t kMostAxes = 1000;
-constexpr double kMostAngleDeg = 1e6;
+constexpr std::size_t kMaxNameBytes = 100;
+constexpr std::size_t kMaxPoses = 10'000;
+constexpr std::size_t kMaxAxes = 1000;
+constexpr double kMaxAngleDeg = 1e6;
 constexpr std::int64_t kPosesVersion = 1;
 
 std::string nameFrom(const JsonField& field) {
   const std::string name = field.text();
-  if (name.empty() || name.size() > kMostNameBytes || name.find('\n') != std::string::npos)
-    field.fail("must be one line of 1.." + std::to_string(kMostNameBytes) + " bytes");
+  if (name.empty() || name.size() > kMaxNameBytes || name.find('\n') != std::string::npos)
+    field.fail("must be one line of 1.." + std::to_string(kMaxNameBytes) + " bytes");
   return name;
 }
 
@@ -55,8 +55,8 @@ SavedPose savedPoseFrom(const JsonField& field) {
   SavedPose pose;
   pose.name = nameFrom(field.required("name"));
   pose.hand = field.required("hand").text();
-  for (const JsonField& angle : field.required("angles_deg").items(kMostAxes))
-    pose.anglesDeg.push_back(angle.number(-kMostAngleDeg, kMostAngleDeg));
+  for (const JsonField& angle : field.required("angles_deg").items(kMaxAxes))
+    pose.anglesDeg.push_back(angle.number(-kMaxAngleDeg, kMaxAngleDeg));
   return pose;
 }
 
@@ -75,7 +75,7 @@ std::vector<SavedPose> parsePoses(std::string_view text, const std::filesystem::
     root.fail("is not a list of poses: 'format' must be \"palpate-poses\"");
   root.required("version").integer(1, kPosesVersion);
   std::vector<SavedPose> poses;
-  for (const JsonField& each : root.required("poses").items(kMostPoses))
+  for (const JsonField& each : root.required("poses").items(kMaxPoses))
     poses.push_back(savedPoseFrom(each));
   return poses;
 }

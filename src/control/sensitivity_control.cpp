@@ -14,8 +14,8 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kLeastStamps = 10;  // number of frames needed to measure the rate
-constexpr std::size_t kMostStamps = 64;
+constexpr std::size_t kMinStamps = 10;  // number of frames needed to measure the rate
+constexpr std::size_t kMaxStamps = 64;
 // time limit for temperatures before the start without them
 constexpr double kTemperaturesWithinS = 3.0;
 constexpr std::int64_t kStaleUs = 1'000'000;  // without a frame for this time no rate is known
@@ -141,7 +141,7 @@ void SensitivityControl::applyWantedSettings() {
 }
 
 double SensitivityControl::rateHz() const {
-  if (stampsUs_.size() < kLeastStamps || session_.nowUs() - stampsUs_.back() > kStaleUs)
+  if (stampsUs_.size() < kMinStamps || session_.nowUs() - stampsUs_.back() > kStaleUs)
     return std::numeric_limits<double>::quiet_NaN();
   std::vector<std::int64_t> intervals;
   for (std::size_t i = 1; i < stampsUs_.size(); ++i)
@@ -154,7 +154,7 @@ double SensitivityControl::rateHz() const {
 void SensitivityControl::onFrame(const TactileFrame& frame) {
   if (frame.hostUs <= settledFromUs_) return;
   stampsUs_.push_back(frame.hostUs);
-  if (stampsUs_.size() > kMostStamps) stampsUs_.pop_front();
+  if (stampsUs_.size() > kMaxStamps) stampsUs_.pop_front();
   if (!search_ || wanted_ || !pending_.empty()) return;
   const float maximum =
       frame.values.empty() ? 0.0F : *std::max_element(frame.values.begin(), frame.values.end());

@@ -13,14 +13,14 @@ namespace {
 constexpr double kDefaultSensitivity = 0.5;
 constexpr int kDefaultThreshold = 150;        // [counts]
 constexpr int kDefaultDistalThreshold = 300;  // [counts]
-constexpr int kMostCounts = 4095;
+constexpr int kMaxCounts = 4095;
 
 // Returns what is wrong with the settings; empty if they are valid.
 std::string problemOf(const TactileSettings& settings) {
   for (const MatrixSettings& matrix : settings) {
     if (!(matrix.sensitivity >= 0.0 && matrix.sensitivity <= 1.0))
       return "sensitivity " + numberText(matrix.sensitivity) + " is not in 0..1";
-    if (matrix.thresholdCounts < 0 || matrix.thresholdCounts > kMostCounts)
+    if (matrix.thresholdCounts < 0 || matrix.thresholdCounts > kMaxCounts)
       return "threshold " + std::to_string(matrix.thresholdCounts) + " is not in 0..4095 counts";
   }
   return {};
@@ -102,8 +102,7 @@ TactileSettings parseTactileSettings(std::string_view json) {
     MatrixSettings matrix;
     matrix.sensitivity = matrices.at(m).at("sensitivity").asDouble();
     const std::int64_t counts = matrices.at(m).at("threshold_counts").asInteger();
-    matrix.thresholdCounts =
-        static_cast<int>(std::clamp<std::int64_t>(counts, -1, kMostCounts + 1));
+    matrix.thresholdCounts = static_cast<int>(std::clamp<std::int64_t>(counts, -1, kMaxCounts + 1));
     settings.push_back(matrix);
   }
   if (const std::string problem = problemOf(settings); !problem.empty())

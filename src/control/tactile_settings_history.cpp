@@ -7,7 +7,7 @@ namespace palpate {
 void TactileSettingsHistory::changing(const TactileSettings& now) {
   redo_.clear();
   if (now.empty() || (!undo_.empty() && undo_.back() == now)) return;
-  if (undo_.size() == kMostSteps) undo_.erase(undo_.begin());
+  if (undo_.size() == kMaxSteps) undo_.erase(undo_.begin());
   undo_.push_back(now);
 }
 

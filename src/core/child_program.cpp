@@ -21,7 +21,7 @@ namespace palpate {
 namespace {
 
 constexpr int kPatienceMs = 50;
-constexpr std::size_t kMostSaid = 256 * 1024;  // [bytes] kept of the output
+constexpr std::size_t kMaxSaid = 256 * 1024;  // [bytes] kept of the output
 // Above all descriptors that the program receives.
 constexpr int kFirstFree = 10;
 
@@ -130,7 +130,7 @@ void ChildProgram::wait(bool toWrite) {
   const ssize_t count = ::read(output_.get(), piece.data(), piece.size());
   if (count > 0) {
     said_.append(piece.data(), static_cast<std::size_t>(count));
-    if (said_.size() > 2 * kMostSaid) said_.erase(0, said_.size() - kMostSaid);
+    if (said_.size() > 2 * kMaxSaid) said_.erase(0, said_.size() - kMaxSaid);
   } else if (count == 0 || (errno != EAGAIN && errno != EINTR)) {
     output_ = FileDescriptor();
   }

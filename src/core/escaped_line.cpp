@@ -27,9 +27,9 @@ Character firstCharacter(std::string_view text) {
     if (!isContinuation(text[i])) return {};
     code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3F);
   }
-  constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  constexpr std::array<std::uint32_t, 5> kMinimum{0, 0, 0x80, 0x800, 0x10000};
   const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  if (code < kLeast[bytes] || code > 0x10FFFF || surrogate) return {};
+  if (code < kMinimum[bytes] || code > 0x10FFFF || surrogate) return {};
   return {code, bytes};
 }
 

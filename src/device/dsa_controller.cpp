@@ -106,8 +106,8 @@ bool DsaController::take(const DsaPacket& packet) {
     frames_(packet.payload);
     return false;
   }
-  constexpr std::size_t kMostAnswers = 16;
-  if (answers_.size() == kMostAnswers) {
+  constexpr std::size_t kMaxAnswers = 16;
+  if (answers_.size() == kMaxAnswers) {
     answers_.pop_front();
     ++strayAnswers_;
   }
@@ -167,8 +167,8 @@ void DsaController::send(DsaId id, const Bytes& payload) {
 
 void DsaController::dropLateAnswers() {
   // Limit of the number of reads, because a stream never ends.
-  constexpr int kMostReads = 4;
-  for (int i = 0; i < kMostReads && poll(milliseconds(0)) > 0; ++i) {
+  constexpr int kMaxReads = 4;
+  for (int i = 0; i < kMaxReads && poll(milliseconds(0)) > 0; ++i) {
   }
   strayAnswers_ += answers_.size();
   answers_.clear();
@@ -320,8 +320,8 @@ const DsaControllerInfo& DsaController::open() {
   readControllerRecord(request(DsaId::kControllerConfiguration, {}, kControllerRecordBytes), facts);
   const std::size_t matrices =
       readSensorRecord(request(DsaId::kSensorConfiguration, {}, kSensorRecordBytes), facts);
-  constexpr std::size_t kMostMatrices = 64;
-  if (matrices == 0 || matrices > kMostMatrices)
+  constexpr std::size_t kMaxMatrices = 64;
+  if (matrices == 0 || matrices > kMaxMatrices)
     throw DeviceError(
         DeviceFault::kProtocol,
         channel_.name(),

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLargestFullScale = 65'535.0;
 // Places of a frame with the largest u16 size: 5 bytes for stamp and flags, two bytes per place.
-constexpr std::size_t kMostPlaces = (0xFFFF - 5) / 2;
+constexpr std::size_t kMaxPlaces = (0xFFFF - 5) / 2;
 
 double finite(float value) { return std::isfinite(value) ? static_cast<double>(value) : 0.0; }
 
@@ -78,9 +78,9 @@ DsaMatrixInfo readMatrixRecord(std::span<const std::byte> record) {
 void checkPlaces(const std::vector<DsaMatrixInfo>& matrices) {
   std::size_t places = 0;
   for (const DsaMatrixInfo& matrix : matrices) places += matrix.layout.numCells();
-  if (places > kMostPlaces)
+  if (places > kMaxPlaces)
     throw std::invalid_argument("the tactile controller says it has " + std::to_string(places) +
-                                " taxels; a frame carries " + std::to_string(kMostPlaces) +
+                                " taxels; a frame carries " + std::to_string(kMaxPlaces) +
                                 " at most");
 }
 

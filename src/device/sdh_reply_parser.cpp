@@ -7,7 +7,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostLineBytes = 254;
+constexpr std::size_t kMaxLineBytes = 254;
 
 bool beginsRecord(std::byte b) { return (b & std::byte{0x80}) != std::byte{0}; }
 bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
@@ -36,7 +36,7 @@ std::size_t SdhReplyParser::takeLine(std::span<const std::byte> in, const Sink& 
       in.begin(), in.end(), [](std::byte b) { return b == std::byte{'\n'} || beginsRecord(b); });
   const auto length = static_cast<std::size_t>(end - in.begin());
   const bool ends = end != in.end() && !beginsRecord(*end);
-  if (end == in.end() && length <= kMostLineBytes && !tooLong_) return 0;
+  if (end == in.end() && length <= kMaxLineBytes && !tooLong_) return 0;
   if (!ends) {  // text interrupted by a record, or without an end
     tooLong_ = end == in.end();
     stats_.skippedBytes += length;
@@ -45,7 +45,7 @@ std::size_t SdhReplyParser::takeLine(std::span<const std::byte> in, const Sink& 
   std::string line(reinterpret_cast<const char*>(in.data()), length);
   while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
   line.erase(0, line.find_first_not_of(' '));
-  if (std::exchange(tooLong_, false) || line.empty() || length > kMostLineBytes ||
+  if (std::exchange(tooLong_, false) || line.empty() || length > kMaxLineBytes ||
       !std::all_of(line.begin(), line.end(), isPrintable)) {
     stats_.skippedBytes += length + 1;
   } else {

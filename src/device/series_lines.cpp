@@ -19,7 +19,7 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kLongestSeriesLine = 16'384;  // bytes
-constexpr double kMostTimeUs = 9e15;
+constexpr double kMaxTimeUs = 9e15;
 constexpr double kMissingValue = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kSeriesByteOrderMark = "\xEF\xBB\xBF";
 
@@ -343,7 +343,7 @@ void SeriesLines::deliver(const Sink& sink) {
   values_ = numbers_;
   if (timeAt_) {
     const double us = numbers_[*timeAt_] * usPerTime_;
-    if (std::abs(us) > kMostTimeUs) return refuse("its time is out of range");
+    if (std::abs(us) > kMaxTimeUs) return refuse("its time is out of range");
     if (!std::isnan(us)) row.deviceUs = std::llround(us);
     values_.erase(values_.begin() + static_cast<std::ptrdiff_t>(*timeAt_));
   }

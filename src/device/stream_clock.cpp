@@ -6,7 +6,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::int64_t kMostAheadUs = 10'000'000;
+constexpr std::int64_t kMaxAheadUs = 10'000'000;
 // Largest difference of the two clocks at a wrap.
 constexpr std::int64_t kWrapToleranceUs = 2'000'000;
 constexpr std::int64_t kWrapsUs[] = {std::int64_t{1} << 32, 1000 * (std::int64_t{1} << 32)};
@@ -33,7 +33,7 @@ std::int64_t StreamClock::next(std::int64_t deviceUs, std::int64_t monotonicUs) 
       if (stepUs >= 0) break;
     }
   }
-  restarted_ = stepUs < 0 || stepUs > passedUs + kMostAheadUs;
+  restarted_ = stepUs < 0 || stepUs > passedUs + kMaxAheadUs;
   last_ = {deviceUs, monotonicUs};
   if (restarted_) {
     stepUs = passedUs;

@@ -18,7 +18,7 @@ using namespace line_tokens;
 
 constexpr std::size_t kLongestLabel = 64;
 // Of other values between those of a frame with a line for each.
-constexpr std::size_t kMostOtherLabels = 16;
+constexpr std::size_t kMaxOtherLabels = 16;
 
 // "A" of "A12".
 std::string_view wordOfLabel(std::string_view label) {
@@ -207,8 +207,8 @@ void StreamLineParser::takeLabelled(std::size_t from, StreamItem& item, const Si
 void StreamLineParser::takeLabel(std::string_view label, double value, const Sink& sink) {
   if (label.size() > kLongestLabel) return refuse("a label is longer than 64 bytes");
   if (!labelsLearned_ && !endsFirstLabels(label, sink)) {
-    if (labels_.size() == shape_.numPlaces() + kMostOtherLabels) return dropLabels();
-    partValues_.resize(shape_.numPlaces() + kMostOtherLabels);
+    if (labels_.size() == shape_.numPlaces() + kMaxOtherLabels) return dropLabels();
+    partValues_.resize(shape_.numPlaces() + kMaxOtherLabels);
     partValues_[labels_.size()] = static_cast<float>(value);
     placeOf_.emplace(label, labels_.size());
     labels_.emplace_back(label);

@@ -31,7 +31,7 @@ constexpr int kMaxSameNumber = 2;
 constexpr std::size_t kShortestLimit = 4096;
 constexpr std::size_t kBytesPerNumber = 25;
 // Times are exact in a double up to here: 285 years.
-constexpr double kMostDeviceUs = 9.0e15;
+constexpr double kMaxDeviceUs = 9.0e15;
 
 // True for the words that stand for values that are no finite number: they are not names.
 bool isNonFinite(std::string_view word) {
@@ -66,7 +66,7 @@ std::optional<std::uint32_t> jsonSequence(const Json& number) {
 }
 
 std::optional<std::int64_t> jsonTimeUs(double us) {
-  if (!(std::abs(us) <= kMostDeviceUs)) throw Error("its time is out of range");
+  if (!(std::abs(us) <= kMaxDeviceUs)) throw Error("its time is out of range");
   return std::llround(us);
 }
 
@@ -325,7 +325,7 @@ bool StreamLineParser::readTime(StreamTime unit,
                                 StreamItem& item) {
   const double perUnit = unitUs(unit, firstNumber_);
   const double us = numbers_[0] * perUnit;
-  if (!(std::abs(us) <= kMostDeviceUs)) {
+  if (!(std::abs(us) <= kMaxDeviceUs)) {
     refuse("the time " + inQuotes(firstNumber_) + " is out of range");
     return false;
   }

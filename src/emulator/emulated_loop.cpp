@@ -22,7 +22,7 @@ constexpr std::int64_t kRetryUs = 1000;
 constexpr int kMaxRetryDoublings = 4;
 constexpr int kFramesPerTurn = 16;
 constexpr std::size_t kRememberedFrames = 8192;
-constexpr double kLeastThinkUs = 2000.0, kMostThinkUs = 3000.0;
+constexpr double kMinThinkUs = 2000.0, kMaxThinkUs = 3000.0;
 
 EmulatedHandOptions completed(EmulatedHandOptions options, const HandModel& model) {
   const bool real = options.rate == EmulationRate::kReal;
@@ -30,8 +30,8 @@ EmulatedHandOptions completed(EmulatedHandOptions options, const HandModel& mode
   if (options.rate == EmulationRate::kFixed) options.dsa.frameHz = options.hz;
   // With kMax the hand's time advances as on a real line, although no byte waits.
   options.dsa.lineByteUs = options.rate == EmulationRate::kMax ? kSerialByteUs : 0.0;
-  options.sdh.minResponseDelayUs = real ? kLeastThinkUs : 0.0;
-  options.sdh.maxResponseDelayUs = real ? kMostThinkUs : 0.0;
+  options.sdh.minResponseDelayUs = real ? kMinThinkUs : 0.0;
+  options.sdh.maxResponseDelayUs = real ? kMaxThinkUs : 0.0;
   options.sdh.requestByteUs = real ? kSerialByteUs : 0.0;
   options.sdh.seed = options.seed;
   options.dsa.serial =

@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::int64_t kSecondUs = 1'000'000;
 // A hand that is later than this does not catch up.
-constexpr std::int64_t kMostLateUs = kSecondUs;
+constexpr std::int64_t kMaxLateUs = kSecondUs;
 
 }  // namespace
 
@@ -191,7 +191,7 @@ class EmulatedStream::Loop {
   void frame() {
     const double timeS = static_cast<double>(number_) / options_.rateHz;
     dueUs_ += std::llround(1e6 / options_.rateHz);
-    if (const std::int64_t nowUs = systemClock().monotonicUs(); dueUs_ < nowUs - kMostLateUs)
+    if (const std::int64_t nowUs = systemClock().monotonicUs(); dueUs_ < nowUs - kMaxLateUs)
       dueUs_ = nowUs;
     model_->advanceTo(timeS);
     const std::uint64_t number = number_++;

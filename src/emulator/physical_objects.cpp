@@ -18,11 +18,11 @@ constexpr double kKpaPerNPerMm2 = 1000.0;
 constexpr double kGravity = 9.81;         // [m/s^2]
 constexpr double kMobilityMmPerNs = 2.0;  // velocity of an object per force [mm/s per N]
 constexpr double kArmMm = 30.0;           // lever that converts it into rotation
-constexpr double kMostMmPerS = 100.0;
-constexpr double kMostRadPerS = 4.0;
-constexpr double kLeastHoldN = 1e-6;  // minimum of the friction limit, along a normal
-constexpr double kTouchN = 0.05;      // a smaller force is no contact
-constexpr double kPutDownS = 0.5;     // an object untouched for this time returns to its pose
+constexpr double kMaxMmPerS = 100.0;
+constexpr double kMaxRadPerS = 4.0;
+constexpr double kMinHoldN = 1e-6;  // minimum of the friction limit, along a normal
+constexpr double kTouchN = 0.05;    // a smaller force is no contact
+constexpr double kPutDownS = 0.5;   // an object untouched for this time returns to its pose
 constexpr double kQuietMmPerS = 0.05;
 // Margin of the quick check, because sensor surfaces are curved.
 constexpr double kPhysicalObjectsReachMm = 8.0;
@@ -170,7 +170,7 @@ Vector3d PhysicalObjects::netForceN(const Body& body, const Vector3d& forceN) {
   double used = 0.0;  // fraction of the limit, squared
   for (int i = 0; i < 3; ++i) {
     const Vector3d axis = principal.eigenvectors().col(i);
-    const double share = forceN.dot(axis) / std::max(frictionLimitN(body, axis), kLeastHoldN);
+    const double share = forceN.dot(axis) / std::max(frictionLimitN(body, axis), kMinHoldN);
     used += share * share;
   }
   return used <= 1.0 ? Vector3d(Vector3d::Zero())
@@ -220,13 +220,13 @@ void PhysicalObjects::advanceBody(Body& body, double dtS) {
       force += pull;
       torque += body.loadNmm;
     }
-    velocity = limited(netForceN(body, force) * speed(kMobilityMmPerNs, body.stiffnessNPerMm),
-                       kMostMmPerS);
+    velocity =
+        limited(netForceN(body, force) * speed(kMobilityMmPerNs, body.stiffnessNPerMm), kMaxMmPerS);
     const double excess = torque.norm() - frictionLimitNmm(body, torque.normalized());
     if (excess > 0.0)
       angular = limited(torque.normalized() * excess *
                             speed(kMobilityMmPerNs / (kArmMm * kArmMm), body.turnStiffnessNmm),
-                        kMostRadPerS);
+                        kMaxRadPerS);
   }
   if (body.moved.leftS > 0.0) {
     velocity = body.moved.perS * std::min(1.0, body.moved.leftS / dtS);

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostObjects = 100;
+constexpr std::size_t kMaxObjects = 100;
 constexpr std::size_t kMaxSteps = 10'000;
 constexpr std::uintmax_t kMaxBytes = 1u << 20;
 constexpr std::string_view kUsualPreshape = "centrical";
@@ -44,7 +44,7 @@ Eigen::Matrix3d rotationOf(const Vector3d& deg) {
       .toRotationMatrix();
 }
 
-constexpr double kMostMm = 10'000.0;
+constexpr double kMaxMm = 10'000.0;
 
 Shape shapeOf(const JsonField& field) {
   Shape shape;
@@ -56,9 +56,9 @@ Shape shapeOf(const JsonField& field) {
   const JsonField size = field.required("size_mm");
   std::vector<double> sizes;
   if (size.isNumber())
-    sizes = {size.number(1.0, kMostMm)};
+    sizes = {size.number(1.0, kMaxMm)};
   else
-    for (const JsonField& item : size.items(3)) sizes.push_back(item.number(1.0, kMostMm));
+    for (const JsonField& item : size.items(3)) sizes.push_back(item.number(1.0, kMaxMm));
   const auto want = [&](std::size_t count, const char* what) {
     if (sizes.size() != count) size.fail(std::string("takes ") + what);
   };
@@ -92,7 +92,7 @@ SceneObject objectOf(const JsonField& field) {
   if (!field.has("pose")) return object;
   const JsonField pose = field.at("pose");
   pose.only({"position_mm", "rotation_deg"});
-  object.positionMm = vectorAt(pose, "position_mm", kMostMm);
+  object.positionMm = vectorAt(pose, "position_mm", kMaxMm);
   object.rotation = rotationOf(vectorAt(pose, "rotation_deg", 360.0));
   return object;
 }
@@ -105,8 +105,8 @@ void requirePreshape(const JsonField& field, const HandDescription& hand) {
   }
 }
 
-constexpr double kMostSeconds = 1e6;
-constexpr double kLeastRepeatS = 1.0;
+constexpr double kMaxSceneSeconds = 1e6;
+constexpr double kMinRepeatS = 1.0;
 
 constexpr double kSceneMostVelocity = 1000.0;  // [deg/s, mm/s]
 constexpr double kSceneUsualVelocity = 30.0;
@@ -133,15 +133,15 @@ SceneAction actionOf(const JsonField& step, std::size_t objects, const HandDescr
     const JsonField at = step.at("move");
     at.only({"object", "by_mm", "duration_s"});
     return MoveObject{object(at),
-                      vectorAt(at, "by_mm", kMostMm),
-                      at.number("duration_s", 1.0, 0.001, kMostSeconds)};
+                      vectorAt(at, "by_mm", kMaxMm),
+                      at.number("duration_s", 1.0, 0.001, kMaxSceneSeconds)};
   }
   if (step.has("turn")) {
     const JsonField at = step.at("turn");
     at.only({"object", "by_deg", "duration_s"});
     return TurnObject{object(at),
                       vectorAt(at, "by_deg", 36'000.0),
-                      at.number("duration_s", 1.0, 0.001, kMostSeconds)};
+                      at.number("duration_s", 1.0, 0.001, kMaxSceneSeconds)};
   }
   if (step.has("grasp")) {
     const JsonField at = step.at("grasp");
@@ -168,7 +168,7 @@ SceneAction actionOf(const JsonField& step, std::size_t objects, const HandDescr
     return LoadObject{object(at),
                       vectorAt(at, "force_n", 1000.0),
                       vectorAt(at, "torque_nmm", 1e5),
-                      at.number("duration_s", 0.0, 0.0, kMostSeconds)};
+                      at.number("duration_s", 0.0, 0.0, kMaxSceneSeconds)};
   }
   if (step.has("temperature")) {
     const JsonField at = step.at("temperature");
@@ -221,7 +221,7 @@ Scene parseScene(std::string_view text, const fs::path& name, const HandDescript
   scene.name = name.stem().string();
   if (root.has("description")) scene.description = root.at("description").text();
   if (root.has("objects"))
-    for (const JsonField& object : root.at("objects").items(kMostObjects))
+    for (const JsonField& object : root.at("objects").items(kMaxObjects))
       scene.objects.push_back(objectOf(object));
   scene.preshape = startPreshape(hand);
   if (root.has("hand")) {
@@ -244,7 +244,7 @@ Scene parseScene(std::string_view text, const fs::path& name, const HandDescript
                  "temperature",
                  "threshold",
                  "sensitivity"});
-      scene.script.push_back({step.required("at_s").number(0.0, kMostSeconds),
+      scene.script.push_back({step.required("at_s").number(0.0, kMaxSceneSeconds),
                               actionOf(step, scene.objects.size(), hand)});
     }
   std::stable_sort(scene.script.begin(),
@@ -252,7 +252,8 @@ Scene parseScene(std::string_view text, const fs::path& name, const HandDescript
                    [](const ScriptStep& a, const ScriptStep& b) { return a.atS < b.atS; });
   if (root.has("repeat_s")) {
     const double least = scene.script.empty() ? 0.0 : scene.script.back().atS;
-    scene.repeatS = root.required("repeat_s").number(std::max(least, kLeastRepeatS), kMostSeconds);
+    scene.repeatS =
+        root.required("repeat_s").number(std::max(least, kMinRepeatS), kMaxSceneSeconds);
   }
   return scene;
 }

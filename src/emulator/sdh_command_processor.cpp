@@ -467,8 +467,8 @@ SdhAnswer SdhCommandProcessor::preshape(const Words& words) {
 SdhAnswer SdhCommandProcessor::grip(const Words& words) {
   words.require(2);
   const double ratio = words.values[0], velocity = words.values[1];
-  constexpr double kLeastVelocity = 0.5, kMostVelocity = 100.0;
-  if (ratio < 0.0 || ratio > 1.0 || velocity < kLeastVelocity || velocity > kMostVelocity)
+  constexpr double kMinVelocity = 0.5, kMaxVelocity = 100.0;
+  if (ratio < 0.0 || ratio > 1.0 || velocity < kMinVelocity || velocity > kMaxVelocity)
     throw SdhRefusal{kSdhRangeError};
   const double durationS = moveTo(gripAngles(grip_, ratio), velocity);
   return {(isBefore(kQuietFirmware) ? "@ grip\r\nGRIP=" : "GRIP=") + fixedText(durationS, 2) + "," +

@@ -13,10 +13,10 @@ constexpr double kLargestWireCounts = 65'535.0;  // of 16 bits
 constexpr double kStreamSteps = 4096.0;          // of a converter of 12 bits
 // Multiple of the RMSE above the noise line that an unloaded matrix does not reach.
 constexpr double kNoiseMultiple = 3.0;
-constexpr double kRestKpa = 1e-6;        // below this pressure the rubber is at rest
-constexpr double kNoiseReach = 8.0;      // larger noise is not generated [standard deviations]
-constexpr double kHeavyReach = 45.0;     // heavyTailed(kNoiseReach)
-constexpr double kMostRestShare = 0.02;  // offsets of readings at rest, of full scale
+constexpr double kRestKpa = 1e-6;       // below this pressure the rubber is at rest
+constexpr double kNoiseReach = 8.0;     // larger noise is not generated [standard deviations]
+constexpr double kHeavyReach = 45.0;    // heavyTailed(kNoiseReach)
+constexpr double kMaxRestShare = 0.02;  // offsets of readings at rest, of full scale
 constexpr std::uint64_t kRestSeed = 0x7265737473;  // so that the noise is independent of them
 
 // A random value of unit variance with the heavy tails of the noise of ordinary taxels: of their
@@ -65,11 +65,11 @@ SensorModel::SensorModel(const HandDescription& hand,
     }
   }
   std::mt19937_64 random(seed ^ kRestSeed);
-  std::uniform_real_distribution<double> share(-kMostRestShare, kMostRestShare);
+  std::uniform_real_distribution<double> share(-kMaxRestShare, kMaxRestShare);
   for (std::size_t m = 0; m < layout_.numMatrices() && layout_.decidesTouch(); ++m) {
     const TouchRule& rule = layout_.matrix(m).touch;
     for (std::size_t i = 0; i < layout_.matrix(m).numReadings(); ++i)
-      offsets_.push_back(fullScales_[m] * (share(random) + (rule.isSigned ? 0.0 : kMostRestShare)));
+      offsets_.push_back(fullScales_[m] * (share(random) + (rule.isSigned ? 0.0 : kMaxRestShare)));
   }
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kPlaces = 1;        // rows and columns of the matrix of the trial
 constexpr float kLoad = 1000.0F;  // counts
-constexpr int kMostFrames = 4096;
+constexpr int kMaxFrames = 4096;
 constexpr double kForgotten = 1e-9;
-constexpr std::size_t kMostMemory = 5000;
+constexpr std::size_t kMaxMemory = 5000;
 // Frames of the mean rate of a Butterworth filter.
 constexpr std::size_t kFramesOfRate = 64;
 // Where stamps are irregular, the frames may be this much closer than on average.
@@ -57,16 +57,16 @@ std::optional<std::size_t> memoryOf(const FilterStep& step, double rateHz) {
   if (!step.causal()) return std::nullopt;
   if (const auto butterworth = butterworthOf(step)) {
     const double frames = kCloserFrames * butterworthLength(*butterworth, rateHz);
-    if (!(frames < static_cast<double>(kMostMemory))) return std::nullopt;
+    if (!(frames < static_cast<double>(kMaxMemory))) return std::nullopt;
     return static_cast<std::size_t>(frames) + kFramesOfRate;
   }
-  if (step.name != "kalman") return kMostMemory;
+  if (step.name != "kalman") return kMaxMemory;
   const double q = step.value("q");
   const double r = step.value("r");
   const double gain = (std::sqrt(q * q + 4.0 * q * r) - q) / (2.0 * r);
   if (gain >= 1.0) return 1;
   if (gain <= 0.0) return std::nullopt;
-  return std::min(kMostMemory,
+  return std::min(kMaxMemory,
                   static_cast<std::size_t>(std::ceil(std::log(kForgotten) / std::log1p(-gain))));
 }
 
@@ -77,13 +77,13 @@ std::optional<int> latencyFrames(const Recipe& recipe, double rateHz) {
   const auto memory = filterLengthFrames(causal, rateHz);
   const double intervalUs = kUsPerS / rateHz;
   const int before =
-      static_cast<int>(std::min<std::size_t>(memory.value_or(kMostFrames), kMostMemory)) + 2;
+      static_cast<int>(std::min<std::size_t>(memory.value_or(kMaxFrames), kMaxMemory)) + 2;
   StepWatcher watcher;
   FilterChain chain(causal, watcher);
   const auto layout = std::make_shared<const SensorLayout>(
       std::vector<MatrixLayout>{MatrixLayout::full(kPlaces, kPlaces, 1.0)});
   TactileFrame frame(layout);
-  for (int i = 0; i < before + kMostFrames && !watcher.arrived(); ++i) {
+  for (int i = 0; i < before + kMaxFrames && !watcher.arrived(); ++i) {
     frame.layout = layout;
     frame.values.assign(layout->numCells(), i < before ? 0.0F : kLoad);
     frame.hostUs = std::llround(i * intervalUs);

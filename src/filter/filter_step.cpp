@@ -13,8 +13,8 @@ namespace {
 
 using FilterStepKind = FilterOption::Kind;
 
-constexpr std::size_t kMostMatrices = 1024;
-constexpr int kMostMedianValues = 2001;  // number of values of a median; takes some ms per frame
+constexpr std::size_t kMaxMatrices = 1024;
+constexpr int kMaxMedianValues = 2001;  // number of values of a median; takes some ms per frame
 constexpr const char* kMatrices = "matrices";
 constexpr const char* kRest = "rest";
 constexpr const char* kNoise = "noise";
@@ -78,7 +78,7 @@ std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view 
   std::vector<std::size_t> matrices;
   for (const std::string_view part : split(text, '+')) {
     const auto index = parseInteger(part);
-    if (!index || *index < 0 || *index >= static_cast<std::int64_t>(kMostMatrices))
+    if (!index || *index < 0 || *index >= static_cast<std::int64_t>(kMaxMatrices))
       throw std::invalid_argument(step.name +
                                   ": matrices must be numbers joined by +, such as 1+3, is \"" +
                                   shortened(text) + "\"");
@@ -158,9 +158,9 @@ void FilterStep::validate() const {
     throw std::invalid_argument(name + ": window must be odd with centred=1, is " +
                                 std::to_string(integer("window")));
   if (name == "median3d" &&
-      integer("size") * integer("size") * integer("window") > kMostMedianValues)
+      integer("size") * integer("size") * integer("window") > kMaxMedianValues)
     throw std::invalid_argument(
-        name + ": size * size * window must be at most " + std::to_string(kMostMedianValues) +
+        name + ": size * size * window must be at most " + std::to_string(kMaxMedianValues) +
         ", is " + std::to_string(integer("size") * integer("size") * integer("window")));
   if (const auto butterworth = butterworthOf(*this)) butterworth->validate();
   requireRest(*this);

@@ -7,7 +7,7 @@ namespace {
 
 // A smaller exponent counts as this one: its exp() would be a denormal number, which makes the
 // bilateral filter nine times slower.
-constexpr float kLeastExponent = -87.0F;
+constexpr float kMinExponent = -87.0F;
 // The exponent of a pair with a masked taxel. Its weight, exp(-87), is lost in the total, which is
 // 1 and above, and in the sum it is multiplied by 0, the masked taxel's value in the padded matrix.
 constexpr float kExcluded = -1e30F;
@@ -46,7 +46,7 @@ void PairWeights::exclude(const PaddedMatrix& padded) {
 
 void PairWeights::average(const PaddedMatrix& padded, std::vector<float>& out) {
   Eigen::Map<Eigen::ArrayXf> all(weights_.data(), static_cast<Eigen::Index>(weights_.size()));
-  all = all.max(kLeastExponent).exp();
+  all = all.max(kMinExponent).exp();
   for (int y = 0; y < rows_; ++y) {
     for (int x = 0; x < columns_; x += kLanes) {
       const float* value = padded.data() + padded.at(y, x);

@@ -17,13 +17,13 @@
 namespace palpate::detail {
 namespace {
 
-constexpr std::size_t kMostValues = std::size_t{1} << 28;  // a gigabyte
+constexpr std::size_t kMaxValues = std::size_t{1} << 28;  // a gigabyte
 
 // Collects the frames of a stretch, then filters the series of each taxel that was not always 0.
 class StretchFilter : public FrameFilter {
  public:
   void push(TactileFrame& frame, FrameSink&) final {
-    if ((frames_.size() + 1) * frame.values.size() > kMostValues)
+    if ((frames_.size() + 1) * frame.values.size() > kMaxValues)
       throw Error("more than " + std::to_string(frames_.size()) +
                   " frames without a gap are too many for a filter that needs them all at once: "
                   "take a part of the recording");

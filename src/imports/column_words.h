@@ -92,11 +92,11 @@ inline void addName(NameKeys& keys, std::string_view name, std::size_t thing) {
 // Which of several things a text names, by the words of its name: the longest name that is in the
 // text, of several the first one.
 inline std::optional<std::size_t> namedIn(std::string_view text, const NameKeys& keys) {
-  constexpr std::size_t kMostParts = 32;
+  constexpr std::size_t kMaxParts = 32;
   std::optional<std::size_t> found;
   std::size_t length = 0;
   auto parts = nameParts(text);
-  if (parts.size() > kMostParts) parts.resize(kMostParts);
+  if (parts.size() > kMaxParts) parts.resize(kMaxParts);
   for (std::size_t begin = 0; begin < parts.size(); ++begin)
     for (std::size_t end = begin + 1; end <= parts.size(); ++end) {
       const auto named = keys.find(joinedParts(parts, begin, end));

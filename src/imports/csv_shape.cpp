@@ -362,7 +362,7 @@ std::optional<CsvShape> labelledShape(const SampleLines& sample, char decimal) {
 
 // The shape of a line per matrix; nothing when most lines are of another form.
 std::optional<CsvShape> padShape(const SampleLines& sample, const TableOptions& options) {
-  constexpr std::size_t kMostPads = 256;
+  constexpr std::size_t kMaxPads = 256;
   CsvShape shape;
   shape.stamped = !sample.stamps.empty();
   shape.decimal = options.decimal;
@@ -388,7 +388,7 @@ std::optional<CsvShape> padShape(const SampleLines& sample, const TableOptions& 
     if (counts.count(pad->name) == 0) shape.pads.push_back({std::string(pad->name), 0, 0});
     ++counts[pad->name][cells.size()];
   }
-  if (such == 0 || 2 * such <= sample.texts.size() || shape.pads.size() > kMostPads)
+  if (such == 0 || 2 * such <= sample.texts.size() || shape.pads.size() > kMaxPads)
     return std::nullopt;
   if (shape.stamped) shape.columns.push_back(stampColumn(sample));
   for (PadColumns& pad : shape.pads) {

@@ -21,10 +21,10 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostHdf5Dimensions = 8;
-constexpr std::size_t kMostTimeTextBytes = 256;
-constexpr std::size_t kMostDescribedTexts = 16;  // columns
-constexpr std::size_t kMostUnitBytes = 64;       // and those of MATLAB's class
+constexpr std::size_t kMaxHdf5Dimensions = 8;
+constexpr std::size_t kMaxTimeTextBytes = 256;
+constexpr std::size_t kMaxDescribedTexts = 16;  // columns
+constexpr std::size_t kMaxUnitBytes = 64;       // and those of MATLAB's class
 
 }  // namespace
 
@@ -39,14 +39,14 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
     Hdf5Facts facts = file_->facts(name);
     TableColumn column{.name = name, .type = facts.typeName};
     column.isNumeric = (facts.kind == Hdf5Kind::kInteger || facts.kind == Hdf5Kind::kFloat) &&
-                       !facts.shape.empty() && facts.shape.size() <= kMostHdf5Dimensions;
+                       !facts.shape.empty() && facts.shape.size() <= kMaxHdf5Dimensions;
     if (column.isNumeric) {
       if (!column.setArrayShape(facts.shape))
         throw FormatError(path, inQuotes(name) + " has too many numbers per row");
       if (column.width() == 0) column.isNumeric = false;
     }
     const std::string matlabClass =
-        hasUserBlock ? file_->textAttribute(name, "MATLAB_class", kMostUnitBytes).value_or("") : "";
+        hasUserBlock ? file_->textAttribute(name, "MATLAB_class", kMaxUnitBytes).value_or("") : "";
     isMatlab_ = isMatlab_ || !matlabClass.empty();
     if (matlabClass == "logical") column.type = "bool";
     if (matlabClass == "char") {
@@ -55,7 +55,7 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
     }
     for (const char* key : {"units", "unit"})
       if (column.unit.empty())
-        column.unit = file_->textAttribute(name, key, kMostUnitBytes).value_or("");
+        column.unit = file_->textAttribute(name, key, kMaxUnitBytes).value_or("");
     if (column.unit.empty()) column.unit = unitInName(name);
     if (column.isNumeric) describe(column);
     facts_.push_back(std::move(facts));
@@ -63,7 +63,7 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
   }
   if (columns_.empty()) throw FormatError(path, "holds no HDF5 data set");
   std::size_t described = 0;
-  for (std::size_t c = 0; c < columns_.size() && described < kMostDescribedTexts; ++c)
+  for (std::size_t c = 0; c < columns_.size() && described < kMaxDescribedTexts; ++c)
     if (facts_[c].kind == Hdf5Kind::kText && facts_[c].shape.size() == 1 && facts_[c].fault.empty())
       ++described, describeTexts(c);
 }
@@ -92,7 +92,7 @@ std::vector<std::string> Hdf5Source::texts(std::size_t column,
   std::vector<std::string> all;
   while (all.size() < count)
     for (std::string& text : file_->texts(
-             columns_[column].name, first + all.size(), count - all.size(), kMostTimeTextBytes))
+             columns_[column].name, first + all.size(), count - all.size(), kMaxTimeTextBytes))
       all.push_back(std::move(text));
   return all;
 }
@@ -119,10 +119,10 @@ void Hdf5Source::describeTexts(std::size_t column) {
 
 // That of the file, its groups and arrays, where all that have one agree.
 std::optional<double> Hdf5Source::rateHz() const {
-  constexpr std::size_t kMostObjects = 100;
+  constexpr std::size_t kMaxObjects = 100;
   std::set<std::string> objects = {""};
   for (const TableColumn& column : columns_)
-    for (std::size_t end = 0; end != std::string::npos && objects.size() < kMostObjects;) {
+    for (std::size_t end = 0; end != std::string::npos && objects.size() < kMaxObjects;) {
       end = column.name.find('/', end + 1);
       objects.insert(column.name.substr(0, end));
     }

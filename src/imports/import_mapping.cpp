@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kMappingFormat = "palpate import mapping 1";
 constexpr std::uint64_t kMappingByteLimit = 1u << 20;
-constexpr std::size_t kMostMatrixMappings = 256;
+constexpr std::size_t kMaxMatrixMappings = 256;
 
 // An object of the file, with its place for messages.
 class MappingField {
@@ -213,7 +213,7 @@ ImportMapping mappingFromJson(const std::string& text, const std::filesystem::pa
     field.failAt("components", "is not interleaved or planar");
   if (field.has("matrices")) {
     const Json list = field.json().at("matrices");
-    if (!list.isArray() || list.size() > kMostMatrixMappings)
+    if (!list.isArray() || list.size() > kMaxMatrixMappings)
       field.failAt("matrices", "is not a list of at most 256 entries");
     for (std::size_t i = 0; i < list.size(); ++i)
       mapping.matrices.push_back(

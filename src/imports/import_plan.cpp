@@ -135,7 +135,7 @@ const std::set<std::string> kOriginWords = {
 std::vector<std::string> numberingDoubts(const Planning& p) {
   const std::vector<TableColumn>& columns = p.columns;
   const PlannedSeries& frames = p.plan.series.front();
-  constexpr std::size_t kMostMissing = 8;
+  constexpr std::size_t kMaxMissing = 8;
   std::vector<std::size_t> used;
   std::size_t value = 0;
   for (const std::size_t c : frames.columns) {
@@ -156,12 +156,12 @@ std::vector<std::string> numberingDoubts(const Planning& p) {
     std::string missing;
     std::size_t count = 0;
     for (std::int64_t last = *numbers.begin(); const std::int64_t number : numbers) {
-      for (std::int64_t i = last + 1; i < number && count <= kMostMissing; ++i)
-        if (count++ < kMostMissing)
+      for (std::int64_t i = last + 1; i < number && count <= kMaxMissing; ++i)
+        if (count++ < kMaxMissing)
           missing += (missing.empty() ? "" : ", ") + shortened(numberedName(group, position, i));
       last = number;
     }
-    if (count > kMostMissing) missing += ", ..";
+    if (count > kMaxMissing) missing += ", ..";
     const std::string first = shortened(numberedName(group, position, *numbers.begin()));
     const std::string last = shortened(numberedName(group, position, *numbers.rbegin()));
     if (count > 0) {
@@ -248,7 +248,7 @@ ImportPlan planTable(TableSource& source,
   if (p.mapping.matrices.empty()) plan.doubts = numberingDoubts(p);
   const bool hasOwnTimes = taxels.time && taxels.timeFile.empty();
   for (std::string& doubt : p.source.doubts(hasOwnTimes ? std::numeric_limits<double>::infinity()
-                                            : taxels.number ? kMostMissingFrames
+                                            : taxels.number ? kMaxMissingFrames
                                                             : 0.0))
     plan.doubts.push_back(std::move(doubt));
   chooseFurther(p, files, mostRows);

@@ -479,7 +479,7 @@ void ImportRows::countMissing(const TableSource& source, const Pass& pass, const
   const double number = row.values[at];
   const double before = std::exchange(lastCount_, number).value_or(number);
   const double missing = number - before - static_cast<double>(std::exchange(rowsSinceCount_, 0));
-  if (before == number || !(missing >= 1.0 && missing < kMostMissingFrames)) return;
+  if (before == number || !(missing >= 1.0 && missing < kMaxMissingFrames)) return;
   const auto count = static_cast<std::uint64_t>(missing);
   skipped_ += count;
   report_.missingFrames += count;
@@ -490,7 +490,7 @@ void ImportRows::countMissing(const TableSource& source, const Pass& pass, const
 
 // Whether a row is from another sensor or topic than the first one with values of its series.
 bool ImportRows::isOfOther(const TableSource& source, const Pass& pass, const TableRow& row) {
-  constexpr std::size_t kMostOthers = 64;
+  constexpr std::size_t kMaxOthers = 64;
   std::size_t begin = 0;
   for (const PlannedSeries* series : pass.series) {
     bool isThere = false;
@@ -508,7 +508,7 @@ bool ImportRows::isOfOther(const TableSource& source, const Pass& pass, const Ta
                         source.rowWord() + (" " + std::to_string(row.line)) + " is from " +
                             inQuotes(from) + ", others are from " + inQuotes(origin->second.taken));
     auto& others = origin->second.others;
-    ++others[others.size() < kMostOthers || others.contains(from) ? from : ".."];
+    ++others[others.size() < kMaxOthers || others.contains(from) ? from : ".."];
     return true;
   }
   return false;

@@ -70,8 +70,8 @@ bool InflatedBytes::inflateTo(std::span<std::byte> bytes, std::size_t& filled) {
       stream.next_in = reinterpret_cast<Bytef*>(stream_->packed.data());
       stream.avail_in = static_cast<uInt>(count);
     }
-    constexpr std::size_t kMostAtOnce = 1u << 30;
-    const auto room = static_cast<uInt>(std::min(bytes.size() - filled, kMostAtOnce));
+    constexpr std::size_t kMaxAtOnce = 1u << 30;
+    const auto room = static_cast<uInt>(std::min(bytes.size() - filled, kMaxAtOnce));
     stream.next_out = reinterpret_cast<Bytef*>(bytes.data() + filled);
     stream.avail_out = room;
     const int outcome = inflate(&stream, Z_NO_FLUSH);

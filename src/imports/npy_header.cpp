@@ -80,7 +80,7 @@ class Literal {
 };
 
 std::vector<std::uint64_t> readShape(Literal& in) {
-  constexpr std::size_t kMostDimensions = 32;
+  constexpr std::size_t kMaxDimensions = 32;
   std::vector<std::uint64_t> shape;
   in.require('(');
   while (!in.take(')')) {
@@ -89,7 +89,7 @@ std::vector<std::uint64_t> readShape(Literal& in) {
     const auto size = parseInteger(digits);
     if (!size || *size < 0) in.fail("the shape holds " + inQuotes(digits));
     shape.push_back(static_cast<std::uint64_t>(*size));
-    if (shape.size() > kMostDimensions) in.fail("the shape has too many dimensions");
+    if (shape.size() > kMaxDimensions) in.fail("the shape has too many dimensions");
     if (!in.take(',') && !in.peek(')')) in.fail("the shape has no end");
   }
   return shape;

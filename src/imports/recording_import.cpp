@@ -19,11 +19,11 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostPreviewColumns = 64;
+constexpr std::size_t kMaxPreviewColumns = 64;
 
 // The first rows of every column as texts, one column after the other: arrays may differ in length.
 void readPreviewRows(TableSource& source, ImportPreview& preview) {
-  const std::size_t numColumns = std::min(kMostPreviewColumns, preview.columns.size());
+  const std::size_t numColumns = std::min(kMaxPreviewColumns, preview.columns.size());
   preview.rows.assign(kShownPreviewRows, std::vector<std::string>(numColumns));
   std::size_t numRows = 0;
   const auto isArray = [](const TableColumn& column) { return column.numRows.has_value(); };

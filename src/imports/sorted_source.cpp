@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostSortedNumbers = 1u << 23;
+constexpr std::size_t kMaxSortedNumbers = 1u << 23;
 constexpr std::size_t kNumbersOfRow = 24;  // what a row takes beside its values
 
 }  // namespace
@@ -73,7 +73,7 @@ void SortedSource::start(std::span<const std::size_t> columns, std::optional<std
   while (rows_.size() < mostRows_ && source_->next(row)) {
     findTimeWithin(series_, row);
     if (const auto known = row.complete ? times.us(row.time) : std::nullopt) us = *known;
-    if ((rows_.size() + 1) * (names_.size() + kNumbersOfRow) > kMostSortedNumbers)
+    if ((rows_.size() + 1) * (names_.size() + kNumbersOfRow) > kMaxSortedNumbers)
       throw FormatError(path(), "time: too many rows to be sorted by time; sort the file");
     Kept kept{us, row, std::string(row.time.text), {}};
     for (std::size_t i = 0; i < row.states.size() && row.complete && kept.text.empty(); ++i)

@@ -24,7 +24,7 @@ constexpr const char* kHandFrame = "hand";  // of a hand without a URDF
 constexpr double kMPerMm = 1e-3;
 constexpr std::int64_t kFoxgloveUsPerS = 1'000'000;
 constexpr std::int64_t kFoxgloveNsPerUs = 1000;
-constexpr std::size_t kMostMeshBytes = 8U << 20;
+constexpr std::size_t kMaxMeshBytes = 8U << 20;
 constexpr std::size_t kPointBytes = 20;
 constexpr double kLinkGrey = 0.72;
 constexpr int kLogInfo = 2;
@@ -125,7 +125,7 @@ bool isWarning(const std::string& kind) {
 // Empty: the file can't be read, or is too large for a message.
 std::string meshBytes(const std::filesystem::path& path) {
   try {
-    return readTextFile(path, kMostMeshBytes);
+    return readTextFile(path, kMaxMeshBytes);
   } catch (const Error&) {
     return {};
   }

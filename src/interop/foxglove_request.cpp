@@ -15,10 +15,10 @@ namespace {
 constexpr std::array<std::string_view, 2> kSubprotocols = {"foxglove.sdk.v1",
                                                            "foxglove.websocket.v1"};
 constexpr const char* kFoxgloveWebApp = "https://app.foxglove.dev";
-constexpr std::size_t kMostShownBytes = 100;
+constexpr std::size_t kMaxShownBytes = 100;
 
 std::string shown(std::string_view text) {
-  return "'" + escapedLine(std::string(text.substr(0, kMostShownBytes))) + "'";
+  return "'" + escapedLine(std::string(text.substr(0, kMaxShownBytes))) + "'";
 }
 
 // The first of our subprotocols that the client offers; empty: none.

@@ -32,13 +32,13 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using asio::ip::tcp;
 
-constexpr std::size_t kMostHeaderBytes = 8192;
-constexpr std::size_t kMostClientBytes = 256U << 10;
+constexpr std::size_t kMaxHeaderBytes = 8192;
+constexpr std::size_t kMaxClientBytes = 256U << 10;
 // Connections whose handshake is not finished yet; the oldest one gives way to a new connection.
-constexpr std::size_t kMostHandshakes = 64;
+constexpr std::size_t kMaxHandshakes = 64;
 // Messages that may wait for the server's thread: a second of 60 channels at 30 Hz.
-constexpr std::size_t kMostPosted = 2048;
-constexpr std::size_t kMostPostedBytes = 16U << 20;
+constexpr std::size_t kMaxPosted = 2048;
+constexpr std::size_t kMaxPostedBytes = 16U << 20;
 constexpr auto kSilence = std::chrono::seconds(60);
 
 std::string advertisement(const std::vector<FoxgloveChannel>& channels) {
@@ -108,8 +108,8 @@ struct FoxgloveServer::Impl {
     stats.lastRefusal = why;
   }
   void tellOrigin(const std::string& origin, const std::string& why) {
-    constexpr std::size_t kMostOrigins = 16;
-    if (!options.onRefusedOrigin || refusedOrigins.size() == kMostOrigins) return;
+    constexpr std::size_t kMaxOrigins = 16;
+    if (!options.onRefusedOrigin || refusedOrigins.size() == kMaxOrigins) return;
     if (refusedOrigins.insert(origin).second) options.onRefusedOrigin(why);
   }
   void count(std::uint64_t FoxgloveServerStats::*counter, std::uint64_t by = 1) {
@@ -137,7 +137,7 @@ struct FoxgloveServer::Impl {
 
   mutable std::mutex mutex;  // protects the next three
   std::vector<int> subscribers;
-  OutletQueue<FoxgloveMessage> posted{kMostPostedBytes, kMostPosted};
+  OutletQueue<FoxgloveMessage> posted{kMaxPostedBytes, kMaxPosted};
   FoxgloveServerStats stats;
 
   // Used by the server's thread only.
@@ -169,7 +169,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
   bool admitted() const noexcept { return admitted_; }
 
   void start() {
-    parser_.header_limit(kMostHeaderBytes);
+    parser_.header_limit(kMaxHeaderBytes);
     parser_.body_limit(0);
     beast::get_lowest_layer(stream_).expires_after(server_.handshakeLimit());
     http::async_read_header(
@@ -254,7 +254,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
           response.set(http::field::server, "Palpate");
           response.set(http::field::sec_websocket_protocol, protocol);
         }));
-    stream_.read_message_max(kMostClientBytes);
+    stream_.read_message_max(kMaxClientBytes);
     stream_.auto_fragment(false);  // a message is one frame: simple clients read no others
     stream_.async_accept(parser_.get(), [self = shared_from_this()](BoostError error) {
       if (error) {
@@ -331,7 +331,7 @@ void FoxgloveServer::Impl::makeRoom() {
   const auto& sessions = server.sessions();
   const auto isUnfinished = [](const auto& each) { return !each->admitted(); };
   const auto unfinished = std::count_if(sessions.begin(), sessions.end(), isUnfinished);
-  if (static_cast<std::size_t>(unfinished) < kMostHandshakes) return;
+  if (static_cast<std::size_t>(unfinished) < kMaxHandshakes) return;
   const auto oldest = *std::find_if(sessions.begin(), sessions.end(), isUnfinished);
   refuse("an unfinished handshake gave way to a new connection: there were " +
          std::to_string(unfinished));
@@ -342,7 +342,7 @@ void FoxgloveServer::Impl::makeRoom() {
 // Sends what was posted up to now. What is posted meanwhile waits until the thread has served its
 // connections: publish() calls it again.
 void FoxgloveServer::Impl::sendPosted() {
-  OutletQueue<FoxgloveMessage> messages(kMostPostedBytes, kMostPosted);
+  OutletQueue<FoxgloveMessage> messages(kMaxPostedBytes, kMaxPosted);
   {
     const std::lock_guard lock(mutex);
     std::swap(messages, posted);

@@ -8,7 +8,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::uint64_t kLeastFreeBytes = 1U << 20;  // one minute of an SDH-2
+constexpr std::uint64_t kMinFreeBytes = 1U << 20;  // one minute of an SDH-2
 
 Json known(double value) { return value > 0.0 ? Json(value) : Json(); }
 
@@ -72,7 +72,7 @@ std::optional<RemoteAnswer> noHand(const LinkHealth& health, const StartLimits& 
 }
 
 std::optional<RemoteAnswer> noSpace(std::optional<std::uint64_t> freeBytes) {
-  if (!freeBytes || *freeBytes >= kLeastFreeBytes) return {};
+  if (!freeBytes || *freeBytes >= kMinFreeBytes) return {};
   return RemoteAnswer::refused(
       "no_space",
       "the disk of the recordings is full (" + std::to_string(*freeBytes) + " bytes free)");

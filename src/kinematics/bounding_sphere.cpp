@@ -34,7 +34,7 @@ struct PointTraits {
 using CgalSphere = CGAL::Min_sphere_of_spheres_d<PointTraits>;
 
 constexpr double kLargestExcess = 1e-10;
-constexpr int kMostOrders = 24;
+constexpr int kMaxOrders = 24;
 
 struct Candidate {
   Vector3d centre = Vector3d::Zero();
@@ -98,7 +98,7 @@ std::optional<Sphere> smallestEnclosingSphere(const std::vector<Vector3d>& point
   // points, so other orders are tried.
   Candidate best = tryOrder(points);
   std::minstd_rand order;
-  for (int i = 1; i < kMostOrders && !(best.excess <= kLargestExcess); ++i) {
+  for (int i = 1; i < kMaxOrders && !(best.excess <= kLargestExcess); ++i) {
     std::shuffle(points.begin(), points.end(), order);
     const Candidate next = tryOrder(points);
     if (next.excess < best.excess || !(best.excess < 1.0)) best = next;

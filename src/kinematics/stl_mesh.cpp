@@ -16,7 +16,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostTriangles = 1'000'000;
+constexpr std::size_t kMaxTriangles = 1'000'000;
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kTriangleBytes = 50;
 constexpr std::uint64_t kMaxBytes = 64u << 20;  // a million triangles, binary
@@ -25,7 +25,7 @@ std::vector<StlTriangle> readBinary(const std::string& bytes, const std::filesys
   ByteReader reader(std::as_bytes(std::span(bytes)));
   reader.take(kHeaderBytes);
   const std::uint32_t count = reader.u32();
-  if (count > kMostTriangles) throw FormatError(path, "more than a million triangles");
+  if (count > kMaxTriangles) throw FormatError(path, "more than a million triangles");
   std::vector<StlTriangle> triangles(count);
   for (StlTriangle& triangle : triangles) {
     reader.take(12);  // the normal, which follows from the corners
@@ -66,7 +66,7 @@ std::vector<StlTriangle> readText(const std::string& text, const std::filesystem
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (word == "endfacet") {
       if (corners != 3) throw FormatError(path, "a facet without three corners", words.offset());
-      if (triangles.size() == kMostTriangles)
+      if (triangles.size() == kMaxTriangles)
         throw FormatError(path, "more than a million triangles");
       triangles.push_back(triangle);
       corners = 0;

@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 
 constexpr double kMmPerM = 1000.0;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr std::size_t kMostLinks = 1000;
+constexpr std::size_t kMaxLinks = 1000;
 constexpr double kFarM = 100.0;
 // Rotations this close to one by right angles are meant to be one: the file holds rounded radians.
 constexpr double kRightAngle = 1e-12;
@@ -98,8 +98,8 @@ class UrdfTreeBuilder {
 
   UrdfTree build() {
     if (!model_.getRoot()) fail("has no root link");
-    if (model_.links_.size() > kMostLinks)
-      fail("has more than " + std::to_string(kMostLinks) + " links");
+    if (model_.links_.size() > kMaxLinks)
+      fail("has more than " + std::to_string(kMaxLinks) + " links");
     add(*model_.getRoot(), std::nullopt);
     // Each link once, in the order of levels: recursion is not needed, and a cycle is found.
     for (std::size_t i = 0; i < tree_.size(); ++i) {

@@ -28,7 +28,7 @@ constexpr double kSlipPart = 0.2;
 constexpr std::size_t kFittedFrames = 12;
 constexpr double kBiasRaise = 1.0;
 constexpr double kThresholdMargin = 1.05;
-constexpr double kMostThreshold = 80.0;
+constexpr double kMaxThreshold = 80.0;
 constexpr int kBisections = 22;
 // Shifts of the centroid [taxels] below which no rule raises an alarm, so that the hypotheses are
 // not compared.
@@ -328,7 +328,7 @@ SlipRuleOptions SlipEvaluation::fitSlipSequence(int fold, SlipFolds folds) const
   rule.sequence.threshold = std::numeric_limits<double>::max();
   const std::size_t most = score(rule, false, fold, folds).falseAlarms[kAllContact];
   double low = 0.0;
-  double high = kMostThreshold;
+  double high = kMaxThreshold;
   for (int i = 0; i < kBisections; ++i) {
     rule.sequence.threshold = 0.5 * (low + high);
     const bool quiet = score(rule, false, fold, folds).falseAlarms[kAllContact] <= most;

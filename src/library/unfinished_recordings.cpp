@@ -24,7 +24,7 @@ namespace {
 constexpr std::string_view kEnding = ".palpate";
 constexpr std::string_view kRecovered = "_recovered";
 // Leaves room in the 255 bytes of a name for "_recovered-99.palpate-journal".
-constexpr std::size_t kMostStem = 220;
+constexpr std::size_t kMaxStem = 220;
 
 bool isRecordingName(std::string_view name) {
   return !name.starts_with('.') && lowerEndingOf(name) == kEnding;
@@ -33,7 +33,7 @@ bool isRecordingName(std::string_view name) {
 // "NAME_recovered" of NAME.palpate.
 std::string recoveredStem(const std::string& name) {
   const std::string_view stem = std::string_view(name).substr(0, name.size() - kEnding.size());
-  return std::string(beginningOf(stem, kMostStem)) + std::string(kRecovered);
+  return std::string(beginningOf(stem, kMaxStem)) + std::string(kRecovered);
 }
 
 // Whether `names` has NAME_recovered.palpate or NAME_recovered-N.palpate of NAME.palpate.

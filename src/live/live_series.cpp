@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 // Expired samples are compacted once they outnumber the live ones (and this minimum).
-constexpr std::size_t kLeastRemoved = 1024;
+constexpr std::size_t kMinRemoved = 1024;
 
 double valueIn(const std::vector<double>& values, std::size_t index) {
   return index < values.size() ? values[index] : kNoValue;
@@ -168,7 +168,7 @@ void LiveSeries::forgetBefore(std::int64_t hostUs) {
 
 std::size_t LiveSeries::Times::forgetBefore(double oldestS) {
   while (first < timeS.size() && timeS[first] < oldestS) ++first;
-  if (first < kLeastRemoved || 2 * first < timeS.size()) return 0;
+  if (first < kMinRemoved || 2 * first < timeS.size()) return 0;
   const std::size_t removed = first;
   timeS.erase(timeS.begin(), timeS.begin() + static_cast<std::ptrdiff_t>(removed));
   std::erase_if(breaks, [removed](std::size_t index) { return index < removed; });

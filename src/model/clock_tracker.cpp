@@ -7,7 +7,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::int64_t kMostAheadUs = 10'000'000;
+constexpr std::int64_t kMaxAheadUs = 10'000'000;
 // Largest difference of the two clocks at a wrap.
 constexpr std::int64_t kWrapToleranceUs = 2'000'000;
 constexpr std::int64_t kWrapsUs[] = {std::int64_t{1} << 32, 1000 * (std::int64_t{1} << 32)};
@@ -24,7 +24,7 @@ std::optional<std::int64_t> ClockTracker::stepOf(const Item& from, const Item& t
     if (stepUs < 0 && from.sentUs < wrapUs && to.sentUs >= 0 &&
         std::abs(stepUs + wrapUs - passedUs) <= kWrapToleranceUs)
       stepUs += wrapUs;
-  if (stepUs < 0 || stepUs > passedUs + kMostAheadUs) return std::nullopt;
+  if (stepUs < 0 || stepUs > passedUs + kMaxAheadUs) return std::nullopt;
   return stepUs;
 }
 

@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostMatrices = 64;
-constexpr std::int64_t kMostSide = 256;
-constexpr std::size_t kMostAxes = 256;
-constexpr std::size_t kMostTemperatureSensors = 256;
-constexpr std::size_t kMostPreshapes = 256;
-constexpr std::size_t kMostJoints = 256;
+constexpr std::size_t kMaxMatrices = 64;
+constexpr std::int64_t kMaxMatrixSide = 256;
+constexpr std::size_t kMaxAxes = 256;
+constexpr std::size_t kMaxTemperatureSensors = 256;
+constexpr std::size_t kMaxPreshapes = 256;
+constexpr std::size_t kMaxJoints = 256;
 constexpr double kFarMm = 1e5;           // no part of a hand is farther away
-constexpr double kMostCounts = 1e9;      // of a value of a taxel, in its unit
+constexpr double kMaxHandCounts = 1e9;   // of a value of a taxel, in its unit
 constexpr double kPerpendicular = 1e-6;  // largest error of unit vectors
 
 // The name at a key, which must be one line that is not empty.
@@ -48,7 +48,7 @@ std::string textAt(const JsonField& field, std::string_view key, std::string oth
 
 // Rows of "#" (a taxel) and "." (none), from row 0 on.
 Mask maskOf(const JsonField& field, int rows, int columns) {
-  const std::vector<JsonField> lines = field.items(static_cast<std::size_t>(kMostSide));
+  const std::vector<JsonField> lines = field.items(static_cast<std::size_t>(kMaxMatrixSide));
   if (lines.size() != static_cast<std::size_t>(rows))
     field.fail("has " + counted(lines.size(), "row") + " instead of " + std::to_string(rows));
   Mask mask;
@@ -69,15 +69,15 @@ Mask maskOf(const JsonField& field, int rows, int columns) {
 
 // One number, or [along a row, along a column].
 TaxelPitch pitchOf(const JsonField& field) {
-  constexpr double kLeastMm = 0.01, kMostMm = 1000.0;
-  if (!field.json().isArray()) return field.number(kLeastMm, kMostMm);
-  const std::vector<double> both = field.numbers(2, kLeastMm, kMostMm);
+  constexpr double kMinMm = 0.01, kMaxMm = 1000.0;
+  if (!field.json().isArray()) return field.number(kMinMm, kMaxMm);
+  const std::vector<double> both = field.numbers(2, kMinMm, kMaxMm);
   return {both[0], both[1]};
 }
 
 MatrixLayout layoutOf(const JsonField& field) {
-  const auto rows = static_cast<int>(field.required("rows").integer(1, kMostSide));
-  const auto columns = static_cast<int>(field.required("columns").integer(1, kMostSide));
+  const auto rows = static_cast<int>(field.required("rows").integer(1, kMaxMatrixSide));
+  const auto columns = static_cast<int>(field.required("columns").integer(1, kMaxMatrixSide));
   MatrixLayout layout = MatrixLayout::full(rows, columns, pitchOf(field.required("pitch_mm")));
   if (field.has("mask")) layout.staticMask = maskOf(field.at("mask"), layout.rows, layout.columns);
   return layout;
@@ -146,7 +146,7 @@ TouchRule touchRuleOf(const JsonField& root, const JsonField& matrix) {
   if (rule.components == 2) of("components").at("components").fail("is neither 1 nor 3");
   rule.isSigned = flag("signed", rule.components == 3);
   rule.threshold =
-      static_cast<float>(of("touch_threshold").number("touch_threshold", 0.0, 0.0, kMostCounts));
+      static_cast<float>(of("touch_threshold").number("touch_threshold", 0.0, 0.0, kMaxHandCounts));
   rule.sigmas = static_cast<float>(of("touch_sigma").number("touch_sigma", 0.0, 0.0, 1000.0));
   return rule;
 }
@@ -165,7 +165,7 @@ void readScale(const JsonField& item, const HandDescription& hand, MatrixDescrip
 
 void readMatrices(const JsonField& root, HandDescription& hand, HandFile& file) {
   const JsonField list = root.required("matrices");
-  const std::vector<JsonField> items = list.items(kMostMatrices);
+  const std::vector<JsonField> items = list.items(kMaxMatrices);
   if (items.empty()) list.fail("is empty");
   std::vector<MatrixLayout> layouts;
   std::set<std::string> names;
@@ -192,8 +192,8 @@ void readMatrices(const JsonField& root, HandDescription& hand, HandFile& file) 
     matrix.name = nameAt(item, "name");
     if (!names.insert(matrix.name).second) item.at("name").fail("is used twice");
     matrix.shortName = item.has("short_name") ? nameAt(item, "short_name") : matrix.name;
-    matrix.finger = static_cast<int>(
-        item.integer("finger", static_cast<std::int64_t>(m), 0, kMostMatrices - 1));
+    matrix.finger =
+        static_cast<int>(item.integer("finger", static_cast<std::int64_t>(m), 0, kMaxMatrices - 1));
     matrix.segment = textAt(item, "segment");
     layouts.push_back(layoutOf(item));
     readScale(item, hand, matrix);
@@ -224,7 +224,7 @@ void readMatrices(const JsonField& root, HandDescription& hand, HandFile& file) 
 void readAxes(const JsonField& root, HandDescription& hand, HandFile& file) {
   if (!root.has("axes")) return;
   std::set<std::string> names, joints;
-  for (const JsonField& item : root.at("axes").items(kMostAxes)) {
+  for (const JsonField& item : root.at("axes").items(kMaxAxes)) {
     item.only({"name",
                "unit",
                "minimum",
@@ -249,7 +249,7 @@ void readAxes(const JsonField& root, HandDescription& hand, HandFile& file) {
     axis.maximumTorqueNmm = item.number(load, 0.0, 0.0, 1e9);
     file.axisJoints.emplace_back();
     if (item.has("joints"))
-      for (const JsonField& joint : item.at("joints").items(kMostJoints)) {
+      for (const JsonField& joint : item.at("joints").items(kMaxJoints)) {
         if (!joints.insert(joint.text()).second) joint.fail("is moved by two axes");
         file.axisJoints.back().push_back(joint.text());
       }
@@ -260,14 +260,14 @@ void readAxes(const JsonField& root, HandDescription& hand, HandFile& file) {
 void readPreshapes(const JsonField& root, const HandDescription& hand, HandFile& file) {
   if (!root.has("preshapes")) return;
   std::set<std::string> names;
-  for (const JsonField& item : root.at("preshapes").items(kMostPreshapes)) {
+  for (const JsonField& item : root.at("preshapes").items(kMaxPreshapes)) {
     item.only({"name", "title", "joints"});
     Preshape preshape;
     preshape.name = nameAt(item, "name");
     if (!names.insert(preshape.name).second) item.at("name").fail("is used twice");
     preshape.title = item.has("title") ? nameAt(item, "title") : preshape.name;
     const JsonField list = item.required("joints");
-    const std::vector<JsonField> joints = list.items(kMostAxes);
+    const std::vector<JsonField> joints = list.items(kMaxAxes);
     if (joints.size() != hand.axes.size())
       list.fail("has " + counted(joints.size(), "item") + " for " +
                 std::to_string(hand.axes.size()) + " axes");
@@ -288,19 +288,19 @@ MatrixCharacteristics matrixCharacteristicsOf(const JsonField& item, const Matri
       {"noise", "rest", "taxel_sd", "shared_sd", "sensitivity", "threshold_counts", "raised"});
   MatrixCharacteristics matrix;
   const auto line = [](const JsonField& field, const char* key) {
-    return field.required(key).number(-kMostCounts, kMostCounts);
+    return field.required(key).number(-kMaxHandCounts, kMaxHandCounts);
   };
   const JsonField noise = item.required("noise");
   noise.only({"slope", "intercept", "rmse"});
   matrix.noiseSlope = line(noise, "slope");
   matrix.noiseIntercept = line(noise, "intercept");
-  matrix.noiseRmse = noise.required("rmse").number(0.0, kMostCounts);
+  matrix.noiseRmse = noise.required("rmse").number(0.0, kMaxHandCounts);
   const JsonField rest = item.required("rest");
   rest.only({"slope", "intercept"});
   matrix.restSlope = line(rest, "slope");
   matrix.restIntercept = line(rest, "intercept");
-  matrix.taxelSd = item.required("taxel_sd").number(0.0, kMostCounts);
-  matrix.sharedSd = item.number("shared_sd", 0.0, 0.0, kMostCounts);
+  matrix.taxelSd = item.required("taxel_sd").number(0.0, kMaxHandCounts);
+  matrix.sharedSd = item.number("shared_sd", 0.0, 0.0, kMaxHandCounts);
   matrix.sensitivity = item.number("sensitivity", 0.5, 0.0, 1.0);
   matrix.thresholdCounts = static_cast<int>(item.integer("threshold_counts", 0, 0, 65535));
   if (!item.has("raised")) return matrix;
@@ -312,7 +312,7 @@ MatrixCharacteristics matrixCharacteristicsOf(const JsonField& item, const Matri
     matrix.raised.push_back({row * static_cast<std::size_t>(layout.columns) + column,
                              line(raised, "intercept"),
                              line(raised, "slope"),
-                             raised.required("sd").number(0.0, kMostCounts)});
+                             raised.required("sd").number(0.0, kMaxHandCounts)});
   }
   return matrix;
 }
@@ -330,18 +330,18 @@ SensorCharacteristics characteristicsOf(const JsonField& field, const SensorLayo
               "release_s"});
   SensorCharacteristics sensor;
   const JsonField list = field.required("matrices");
-  const std::vector<JsonField> items = list.items(kMostMatrices);
+  const std::vector<JsonField> items = list.items(kMaxMatrices);
   if (items.size() != layout.numMatrices())
     list.fail("has " + counted(items.size(), "item") + " for " +
               std::to_string(layout.numMatrices()) + " matrices");
   for (std::size_t m = 0; m < items.size(); ++m)
     sensor.matrices.push_back(matrixCharacteristicsOf(items[m], layout.matrix(m)));
   const std::vector<double> plane =
-      field.required("pressure_plane").numbers(4, -kMostCounts, kMostCounts);
+      field.required("pressure_plane").numbers(4, -kMaxHandCounts, kMaxHandCounts);
   std::copy(plane.begin(), plane.end(), sensor.pressure);
   sensor.countsPerMean = field.number("counts_per_mean", 1.0, 1e-6, 1e6);
   sensor.thresholdKpa = field.number("threshold_kpa", 0.0, 0.0, 1e6);
-  sensor.largestCounts = field.required("largest_counts").number(1.0, kMostCounts);
+  sensor.largestCounts = field.required("largest_counts").number(1.0, kMaxHandCounts);
   sensor.neighbourFraction = field.number("neighbour_fraction", 0.0, 0.0, 0.25);
   if (field.has("lag_s")) {
     const std::vector<double> lag = field.at("lag_s").numbers(2, 0.0, 3600.0);
@@ -373,11 +373,11 @@ PinchDescription pinchOf(const JsonField& field, const HandDescription& hand) {
   PinchDescription pinch;
   pinch.pads = pair(field.required("pads"));
   if (field.has("other_pads"))
-    for (const JsonField& other : field.at("other_pads").items(kMostMatrices))
+    for (const JsonField& other : field.at("other_pads").items(kMaxMatrices))
       pinch.otherPads.push_back(pair(other));
   pinch.secondPadGain = field.number("second_pad_gain", 1.0, 1e-3, 1e3);
-  pinch.fullScaleCounts =
-      field.number("full_scale", static_cast<double>(hand.maximumCounts) + 1.0, 1e-6, kMostCounts);
+  pinch.fullScaleCounts = field.number(
+      "full_scale", static_cast<double>(hand.maximumCounts) + 1.0, 1e-6, kMaxHandCounts);
   int side = 1;
   for (const std::size_t pad : pinch.pads)
     side = std::max({side, hand.layout->matrix(pad).rows, hand.layout->matrix(pad).columns});
@@ -385,11 +385,11 @@ PinchDescription pinchOf(const JsonField& field, const HandDescription& hand) {
   const double full = static_cast<double>(hand.maximumCounts);
   pinch.largestCounts = {full, full};
   if (field.has("largest_counts")) {
-    const std::vector<double> largest = field.at("largest_counts").numbers(2, 1e-6, kMostCounts);
+    const std::vector<double> largest = field.at("largest_counts").numbers(2, 1e-6, kMaxHandCounts);
     pinch.largestCounts = {largest[0], largest[1]};
   }
   if (field.has("grip_axes"))
-    for (const JsonField& axis : field.at("grip_axes").items(kMostAxes))
+    for (const JsonField& axis : field.at("grip_axes").items(kMaxAxes))
       pinch.gripAxes.push_back(axis.index(hand.axes.size()));
   return pinch;
 }
@@ -434,13 +434,13 @@ HandDescription parseHand(const std::string& json,
     for (const JsonField& line : root.at("sources").items(1000)) line.text();
   file->controller = textAt(root, "controller");
   if (root.has("unit")) hand.unit = nameAt(root, "unit");
-  hand.maximumCounts = static_cast<float>(root.required("full_scale").number(1e-6, kMostCounts));
+  hand.maximumCounts = static_cast<float>(root.required("full_scale").number(1e-6, kMaxHandCounts));
   hand.saturationCounts = static_cast<float>(root.number("saturation",
                                                          static_cast<double>(hand.maximumCounts),
                                                          1e-6,
                                                          static_cast<double>(hand.maximumCounts)));
   if (root.has("temperature_sensors"))
-    for (const JsonField& sensor : root.at("temperature_sensors").items(kMostTemperatureSensors)) {
+    for (const JsonField& sensor : root.at("temperature_sensors").items(kMaxTemperatureSensors)) {
       sensor.only({"name"});
       hand.temperatureSensors.push_back({nameAt(sensor, "name")});
     }

@@ -6,7 +6,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kLeastDeadZoneKpa = 0.05;
+constexpr double kMinDeadZoneKpa = 0.05;
 
 }  // namespace
 
@@ -15,7 +15,7 @@ double SensorCharacteristics::gainCountsPerKpa(double degC) const {
 }
 
 double SensorCharacteristics::deadZoneKpa(double degC) const {
-  return std::max(pressure[0] + pressure[1] * degC - thresholdKpa, kLeastDeadZoneKpa);
+  return std::max(pressure[0] + pressure[1] * degC - thresholdKpa, kMinDeadZoneKpa);
 }
 
 double SensorCharacteristics::countsAbove(double kpa, double degC) const {

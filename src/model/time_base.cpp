@@ -16,7 +16,7 @@ using Verdict = ClockTracker::Verdict;
 using Judged = ClockTracker::Judged;
 
 constexpr std::size_t kFewestItems = 20;
-constexpr double kMostDriftPpm = 10'000.0;
+constexpr double kMaxDriftPpm = 10'000.0;
 // An item that is faster than the fastest ones by more has a wrong time [us].
 constexpr double kTooEarlyUs = 20'000.0;
 constexpr double kTooEarlySigmas = 6.0;
@@ -101,7 +101,7 @@ void divide(const std::vector<Judged>& usable,
   }
 }
 
-bool runsWrong(const ClockLine& line) { return std::abs(line.slope()) > kMostDriftPpm; }
+bool runsWrong(const ClockLine& line) { return std::abs(line.slope()) > kMaxDriftPpm; }
 
 // Gives items without a time their arrival, and lets all ascend.
 void fillAndSort(std::span<const ClockStamp> stamps,

@@ -99,8 +99,8 @@ std::array<float, 3> forceAt(const TactileFrame& frame, const TaxelPlace& place)
 
 namespace {
 
-constexpr std::size_t kMostReadings = std::size_t{1} << 26;  // that a baseline is taken of: 256 MB
-constexpr std::size_t kFramesThatTell = 16;                  // whether readings are at rest
+constexpr std::size_t kMaxReadings = std::size_t{1} << 26;  // that a baseline is taken of: 256 MB
+constexpr std::size_t kFramesThatTell = 16;                 // whether readings are at rest
 constexpr double kRestSigmas = 3.0;
 constexpr double kRestShare = 0.002;  // of the full scale
 
@@ -148,7 +148,7 @@ void requireAtRest(std::span<const float> readings, std::size_t numFrames, doubl
 
 void RestMeter::add(std::span<const float> readings) {
   if (numFrames_ > 0) requireSize(readings.size(), readings_.size() / numFrames_, "frame");
-  if (readings_.size() + readings.size() > kMostReadings)
+  if (readings_.size() + readings.size() > kMaxReadings)
     throw std::invalid_argument("a baseline of more than " + std::to_string(numFrames_) +
                                 " frames: take a shorter span");
   readings_.insert(readings_.end(), readings.begin(), readings.end());

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStatisticsPlateau = 0.9;
 constexpr double kStatisticsStart = 0.25;
-constexpr std::size_t kMostStatisticsFrames = 25;
+constexpr std::size_t kMaxStatisticsFrames = 25;
 constexpr double kStatisticsActive = 0.03;
 constexpr double kLoadFloor = 0.001;  // [full scale]
 constexpr double kMomentUnit = 0.15;  // [taxel^2]
@@ -95,7 +95,7 @@ ContactStatistics contactStatistics(const Profile& profile, const GraspSegment& 
   std::vector<std::size_t> plateau;
   for (std::size_t i = 0; i < sums.size(); ++i)
     if (sums[i] >= kStatisticsPlateau * largest) plateau.push_back(grasp.begin + i);
-  const std::size_t taken = std::min(plateau.size(), kMostStatisticsFrames);
+  const std::size_t taken = std::min(plateau.size(), kMaxStatisticsFrames);
   const auto start = std::find_if(
       sums.begin(), sums.end(), [&](double sum) { return sum >= kStatisticsStart * largest; });
   out.startFrame = grasp.begin + static_cast<std::size_t>(start - sums.begin());

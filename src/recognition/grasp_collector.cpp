@@ -12,13 +12,13 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostFingers = 8;
+constexpr std::size_t kMaxFingers = 8;
 constexpr std::size_t kAnglesWithoutFrames = 2000;
 
 }  // namespace
 
 void GraspCollectorOptions::validate() const {
-  if (minFingers < 1 || minFingers > kMostFingers)
+  if (minFingers < 1 || minFingers > kMaxFingers)
     throw std::invalid_argument("minFingers must be 1..8");
   if (framesAfter < bridgedFrames)
     throw std::invalid_argument("framesAfter must be bridgedFrames or more");
@@ -43,13 +43,13 @@ double GraspCollector::touchedS() const noexcept {
 }
 
 bool GraspCollector::contactIn(const TactileFrame& frame) const {
-  std::bitset<kMostFingers> fingers;
+  std::bitset<kMaxFingers> fingers;
   for (std::size_t m = 0; m < hand_.layout->numMatrices(); ++m) {
     const auto finger = m < hand_.matrices.size()
                             ? static_cast<std::size_t>(std::max(0, hand_.matrices[m].finger))
                             : m;
-    if (fingers[finger % kMostFingers]) continue;
-    if (areTouched(frame.matrix(m).array()).any()) fingers.set(finger % kMostFingers);
+    if (fingers[finger % kMaxFingers]) continue;
+    if (areTouched(frame.matrix(m).array()).any()) fingers.set(finger % kMaxFingers);
   }
   return fingers.count() >= options_.minFingers;
 }

@@ -53,7 +53,7 @@ class PinchHands {
     for (const Kept& each : kept_)
       if (isSame(each.of, hand)) return each.made;
     std::shared_ptr<const PinchHand> made = madePinchHand(hand);
-    if (kept_.size() >= kMostKept) kept_.erase(kept_.begin());
+    if (kept_.size() >= kMaxKept) kept_.erase(kept_.begin());
     kept_.push_back({hand, made});
     return made;
   }
@@ -63,7 +63,7 @@ class PinchHands {
     HandDescription of;
     std::shared_ptr<const PinchHand> made;
   };
-  static constexpr std::size_t kMostKept = 8;
+  static constexpr std::size_t kMaxKept = 8;
 
   static bool isSame(const HandDescription& a, const HandDescription& b) {
     return (a.file == b.file || (a.file->json == b.file->json && a.file->urdf == b.file->urdf)) &&

@@ -19,7 +19,7 @@ constexpr const char* kNotFacing = "the two pads don't face each other";
 // Frames on either side in the moving average.
 constexpr int kSmoothReach = 2;
 constexpr double kSizeScaleMm = 40.0;
-constexpr double kLeastDistanceMm = -39.9;
+constexpr double kMinDistanceMm = -39.9;
 // Added to second moments [taxel^2], because a single taxel has no extent.
 constexpr double kMomentFloor = 0.15;
 constexpr std::array<std::size_t, 3> kStrongest = {1, 4, 9};
@@ -212,7 +212,7 @@ void PlateauFeatureOptions::validate() const {
 }
 
 double sizeZ(double distanceMm) noexcept {
-  return kSizeScaleMm * std::log1p(std::max(distanceMm, kLeastDistanceMm) / kSizeScaleMm);
+  return kSizeScaleMm * std::log1p(std::max(distanceMm, kMinDistanceMm) / kSizeScaleMm);
 }
 
 double distanceOfSizeZ(double z) noexcept { return kSizeScaleMm * std::expm1(z / kSizeScaleMm); }

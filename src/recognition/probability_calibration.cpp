@@ -44,7 +44,7 @@ Sigmoid fitSigmoid(const std::vector<double>& decisions, const std::vector<bool>
   if (decisions.empty() || decisions.size() != first.size())
     throw std::invalid_argument("fitSigmoid: as many labels as decisions, one at least");
   constexpr int kMaxSteps = 100;
-  constexpr double kRidge = 1e-12, kLeastStep = 1e-10, kFlat = 1e-5;
+  constexpr double kRidge = 1e-12, kMinStep = 1e-10, kFlat = 1e-5;
   const auto positive = static_cast<double>(std::count(first.begin(), first.end(), true));
   const double negative = static_cast<double>(first.size()) - positive;
   const double high = (positive + 1.0) / (positive + 2.0), low = 1.0 / (negative + 2.0);
@@ -68,7 +68,7 @@ Sigmoid fitSigmoid(const std::vector<double>& decisions, const std::vector<bool>
     const double db = -(-h21 * g1 + h11 * g2) / determinant;
     const double slope = g1 * da + g2 * db;
     double length = 1.0;
-    for (; length >= kLeastStep; length /= 2.0) {
+    for (; length >= kMinStep; length /= 2.0) {
       const double trial = sigmoidLoss(decisions, target, a + length * da, b + length * db);
       if (!(trial < loss + 1e-4 * length * slope)) continue;
       a += length * da;
@@ -76,7 +76,7 @@ Sigmoid fitSigmoid(const std::vector<double>& decisions, const std::vector<bool>
       loss = trial;
       break;
     }
-    if (length < kLeastStep) break;
+    if (length < kMinStep) break;
   }
   return {a, b};
 }
@@ -85,8 +85,8 @@ Eigen::VectorXd coupleProbabilities(const Eigen::MatrixXd& pairwise) {
   const Eigen::Index k = pairwise.rows();
   if (k == 0 || pairwise.cols() != k)
     throw std::invalid_argument("coupleProbabilities: the matrix must be square and not empty");
-  constexpr double kLeast = 1e-7;
-  Eigen::MatrixXd r = pairwise.cwiseMax(kLeast).cwiseMin(1.0 - kLeast);
+  constexpr double kMinimum = 1e-7;
+  Eigen::MatrixXd r = pairwise.cwiseMax(kMinimum).cwiseMin(1.0 - kMinimum);
   Eigen::MatrixXd q(k, k);
   for (Eigen::Index i = 0; i < k; ++i) {
     q(i, i) = 0.0;

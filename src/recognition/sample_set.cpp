@@ -18,11 +18,11 @@ bool varies(const Eigen::MatrixXd& x, Eigen::Index column) {
 }
 
 std::string listOf(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMaximum = 5;
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+  for (std::size_t i = 0; i < std::min(names.size(), kMaximum); ++i)
     text += (i == 0 ? "" : ", ") + names[i];
-  if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
+  if (names.size() > kMaximum) text += " and " + std::to_string(names.size() - kMaximum) + " more";
   return text;
 }
 

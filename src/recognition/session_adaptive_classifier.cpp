@@ -17,8 +17,8 @@ namespace {
 
 // Smallest variance of a feature, as a fraction of its variance over all samples. It applies to
 // features that are constant within a class.
-constexpr double kLeastVariancePart = 1e-6;
-constexpr double kLeastVariance = 1e-12;
+constexpr double kMinVariancePart = 1e-6;
+constexpr double kMinVariance = 1e-12;
 
 // std::lgamma() writes the sign to a global variable, which is a data race when models are fitted
 // on several threads.
@@ -148,7 +148,7 @@ SessionAdaptiveClassifier SessionAdaptiveClassifier::learn(const Eigen::MatrixXd
   std::vector<std::string> constant;
   for (Eigen::Index f = 0; f < x.cols(); ++f) {
     const double all = (x.col(f).array() - x.col(f).mean()).square().mean();
-    const double least = std::max(kLeastVariance, kLeastVariancePart * all);
+    const double least = std::max(kMinVariance, kMinVariancePart * all);
     if (all == 0.0) constant.push_back(features[static_cast<std::size_t>(f)]);
     data.pooled(f, f) = std::max(data.pooled(f, f), least);
   }
@@ -161,7 +161,7 @@ SessionAdaptiveClassifier SessionAdaptiveClassifier::learn(const Eigen::MatrixXd
     const Eigen::VectorXd variances = scatter.diagonal();
     scatter *= options.correlationScale;
     scatter.diagonal() =
-        variances.cwiseMax(kLeastVariancePart * data.pooled.diagonal()) + sessionVariances;
+        variances.cwiseMax(kMinVariancePart * data.pooled.diagonal()) + sessionVariances;
     data.classComponents.push_back({scatters.means[c], scatter});
   }
   data.background.mean = Eigen::VectorXd::Zero(x.cols());

@@ -241,9 +241,9 @@ std::string SessionOffset::text() const {
     return "no session offset: the hand is taken to read as it did in training";
   if (origin == OffsetSource::kUnknown)
     return "the session offset is not known (+- " + fixedText(sdMm, 1) + " mm)";
-  constexpr double kLeastSaidMm = 0.05;
+  constexpr double kMinSaidMm = 0.05;
   std::string out = "today the hand reads sizes as it did in training (";
-  if (!(std::abs(mm) < kLeastSaidMm))
+  if (!(std::abs(mm) < kMinSaidMm))
     out = "today the hand reads " + fixedText(std::abs(mm), 1) + " mm " +
           (mm < 0.0 ? "small" : "large") + " (";
   if (sdMm > 0.0) out += "+- " + fixedText(sdMm, 1) + " mm, ";

@@ -71,8 +71,8 @@ SessionOffset offsetOf(const SessionAdaptiveClassifier& model,
   if (kind == UnknownClassOffset::kUnknown) return unknownOffset();
   const SessionOffset batch = offsetFromBatch(model, sessionSamples);
   if (kind == UnknownClassOffset::kBatch) return batch;
-  constexpr double kLeastSdMm = 0.05;
-  return measuredOffset(batch.mm, std::max(batch.sdMm, kLeastSdMm), OffsetSource::kEmptyHand);
+  constexpr double kMinSdMm = 0.05;
+  return measuredOffset(batch.mm, std::max(batch.sdMm, kMinSdMm), OffsetSource::kEmptyHand);
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ void setOnce(std::optional<Value>& place, Value value, const std::string& where)
 }  // namespace
 
 bool isSensorId(std::string_view text) noexcept {
-  constexpr std::size_t kMostDigits = 32;
-  return !text.empty() && text.size() <= kMostDigits &&
+  constexpr std::size_t kMaxDigits = 32;
+  return !text.empty() && text.size() <= kMaxDigits &&
          text.find_first_not_of("0123456789ABCDEF") == std::string_view::npos;
 }
 

@@ -7,9 +7,9 @@ namespace palpate {
 
 std::size_t readAheadThreads(std::size_t numFiles) noexcept {
   // Each takes about 6 MB of memory, and as much as a recording of kReadAheadBytes fills.
-  constexpr std::size_t kMostThreads = 8;
+  constexpr std::size_t kMaxReadThreads = 8;
   const std::size_t threads =
-      std::min<std::size_t>({numFiles, std::thread::hardware_concurrency(), kMostThreads});
+      std::min<std::size_t>({numFiles, std::thread::hardware_concurrency(), kMaxReadThreads});
   return threads > 1 ? threads : 0;
 }
 

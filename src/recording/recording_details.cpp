@@ -34,7 +34,7 @@ constexpr std::array<std::pair<State, const char*>, 5> kStateNames{{
 
 // Bounds of what a list keeps of one recording.
 constexpr std::size_t kMaxTextLength = 2000;  // [bytes]
-constexpr std::size_t kMostLabels = 200;
+constexpr std::size_t kMaxLabels = 200;
 
 std::string bounded(std::string_view text) {
   return std::string(beginningOf(text, kMaxTextLength));
@@ -51,7 +51,7 @@ void addEvents(RecordingDetails& details, const EventsReport& report) {
     if (event.kind == "note") addNote(details.notes, event.text);
     if ((event.kind != "label" && event.kind != "segment") || event.text.empty()) continue;
     const std::string label = bounded(event.text);
-    if (details.labels.size() < kMostLabels &&
+    if (details.labels.size() < kMaxLabels &&
         std::find(details.labels.begin(), details.labels.end(), label) == details.labels.end())
       details.labels.push_back(label);
   }
@@ -80,11 +80,11 @@ std::optional<StreamSpan> spanOf(Stream stream, const fs::path& path, PalpateCon
   const std::int64_t startUs = first.integer(2);
   SqliteStatement last = at(" DESC");
   if (!last.next()) return std::nullopt;
-  constexpr std::int64_t kMost = std::int64_t{1} << 60;
-  const auto sensible = [](std::int64_t value) { return value >= 0 && value < kMost; };
+  constexpr std::int64_t kMaximum = std::int64_t{1} << 60;
+  const auto sensible = [](std::int64_t value) { return value >= 0 && value < kMaximum; };
   const std::int64_t endUs = last.integer(3);
-  if (!sensible(last.integer(0)) || !sensible(last.integer(1)) || startUs < -kMost ||
-      endUs > kMost || endUs < startUs)
+  if (!sensible(last.integer(0)) || !sensible(last.integer(1)) || startUs < -kMaximum ||
+      endUs > kMaximum || endUs < startUs)
     throw FormatError(path, "its blocks are invalid; try 'palpate recover'");
   return StreamSpan{last.integer(0) + last.integer(1), startUs, endUs};
 }

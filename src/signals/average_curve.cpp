@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kMostTimes = 2e5;
+constexpr double kMaxTimes = 2e5;
 constexpr double kAverageNan = std::numeric_limits<double>::quiet_NaN();
 
 // The samples of the stretch.
@@ -82,7 +82,7 @@ void AverageOptions::validate() const {
   check(lowPercent >= 0.0, "lowPercent", lowPercent);
   check(highPercent > lowPercent && highPercent <= 100.0, "highPercent", highPercent);
   if (stepS != 0.0) check(kStepS, "stepS", stepS);
-  check(kLeast, "least", static_cast<double>(least));
+  check(kMinimum, "least", static_cast<double>(least));
 }
 
 std::vector<AlignedCurve> alignedStretches(std::shared_ptr<const Series> series,
@@ -139,7 +139,7 @@ AverageCurve averageCurve(std::span<const AlignedCurve> curves,
   }
   if (!fromS) return average;
   if (average.stepS == 0.0) average.stepS = longestMedianS > 0.0 ? longestMedianS : 1.0;
-  average.stepS = std::max(average.stepS, (*toS - *fromS) / kMostTimes);
+  average.stepS = std::max(average.stepS, (*toS - *fromS) / kMaxTimes);
   // A multiple of the step that differs from an end only by rounding still counts.
   constexpr double kRounding = 1e-6;
   const double firstStep = std::ceil(*fromS / average.stepS - kRounding);

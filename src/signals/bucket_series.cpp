@@ -9,13 +9,13 @@
 namespace palpate {
 namespace {
 
-constexpr double kMostBuckets = 1e8;
+constexpr double kMaxBuckets = 1e8;
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
 BucketSeries::BucketSeries(double durationS, double bucketS) : bucketS_(bucketS) {
-  if (!(durationS >= 0.0) || !(bucketS > 0.0) || !(durationS / bucketS < kMostBuckets))
+  if (!(durationS >= 0.0) || !(bucketS > 0.0) || !(durationS / bucketS < kMaxBuckets))
     throw std::invalid_argument("BucketSeries: " + std::to_string(durationS) + " s in buckets of " +
                                 std::to_string(bucketS) + " s");
   const auto count = static_cast<std::size_t>(durationS / bucketS) + 1;

@@ -14,7 +14,7 @@ namespace palpate {
 namespace {
 
 constexpr double kRoundingS = 1e-7;  // stamps are whole microseconds
-constexpr std::size_t kMostSamples = 20'000'000;
+constexpr std::size_t kMaxSamples = 20'000'000;
 
 void checkCurveComparison(const Series& series) {
   if (series.timeS.size() != series.values.size())
@@ -128,7 +128,7 @@ CurveComparison compareCurves(const Series& a,
   std::size_t moments = 1;
   if (report.stepS > 0.0)
     moments += static_cast<std::size_t>(
-        std::min((span + kRoundingS) / report.stepS, static_cast<double>(kMostSamples)));
+        std::min((span + kRoundingS) / report.stepS, static_cast<double>(kMaxSamples)));
   CurveComparisonCursor readA(a, 0.0, gaps.aS), readB(b, offsetS, gaps.bS);
   Moments sums;
   double squares = 0.0;

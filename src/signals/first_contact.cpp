@@ -9,11 +9,11 @@
 namespace palpate {
 namespace {
 
-constexpr int kMost = 1'000'000;
+constexpr int kMaximum = 1'000'000;
 constexpr std::size_t kFirstContactFramesPerReport = 512;
 
 void requireIn(int value, const char* field) {
-  if (value < 1 || value > kMost)
+  if (value < 1 || value > kMaximum)
     throw std::invalid_argument("FirstContactOptions::" + std::string(field) + " = " +
                                 std::to_string(value) + ": must be 1..1000000");
 }

@@ -8,7 +8,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kMostAutomaticBins = 200.0;
+constexpr double kMaxAutomaticBins = 200.0;
 
 // The quantile of ascending values, linear between them (numpy's default).
 double quantileOf(const std::vector<double>& ascending, double share) {
@@ -25,15 +25,15 @@ std::size_t automaticBins(const std::vector<double>& ascending) {
   double width = range / (std::log2(n) + 1.0);
   const double quartiles = quantileOf(ascending, 0.75) - quantileOf(ascending, 0.25);
   if (quartiles > 0.0) width = std::min(width, 2.0 * quartiles / std::cbrt(n));
-  return static_cast<std::size_t>(std::clamp(std::ceil(range / width), 1.0, kMostAutomaticBins));
+  return static_cast<std::size_t>(std::clamp(std::ceil(range / width), 1.0, kMaxAutomaticBins));
 }
 
 }  // namespace
 
 Histogram histogramOf(std::span<const double> values, std::size_t bins) {
-  if (bins > kMostHistogramBins)
+  if (bins > kMaxHistogramBins)
     throw std::invalid_argument("histogram: bins must be at most " +
-                                std::to_string(kMostHistogramBins) + ", are " +
+                                std::to_string(kMaxHistogramBins) + ", are " +
                                 std::to_string(bins));
   Histogram histogram;
   std::vector<double> finite;

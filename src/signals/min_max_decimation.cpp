@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostColumns = 1'000'000;
+constexpr std::size_t kMaxPixelColumns = 1'000'000;
 
 // The samples of one column that are kept.
 class PixelColumn {
@@ -64,7 +64,7 @@ void DecimationOptions::validate() const {
   if (!(std::isfinite(from) && std::isfinite(to) && from <= to))
     throw std::invalid_argument("DecimationOptions: from..to must be finite and ascending, is " +
                                 std::to_string(from) + ".." + std::to_string(to));
-  if (columns < 1 || columns > kMostColumns)
+  if (columns < 1 || columns > kMaxPixelColumns)
     throw std::invalid_argument("DecimationOptions: columns must be 1..1000000, is " +
                                 std::to_string(columns));
 }

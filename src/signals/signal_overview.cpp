@@ -14,7 +14,7 @@ constexpr std::size_t kSignalOverviewPlacesPerReport = 250'000;  // takes some m
 // Limit for the buckets of all series together: the 49 series of an SDH-2 with one bucket per
 // second take 64 MB for 47 hours. Longer recordings, and sensors with more matrices, have longer
 // buckets.
-constexpr double kMostBucketsOfAll = 8'388'608.0;
+constexpr double kMaxBucketsOfAll = 8'388'608.0;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ SignalOverview::SignalOverview(const Profile& profile, double bucketS)
   const std::size_t count = numRows_ * kinds_.size();
   if (!(bucketS > 0.0))
     throw std::invalid_argument("SignalOverview: buckets of " + std::to_string(bucketS) + " s");
-  const double most = kMostBucketsOfAll / static_cast<double>(count);
+  const double most = kMaxBucketsOfAll / static_cast<double>(count);
   const double lengthS = std::max(bucketS, durationS / most);
   for (std::size_t i = 0; i < count; ++i)
     series_.push_back(std::make_unique<BucketSeries>(durationS, lengthS));

@@ -8,7 +8,7 @@
 namespace palpate {
 namespace {
 
-constexpr Eigen::Index kMostColumns = 256;
+constexpr Eigen::Index kMaxMomentColumns = 256;
 
 }  // namespace
 
@@ -16,8 +16,8 @@ constexpr Eigen::Index kMostColumns = 256;
 // makes the row and column sums; all moments are computed from them.
 ContactMoments contactMoments(const ConstMatrixMap& matrix) noexcept {
   const Eigen::Index rows = matrix.rows();
-  const Eigen::Index columns = std::min(matrix.cols(), kMostColumns);
-  std::array<double, kMostColumns> ofColumn;
+  const Eigen::Index columns = std::min(matrix.cols(), kMaxMomentColumns);
+  std::array<double, kMaxMomentColumns> ofColumn;
   for (Eigen::Index x = 0; x < columns; ++x) ofColumn[static_cast<std::size_t>(x)] = 0.0;
 
   ContactMoments moments;

@@ -21,7 +21,7 @@ constexpr int kLaterIterations = 2;
 // Standard deviation of the value of a taxel that has no active neighbour, as a fraction of the
 // threshold; it is 0 or nearly so.
 constexpr float kFarSilence = 0.2F;
-constexpr float kMostProbableMotionCounts = 4.0F;
+constexpr float kMaxProbableMotionCounts = 4.0F;
 
 }  // namespace
 
@@ -118,7 +118,7 @@ void MostProbableSurface::learn(const ConstMatrixMap& frame,
                                frame,
                                found,
                                options,
-                               kMostProbableMotionCounts,
+                               kMaxProbableMotionCounts,
                                least_,
                                [&](const registration::SurfaceReading& reading) {
                                  information_.add(grid_.coefficients(),

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kObjectMotionRadians = std::numbers::pi / 180.0;
 // Smallest singular value that is used, relative to the largest one.
-constexpr double kLeastSingular = 1e-3;
+constexpr double kMinSingular = 1e-3;
 
 }  // namespace
 
@@ -95,7 +95,7 @@ ObjectMotion objectMotion(std::span<const SlipArrow> arrows) {
     known(i) = right[static_cast<std::size_t>(i)];
   }
   Eigen::JacobiSVD<Eigen::MatrixXd> solver(system, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  solver.setThreshold(kLeastSingular);
+  solver.setThreshold(kMinSingular);
   motion.rank = static_cast<int>(solver.rank());
   const Eigen::VectorXd solved = solver.solve(known);
   motion.translationMm = solved.head<3>();

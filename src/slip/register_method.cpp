@@ -22,15 +22,15 @@ constexpr double kRegisterMethodRadians = std::numbers::pi / 180.0;
 constexpr double kRegisterMethodLeastOverlap = 0.6;
 // Rms residual relative to the mean active taxel.
 constexpr double kWorstMisfit = 0.25;
-constexpr double kMostGain = 1.8;
+constexpr double kMaxGain = 1.8;
 constexpr double kFarthest = 3.0;  // [taxels]
-constexpr double kMostTurnDeg = 40.0;
+constexpr double kMaxTurnDeg = 40.0;
 // Misfit above which a registration is rejected.
 constexpr double kNoFit = 0.6;
 
 // Weight of a new frame in the estimated noise.
 constexpr double kNoiseMemory = 0.03;
-constexpr double kMostNoise = 100.0;  // [counts]
+constexpr double kMaxNoise = 100.0;  // [counts]
 // Up to this number of frames of a surface its steps are measured again after it learned from them.
 constexpr int kYoungSurface = 25;
 // Above this shift of the centroid [taxels], it is added to the start value.
@@ -206,16 +206,16 @@ class RegisterMethod final : public TranslationMethod {
     }
     reading.confidence = result.overlap / (1.0 + 5.0 * misfit);
     const double noise = noise_ * std::sqrt(std::clamp(result.chi2, 0.1, 10.0));
-    noise_ = std::clamp(
-        noise_ + kNoiseMemory * (noise - noise_), 0.5 * options_.noiseCounts, kMostNoise);
+    noise_ =
+        std::clamp(noise_ + kNoiseMemory * (noise - noise_), 0.5 * options_.noiseCounts, kMaxNoise);
 
     // A contact that grew over two sides would seem to end where its key frame ended. One that
     // moves over one side does end there, and keeps its surface.
     const bool goesOn = isProbable_ && loadAtTwoSides(layout_, frame) > 1.0;
     if (goesOn || result.overlap < kRegisterMethodLeastOverlap || misfit > kWorstMisfit ||
-        motion_.gain > kMostGain || motion_.gain < 1.0 / kMostGain ||
+        motion_.gain > kMaxGain || motion_.gain < 1.0 / kMaxGain ||
         std::hypot(motion_.dx, motion_.dy) > kFarthest ||
-        std::abs(motion_.angleDeg) > kMostTurnDeg) {
+        std::abs(motion_.angleDeg) > kMaxTurnDeg) {
       beginKey(frame, motion().after(keyFromReference_));
       reading.newKey = true;
     } else if (isProbable_) {

@@ -9,10 +9,10 @@
 namespace palpate {
 namespace {
 
-constexpr double kMostLogLoad = 1.5;
-constexpr double kMostShift = 2.0;  // [taxels]
+constexpr double kMaxLogLoad = 1.5;
+constexpr double kMaxShift = 2.0;  // [taxels]
 constexpr double kShiftFloor = 0.05;
-constexpr double kMostResidual = 200.0;
+constexpr double kMaxResidual = 200.0;
 constexpr double kYoungFrames = 4.0;
 constexpr double kSettlingFrames = 12.0;
 
@@ -20,9 +20,9 @@ double slipSequenceShift(const WindowEvidence& window) {
   return std::hypot(window.centroidX, window.centroidY);
 }
 
-double rise(double logRatio) { return std::clamp(logRatio, 0.0, kMostLogLoad); }
+double rise(double logRatio) { return std::clamp(logRatio, 0.0, kMaxLogLoad); }
 
-double logResidual(double residual) { return std::log1p(std::min(residual, kMostResidual)); }
+double logResidual(double residual) { return std::log1p(std::min(residual, kMaxResidual)); }
 
 }  // namespace
 
@@ -40,7 +40,7 @@ SlipFeatures slipFeatures(const SlipEvidence& evidence, double scale, double all
   const WindowEvidence& last = evidence.last;
   const double shift = slipSequenceShift(recent);
   const double allowed =
-      std::max(0.0, std::min(kMostShift, scale * shift) - allowancePerJointDeg * recent.jointsDeg);
+      std::max(0.0, std::min(kMaxShift, scale * shift) - allowancePerJointDeg * recent.jointsDeg);
   const bool compared = shift > kMinComparedShift;
   const double still = compared ? logResidual(recent.hypotheses.loadShiftResidual) : 0.0;
   const double moved = compared ? logResidual(recent.hypotheses.motionResidual) : 0.0;
@@ -52,7 +52,7 @@ SlipFeatures slipFeatures(const SlipEvidence& evidence, double scale, double all
           moved,
           rise(last.logLoadRatio),
           rise(-last.logLoadRatio),
-          std::min(kMostShift, scale * slipSequenceShift(last)),
+          std::min(kMaxShift, scale * slipSequenceShift(last)),
           std::exp(-age / kYoungFrames),
           std::exp(-age / kSettlingFrames)};
 }

@@ -45,7 +45,7 @@ TEST(TactileSettingsHistory, IsBoundedAndKeepsNothingOfAnotherHand) {
   std::size_t steps = 0;
   for (TactileSettings now = threshold(4000); history.canUndo(now); ++steps)
     now = *history.undo(now);
-  EXPECT_EQ(steps, TactileSettingsHistory::kMostSteps);
+  EXPECT_EQ(steps, TactileSettingsHistory::kMaxSteps);
   history.changing(threshold(1));
   EXPECT_FALSE(history.canUndo(TactileSettings(2, {0.5, 9}))) << "another number of matrices";
   history.clear();

@@ -33,8 +33,8 @@ void checkGeometry(const HandDescription& hand) {
 }
 
 void emulate(const HandDescription& hand) {
-  constexpr std::size_t kMostPlaces = 200;
-  if (hand.layout->numCells() > kMostPlaces || hand.axes.size() > 16) return;
+  constexpr std::size_t kMaxPlaces = 200;
+  if (hand.layout->numCells() > kMaxPlaces || hand.axes.size() > 16) return;
   PhysicalHandOptions options;
   options.hand = hand;
   PhysicalHand model(defaultScene(hand), options);

@@ -18,7 +18,7 @@ void require(bool condition) {
 
 void readTable(const std::string& text) {
   const PlanTable table = readPlanTable(text);
-  require(table.rows.size() <= RecordingPlan::kMostRows);
+  require(table.rows.size() <= RecordingPlan::kMaxRows);
   // And the one that says that there are too many rows.
   require(table.problems.size() <= kMaximumTableProblems + 1);
   RecordingPlan plan;
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   try {
     const RecordingPlan plan = RecordingPlan::fromJson(text);
-    require(plan.rows().size() <= RecordingPlan::kMostRows);
+    require(plan.rows().size() <= RecordingPlan::kMaxRows);
     require(RecordingPlan::fromJson(plan.json()) == plan);
     plan.next();
   } catch (const Error&) {

@@ -20,7 +20,7 @@ namespace {
 
 using namespace palpate;
 
-constexpr std::size_t kMostPending = 16'384;  // bytes of a line
+constexpr std::size_t kMaxPending = 16'384;  // bytes of a line
 
 void require(bool condition) {
   if (!condition) std::abort();
@@ -60,7 +60,7 @@ Read readSeries(std::span<const std::byte> bytes,
   };
   for (std::size_t at = 0; at < bytes.size(); at += chunk) {
     lines.push(bytes.subspan(at, std::min(chunk, bytes.size() - at)), sink);
-    require(lines.pendingBytes() <= kMostPending);
+    require(lines.pendingBytes() <= kMaxPending);
   }
   lines.cutOff(sink);
   require(lines.pendingBytes() == 0 && lines.skippedBytes() <= bytes.size());

@@ -50,7 +50,7 @@ HandDescription smallPad() {
 }
 
 void readAll(const fs::path& path) {
-  constexpr std::size_t kMostNumbers = 1u << 20;
+  constexpr std::size_t kMaxNumbers = 1u << 20;
   const auto source = openTable(path);
   for (std::size_t c = 0; c < source->columns().size() && c < 8; ++c) {
     const TableColumn column = source->columns()[c];
@@ -59,7 +59,7 @@ void readAll(const fs::path& path) {
     source->start(chosen, std::nullopt);
     TableRow row;
     std::size_t numbers = 0;
-    while (numbers < kMostNumbers && source->next(row)) {
+    while (numbers < kMaxNumbers && source->next(row)) {
       if (!row.complete) continue;
       requireTrue(row.values.size() == column.width() && row.states.size() == row.values.size());
       for (std::size_t i = 0; i < row.values.size(); ++i)

@@ -18,7 +18,7 @@ namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostReasons = 10;
+constexpr std::size_t kMaxReasons = 10;
 
 // The line of progress on a terminal.
 class BatchLine {
@@ -153,7 +153,7 @@ int runBatchCommand(const CommandLine& given,
     sayLine(std::to_string(report.status.failed) + " of " + std::to_string(plan.items.size()) +
             " recordings failed");
   if (command.summary && !given.quiet() && plan.items.size() > 1) {
-    out.write(summaryText(plan, report, kMostReasons));
+    out.write(summaryText(plan, report, kMaxReasons));
     out.finish();
   }
   return codeOf(plan, report);

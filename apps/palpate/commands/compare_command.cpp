@@ -249,7 +249,8 @@ int compareCommand(const Arguments& words) {
             ranged("offset", "S", "begin B at this time after A's first frame", kOffsetS),
             {"average",
              "SIGNAL",
-             "average a signal: m1_mean, hand_sum, m5_x2_y9, angle3, m1_force_n, or a formula as for "
+             "average a signal: m1_mean, hand_sum, m5_x2_y9, angle3, m1_force_n, or a formula as "
+             "for "
              "derive"},
             boundChoice("of",
                         "WHAT",
@@ -277,7 +278,7 @@ int compareCommand(const Arguments& words) {
                   "N",
                   "minimum number of values for a mean",
                   choices.average.least,
-                  AverageOptions::kLeast)})),
+                  AverageOptions::kMinimum)})),
        .example = "palpate compare run_1.dsa run_2.dsa > differences.csv",
        .minArguments = 1},
       words);

@@ -12,7 +12,7 @@
 namespace palpate::commands {
 namespace {
 
-constexpr double kLeastWayTaxels = 1.0;
+constexpr double kMinWayTaxels = 1.0;
 // The motion begins after this way, and ends when no more than this is left.
 constexpr double kMovedTaxels = 0.1;
 // Largest delay between a scan and the stamp of its received frame, from transmission: two frames.
@@ -109,7 +109,7 @@ DemoFinding compareSlip(const SlipSeries& series,
   const Error still("the pen did not slip through the fingers");
   if (first == end) throw still;
   const auto [matrix, moved] = furthestWay(*first, *std::prev(end));
-  if (moved < kLeastWayTaxels) throw still;
+  if (moved < kMinWayTaxels) throw still;
   const auto wayAt = [&, m = matrix](const DemoTruthFrame& frame) {
     return wayTaxels(first->matrices[m], frame.matrices[m]);
   };

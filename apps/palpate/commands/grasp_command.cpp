@@ -35,7 +35,7 @@ namespace {
 constexpr int kGraspLookMs = 20;
 constexpr std::int64_t kNoticeUs = 5'000'000;  // while no stop is answered
 constexpr double kPortBackS = 10.0;            // beyond the end of the motion
-constexpr std::size_t kMostSequenceBytes = 10'000'000;
+constexpr std::size_t kMaxSequenceBytes = 10'000'000;
 
 // What is bound to options of the command line.
 struct GraspChoices {
@@ -371,7 +371,7 @@ MotionSequence sequenceOf(const CommandLine& given) {
       throw UsageError("--sequence excludes --" + std::string(option) +
                        ": its steps have their own");
   const std::filesystem::path file = *given.text("sequence");
-  MotionSequence sequence = parseSequence(readTextFile(file, kMostSequenceBytes), file);
+  MotionSequence sequence = parseSequence(readTextFile(file, kMaxSequenceBytes), file);
   try {
     sequence.validate(movableHand());
   } catch (const std::invalid_argument& error) {

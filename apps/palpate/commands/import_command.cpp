@@ -142,8 +142,8 @@ std::string secondsText(double seconds) { return fixedText(seconds, 3) + " s"; }
 
 void printImportPreview(const ImportPreview& preview) {
   std::string text = preview.form + "\n";
-  constexpr std::size_t kMostColumns = 12;
-  const std::size_t shown = std::min(kMostColumns, preview.columns.size());
+  constexpr std::size_t kMaxShownColumns = 12;
+  const std::size_t shown = std::min(kMaxShownColumns, preview.columns.size());
   text += counted(preview.columns.size(), "column") + ":\n";
   for (std::size_t c = 0; c < shown; ++c) {
     const TableColumn& column = preview.columns[c];

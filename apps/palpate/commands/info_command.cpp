@@ -247,7 +247,7 @@ std::string matricesText(const Profile& profile) {
 // The operator's details, then every event with its time since the first frame.
 std::string notesText(const Recording& recording) {
   const Profile& profile = recording.profile;
-  constexpr std::size_t kMostListed = 200;
+  constexpr std::size_t kMaxListed = 200;
   std::string text;
   for (const char* key : kSaid)
     if (const std::string said = saidOf(recording, key); !said.empty()) text += row(key, said);
@@ -259,7 +259,7 @@ std::string notesText(const Recording& recording) {
   const auto seconds = [&](std::int64_t us) {
     return fixedText(static_cast<double>(us - beginUs) / kUsPerS, 2);
   };
-  for (std::size_t i = 0; i < std::min(events.size(), kMostListed); ++i) {
+  for (std::size_t i = 0; i < std::min(events.size(), kMaxListed); ++i) {
     const Event& event = events[i];
     std::string when = seconds(event.tUs);
     if (event.t1Us != event.tUs) when += " to " + seconds(event.t1Us);
@@ -268,8 +268,8 @@ std::string notesText(const Recording& recording) {
     if (!event.text.empty()) what += ": " + event.text;
     text += row("  " + when + " s", what);
   }
-  if (events.size() > kMostListed)
-    text += row("", "and " + std::to_string(events.size() - kMostListed) + " more: --json has all");
+  if (events.size() > kMaxListed)
+    text += row("", "and " + std::to_string(events.size() - kMaxListed) + " more: --json has all");
   if (recording.damage.events > 0)
     text += row("warning", eventsLeftOutText(recording.damage.events));
   return text;

@@ -151,7 +151,7 @@ class ListRun {
 };
 
 // Of a small recording more text than this isn't kept until its turn comes.
-constexpr std::size_t kMostTextAhead = 4u << 20;
+constexpr std::size_t kMaxTextAhead = 4u << 20;
 constexpr std::size_t kPieceOfRows = 1u << 16;  // bytes
 // Why a recording can't be in a table whose columns and units are those of an earlier one.
 constexpr const char* kOtherColumns =
@@ -253,7 +253,7 @@ int writeTexts(const RecordingList& list,
       TextTarget target{.head = [&](const std::string& head) { result.head = head; },
                         .write =
                             [&](const std::string& text) {
-                              if (result.text.size() + text.size() > kMostTextAhead)
+                              if (result.text.size() + text.size() > kMaxTextAhead)
                                 throw TooMuchText();
                               result.text += text;
                             }};

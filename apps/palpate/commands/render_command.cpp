@@ -69,7 +69,7 @@ constexpr OptionRange kPaperMm{20.0, 1200.0, "mm"};
 constexpr OptionRange kTextPt{4.0, 40.0, "pt"};
 constexpr OptionRange kDpi{36.0, 2400.0};
 constexpr double kPaperDpi = 300.0;
-constexpr double kMostPixels = 16384.0;  // largest side
+constexpr double kMaxPixels = 16384.0;  // largest side
 
 const std::vector<const char*> kPaperOptions = {"width-mm", "height-mm", "text-pt", "print"};
 
@@ -98,7 +98,7 @@ Sheet chosenSheet(const CommandLine& given, gui::MatricesPictureOptions& options
   paper.size = options.size;
   paper.dpi = given.number("dpi", kDpi).value_or(paper.dpi);
   const double longest = std::max(paper.size.width(), paper.size.height()) * paper.scale();
-  if (longest > kMostPixels)
+  if (longest > kMaxPixels)
     throw UsageError("a PNG of " + fixedText(longest, 0) +
                      " pixels is too large; choose fewer dpi or a smaller size");
   paper.background = gui::colorsOf(options.theme).window;

@@ -10,7 +10,7 @@
 namespace palpate::commands {
 namespace {
 
-constexpr std::size_t kMostNamed = 8;  // taxels in one line
+constexpr std::size_t kMaxNamed = 8;  // taxels in one line
 
 std::string placeText(std::size_t matrix, std::int64_t x, std::int64_t y) {
   return "matrix " + std::to_string(matrix) + ", x " + std::to_string(x) + ", y " +
@@ -21,7 +21,7 @@ std::string placeText(std::size_t matrix, std::int64_t x, std::int64_t y) {
 std::string whatExists(const MatrixLayout& matrix, std::int64_t y) {
   if (matrix.numEnabled() == 0) return "no taxel of this matrix is scanned";
   std::string text;
-  if (matrix.numEnabled() <= kMostNamed) {
+  if (matrix.numEnabled() <= kMaxNamed) {
     for (int row = 0; row < matrix.rows; ++row)
       for (int x = 0; x < matrix.columns; ++x)
         if (matrix.enabled(row, x))

@@ -29,7 +29,7 @@ struct PlannedTake {
 struct PlanRow {
   std::string object = {};  // not empty
   std::string run = {};     // which run; may be empty
-  int repetitions = 1;      // 1..RecordingPlan::kMostRepetitions
+  int repetitions = 1;      // 1..RecordingPlan::kMaxRepetitions
   std::string notes = {};
   std::vector<PlannedTake> takes = {};  // in the order in which they were made
 
@@ -48,9 +48,9 @@ struct PlanStep {
 
 class RecordingPlan {
  public:
-  static constexpr int kMostRepetitions = 999;
-  static constexpr std::size_t kMostRows = 10'000;
-  static constexpr std::size_t kMostTextBytes = 1000;  // of each text of a row
+  static constexpr int kMaxRepetitions = 999;
+  static constexpr std::size_t kMaxRows = 10'000;
+  static constexpr std::size_t kMaxTextBytes = 1000;  // of each text of a row
 
   const std::vector<PlanRow>& rows() const noexcept { return rows_; }
   // Appends a row. Throws Error (the row has a problem, see problemOf(); too many rows).
@@ -114,7 +114,7 @@ inline constexpr std::size_t kMaxPlanTableBytes = 16u << 20;
 
 // Reads a table, separated by commas, semicolons or tabs. Columns are found by their names in the
 // first line, in any order; object must be there. Without repetitions a row is one take. Other
-// columns are passed over. Reading ends at the first row beyond RecordingPlan::kMostRows, which is
+// columns are passed over. Reading ends at the first row beyond RecordingPlan::kMaxRows, which is
 // a problem. Throws Error when the first line has no column object, or names one twice, or a row
 // has more than kMaximumCells cells.
 PlanTable readPlanTable(std::string_view csv);

@@ -80,7 +80,7 @@ const HandDescription& movableHand();
 std::size_t numMovableFingers();
 
 // Length of the name of an object [bytes].
-constexpr std::size_t kMostObjectBytes = 100;
+constexpr std::size_t kMaxObjectBytes = 100;
 constexpr double kMinForceLimitN = 0.05;
 constexpr double kMaxForceLimitN = 500.0;
 

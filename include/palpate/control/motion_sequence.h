@@ -37,8 +37,8 @@ struct SequenceStep {
 std::string describe(const SequenceStep& step);  // one line: "hold: 2 s"
 
 struct MotionSequence {
-  static constexpr int kMostRepetitions = 10'000;
-  static constexpr std::size_t kMostSteps = 1000;
+  static constexpr int kMaxRepetitions = 10'000;
+  static constexpr std::size_t kMaxSteps = 1000;
   std::string hand;  // HandDescription::name
   std::vector<SequenceStep> steps;
   int repetitions = 1;  // 1..10000

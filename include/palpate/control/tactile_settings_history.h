@@ -12,7 +12,7 @@ namespace palpate {
 
 class TactileSettingsHistory {
  public:
-  static constexpr std::size_t kMostSteps = 100;
+  static constexpr std::size_t kMaxSteps = 100;
 
   // Call this before a change, with the settings that the controller has. What could be redone is
   // forgotten.

@@ -19,8 +19,8 @@ constexpr std::int64_t floorMs(std::int64_t us) {
 }
 // The microseconds of a time [ms] that was read from a file; nothing where they are out of range.
 constexpr std::optional<std::int64_t> checkedUs(std::int64_t ms) {
-  constexpr std::int64_t kMostMs = INT64_MAX / kUsPerMs;
-  return ms < -kMostMs || ms > kMostMs ? std::nullopt : std::optional(ms * kUsPerMs);
+  constexpr std::int64_t kMaxMs = INT64_MAX / kUsPerMs;
+  return ms < -kMaxMs || ms > kMaxMs ? std::nullopt : std::optional(ms * kUsPerMs);
 }
 
 // A source of time; tests use one that they set themselves.

@@ -35,7 +35,7 @@ struct PlannedValue {
 };
 
 // A number of a frame that is so much further on than that before is another numbering.
-constexpr double kMostMissingFrames = 1000.0;
+constexpr double kMaxMissingFrames = 1000.0;
 
 // When the rows of a series were measured.
 struct PlannedTime {

@@ -51,7 +51,7 @@ struct AverageOptions {
   static constexpr OptionRange kStepS{1e-6, 1e6, "s"};
   double stepS = 0.0;
   // Times at which fewer curves have a value are NaN.
-  static constexpr OptionRange kLeast{1, INT32_MAX};
+  static constexpr OptionRange kMinimum{1, INT32_MAX};
   std::size_t least = 2;
 
   // Throws std::invalid_argument that names the field.

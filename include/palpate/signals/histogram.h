@@ -16,7 +16,7 @@ struct Histogram {
   std::size_t notFinite = 0;        // values that are left out
 };
 
-inline constexpr std::size_t kMostHistogramBins = 1000;
+inline constexpr std::size_t kMaxHistogramBins = 1000;
 
 // `bins`: 1..1000; 0 chooses a number after Freedman and Diaconis 1981 (width 2 IQR / n^(1/3)), at
 // least that of Sturges (1 + lg2 n), as numpy's "auto", at most 200. Throws std::invalid_argument

@@ -25,8 +25,8 @@ bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 std::uint64_t boundFor(std::uint64_t freeBytes, double ratio, std::uint64_t fileBytes) noexcept {
   const double scaled = ratio * static_cast<double>(fileBytes);
-  constexpr double kMost = 9.0e18;
-  return std::max(freeBytes, static_cast<std::uint64_t>(std::clamp(scaled, 0.0, kMost)));
+  constexpr double kMaximum = 9.0e18;
+  return std::max(freeBytes, static_cast<std::uint64_t>(std::clamp(scaled, 0.0, kMaximum)));
 }
 
 std::uint64_t memoryBound(const DsaReadOptions& options,

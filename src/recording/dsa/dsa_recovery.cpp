@@ -267,9 +267,9 @@ void findLosses(const Profile& profile,
                 std::vector<std::optional<std::int64_t>> numbers,
                 DsaRecovery& result) {
   // Numbers may be damaged themselves.
-  constexpr std::int64_t kMostFrames = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int64_t kMaxFrames = std::numeric_limits<std::int32_t>::max();
   for (std::optional<std::int64_t>& number : numbers)
-    if (number && (*number < 0 || *number > kMostFrames)) number.reset();
+    if (number && (*number < 0 || *number > kMaxFrames)) number.reset();
   const std::size_t numFrames = profile.numFrames();
   const bool damaged = result.intactBlocks < result.blocks || result.cutSamples > 0 ||
                        result.badSamples > 0 || result.layoutAssumed;

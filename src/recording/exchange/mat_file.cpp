@@ -31,7 +31,7 @@ constexpr std::uint32_t kMiMatrix = 14;
 constexpr std::uint32_t kMiCompressed = 15;
 constexpr std::uint32_t kMiUtf16 = 17;
 
-constexpr std::uint64_t kMostVariableBytes = std::numeric_limits<std::int32_t>::max();
+constexpr std::uint64_t kMaxVariableBytes = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t kFieldNameBytes = kMaxMatName + 1;  // with the NUL at its end
 
 struct MatNumberType {
@@ -238,7 +238,7 @@ MatFile::MatFile(const std::filesystem::path& path, Overwrite overwrite, std::st
 
 void MatFile::add(const std::string& name, const MatValue& value) {
   const std::uint64_t bytes = value.numBytes(name);
-  if (bytes > kMostVariableBytes)
+  if (bytes > kMaxVariableBytes)
     throw FileError(out_.path(),
                     "a MAT file holds at most 2 GB per variable, '" + shortened(name) +
                         "' would have " + fixedText(static_cast<double>(bytes) / 1e9, 1) +

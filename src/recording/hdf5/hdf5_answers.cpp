@@ -17,16 +17,16 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostDataSets = 10'000;
-constexpr std::size_t kMostNameBytes = 4096;
-constexpr hsize_t kMostReadChunkBytes = 32u << 20;
+constexpr std::size_t kMaxDataSets = 10'000;
+constexpr std::size_t kMaxNameBytes = 4096;
+constexpr hsize_t kMaxReadChunkBytes = 32u << 20;
 constexpr std::size_t kAllNamesBytes = 4u << 20;
 constexpr std::size_t kTextsPerAnswerBytes = 1u << 20;
 constexpr hsize_t kTextsPerAnswer = 4096;
 // Chunks that are kept of one array, and of all.
 constexpr hsize_t kKeptChunksBytes = 32u << 20;
 constexpr std::size_t kAllKeptChunksBytes = 64u << 20;
-constexpr std::size_t kMostChunkSlots = 1u << 20;
+constexpr std::size_t kMaxChunkSlots = 1u << 20;
 
 struct Hdf5Fault {
   std::string text;
@@ -47,7 +47,7 @@ herr_t collectName(hid_t, const char* name, const Info* info, void* data) {
   if (text.size() > kAllNamesBytes - collected.bytes) return 1;
   collected.bytes += text.size();
   collected.names.emplace_back(text);
-  return collected.names.size() >= kMostDataSets ? 1 : 0;
+  return collected.names.size() >= kMaxDataSets ? 1 : 0;
 }
 
 Hdf5Kind kindOf(hid_t type) {
@@ -150,7 +150,7 @@ std::string storageFault(hid_t id, hid_t properties, hid_t space, Hdf5Facts& fac
   std::vector<hsize_t> chunk(shape.size());
   H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
   for (const hsize_t length : chunk)
-    if (__builtin_mul_overflow(bytes, length, &bytes) || bytes > kMostReadChunkBytes)
+    if (__builtin_mul_overflow(bytes, length, &bytes) || bytes > kMaxReadChunkBytes)
       return "has chunks that are too large to be read";
   if (!chunk.empty()) facts.chunkLength = chunk[0];
   hsize_t stored = 0;
@@ -224,7 +224,7 @@ ChunkBand chunkBandOf(hid_t id, const Hdf5Facts& facts) {
       return {};
     // The library's places are bit fields of the numbers of a chunk.
     band.slots *= std::bit_ceil(static_cast<std::size_t>(along));
-    if (band.slots > kMostChunkSlots) return {};
+    if (band.slots > kMaxChunkSlots) return {};
   }
   return band;
 }
@@ -238,8 +238,8 @@ Hdf5Id openArray(hid_t file, const std::string& name, const ChunkBand& kept) {
   return opened;
 }
 
-constexpr std::size_t kMostAxes = 8;
-constexpr std::size_t kMostAxisNameBytes = 256;
+constexpr std::size_t kMaxAxes = 8;
+constexpr std::size_t kMaxAxisNameBytes = 256;
 
 // An attribute with an element of this class for each axis, opened; nothing: there is none.
 Hdf5Id axisAttribute(hid_t array, const char* name, H5T_class_t kind, std::size_t numAxes) {
@@ -265,7 +265,7 @@ void readAxisLabels(hid_t array, std::vector<std::string>& names) {
   std::vector<char*> texts(names.size(), nullptr);
   if (H5Aread(attribute.get(), memory.get(), static_cast<void*>(texts.data())) < 0) return;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (texts[i]) names[i] = std::string_view(texts[i]).substr(0, kMostAxisNameBytes);
+    if (texts[i]) names[i] = std::string_view(texts[i]).substr(0, kMaxAxisNameBytes);
     H5free_memory(texts[i]);
   }
 }
@@ -284,7 +284,7 @@ void readAxisScales(hid_t array, std::vector<std::string>& names) {
   if (H5Aread(attribute.get(), memory.get(), lists.data()) < 0) return;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (lists[i].len == 0 || !names[i].empty()) continue;
-    std::string path(kMostAxisNameBytes, '\0');
+    std::string path(kMaxAxisNameBytes, '\0');
     const ssize_t length = H5Rget_name(array, H5R_OBJECT, lists[i].p, path.data(), path.size());
     if (length <= 0) continue;
     path.resize(std::min(static_cast<std::size_t>(length), path.size() - 1));
@@ -367,7 +367,7 @@ std::string Hdf5Answers::answer(std::span<const std::byte> request) {
   };
   try {
     if (!file_.ok()) fault("can't be opened as HDF5: it is cut off, damaged or being written");
-    if (name.size() > kMostNameBytes) fault("has too long a name");
+    if (name.size() > kMaxNameBytes) fault("has too long a name");
     switch (wanted) {
       case Hdf5Request::kOpen:
         break;
@@ -541,7 +541,7 @@ std::string Hdf5Answers::texts(const std::string& name, ByteReader& in) {
 std::string Hdf5Answers::axisNames(const std::string& name) {
   const Array& from = array(name);
   std::vector<std::string> names(from.facts.shape.size());
-  if (!names.empty() && names.size() <= kMostAxes) {
+  if (!names.empty() && names.size() <= kMaxAxes) {
     readAxisLabels(from.id.get(), names);
     readAxisScales(from.id.get(), names);
   }

@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostWaitingChunks = 48;
+constexpr std::size_t kMaxWaitingChunks = 48;
 
 // The bytes that HDF5's filters `shuffle` and `deflate` make of a chunk: the first bytes of all
 // elements, then the second ones, and so on, compressed as a zlib stream.
@@ -45,7 +45,7 @@ Hdf5Arrays::Hdf5Arrays(const std::filesystem::path& path,
                        const Hdf5WriteOptions& options)
     : out_(path, overwrite),
       level_(options.level),
-      work_(otherThreads(options.threads), kMostWaitingChunks) {}
+      work_(otherThreads(options.threads), kMaxWaitingChunks) {}
 
 Hdf5Id Hdf5Arrays::makeGroup(const std::string& name) {
   Hdf5Id group(H5Gcreate2(out_.file(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),

@@ -37,16 +37,16 @@ namespace fs = std::filesystem;
 namespace {
 
 // Bounds of what is read, so that a hostile file costs little time and memory.
-constexpr std::uint64_t kMostFrames = std::uint64_t{1} << 31;
-constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
-constexpr std::uint64_t kMostEvents = 1'000'000;
-constexpr std::uint64_t kMostMetaRows = 1'000;
-constexpr std::size_t kMostAttributeBytes = 60'000;
-constexpr std::size_t kMostSeriesNameBytes = kMaxSeries * (kMaxSeriesName + 1);
-constexpr std::size_t kMostMetaBytes = 2 * kHandFileByteLimit;
-constexpr std::size_t kMostTextBytes = 64u << 20;  // of all texts of a file together
-constexpr std::size_t kMostReadFrames = 4096;      // in one block
-constexpr std::size_t kMostReadRows = 8192;
+constexpr std::uint64_t kMaxFrames = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMaxSamples = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMaxEvents = 1'000'000;
+constexpr std::uint64_t kMaxMetaRows = 1'000;
+constexpr std::size_t kMaxAttributeBytes = 60'000;
+constexpr std::size_t kMaxSeriesNameBytes = kMaxSeries * (kMaxSeriesName + 1);
+constexpr std::size_t kMaxMetaBytes = 2 * kHandFileByteLimit;
+constexpr std::size_t kMaxHdf5TextBytes = 64u << 20;  // of all texts of a file together
+constexpr std::size_t kMaxReadFrames = 4096;          // in one block
+constexpr std::size_t kMaxReadRows = 8192;
 constexpr std::size_t kCachedFrameBlocks = 4;
 
 // One data set of the file, with the message of each fault.
@@ -99,7 +99,7 @@ class ReadArray {
         const std::size_t bytes = text.size() + sizeof text;
         if (bytes > left)
           fail("has too many texts: those of the file are more than " +
-               std::to_string(kMostTextBytes >> 20) + " MB");
+               std::to_string(kMaxHdf5TextBytes >> 20) + " MB");
         left -= bytes;
         result.push_back(std::move(text));
       }
@@ -204,10 +204,10 @@ class SampleSeries {
     values_->requireShape({timesUs_.size(), values_->shape()[1]});
     width_ = static_cast<std::size_t>(values_->shape()[1]);
     rowsPerBlock_ =
-        std::clamp<std::size_t>(static_cast<std::size_t>(values_->chunkLength()), 1, kMostReadRows);
+        std::clamp<std::size_t>(static_cast<std::size_t>(values_->chunkLength()), 1, kMaxReadRows);
     if (series < kHandSeries || !file.has(group + "/device_time_us")) return;
     deviceTimes_.emplace(file, group + "/device_time_us");
-    deviceTimes_->requireIntegers(kMostSamples);
+    deviceTimes_->requireIntegers(kMaxSamples);
     deviceTimes_->requireShape({timesUs_.size()});
   }
 
@@ -248,7 +248,7 @@ class SampleSeries {
   static StampSeries timesOf(Hdf5Process& file, const std::string& group) {
     if (!file.has(group)) throw FormatError(file.path(), "the group '" + group + "' is missing");
     if (!file.has(group + "/time_us")) return {};
-    return StampSeries(ReadArray(file, group + "/time_us"), kMostSamples);
+    return StampSeries(ReadArray(file, group + "/time_us"), kMaxSamples);
   }
 
   std::size_t series_;
@@ -266,18 +266,18 @@ class SampleSeries {
 std::vector<Event> hdf5EventsOf(Hdf5Process& file, std::size_t& textBytesLeft) {
   if (!file.has("events")) throw FormatError(file.path(), "the group 'events' is missing");
   const ReadArray stamps(file, "events/time_us");
-  stamps.requireIntegers(kMostEvents);
+  stamps.requireIntegers(kMaxEvents);
   const std::uint64_t count = stamps.shape()[0];
   const auto integers = [&](const char* name) {
     const ReadArray array(file, name);
-    array.requireIntegers(kMostEvents);
+    array.requireIntegers(kMaxEvents);
     array.requireShape({count});
     return array.integers(0, count);
   };
   const auto texts = [&](const char* name) {
     const ReadArray array(file, name);
     array.requireShape({count});
-    return array.texts(kMostEvents, 2 * kMaxEventBytes, textBytesLeft);
+    return array.texts(kMaxEvents, 2 * kMaxEventBytes, textBytesLeft);
   };
   const auto times = stamps.integers(0, count);
   const auto ends = integers("events/end_us");
@@ -307,10 +307,10 @@ std::vector<Event> hdf5EventsOf(Hdf5Process& file, std::size_t& textBytesLeft) {
 RecordingMeta hdf5MetaOf(Hdf5Process& file, std::size_t& textBytesLeft) {
   if (!file.has("meta")) throw FormatError(file.path(), "the group 'meta' is missing");
   const auto keys =
-      ReadArray(file, "meta/key").texts(kMostMetaRows, kMostAttributeBytes, textBytesLeft);
+      ReadArray(file, "meta/key").texts(kMaxMetaRows, kMaxAttributeBytes, textBytesLeft);
   const ReadArray valueArray(file, "meta/value");
   valueArray.requireShape({keys.size()});
-  auto values = valueArray.texts(kMostMetaRows, kMostMetaBytes, textBytesLeft);
+  auto values = valueArray.texts(kMaxMetaRows, kMaxMetaBytes, textBytesLeft);
   RecordingMeta meta;
   for (std::size_t i = 0; i < keys.size(); ++i) meta[keys[i]] = std::move(values[i]);
   return meta;
@@ -318,7 +318,7 @@ RecordingMeta hdf5MetaOf(Hdf5Process& file, std::size_t& textBytesLeft) {
 
 Provenance hdf5ProvenanceOf(Hdf5Process& file) {
   const auto text = [&](const char* name) {
-    return file.textAttribute("", name, kMostAttributeBytes).value_or("");
+    return file.textAttribute("", name, kMaxAttributeBytes).value_or("");
   };
   Provenance from;
   from.program = text("program");
@@ -339,7 +339,7 @@ class Hdf5Storage final : public ProfileStorage {
         events_(hdf5EventsOf(*file_, textBytesLeft_)),
         further_(furtherSeries()),
         layout_(readLayout()),
-        timesUs_(ReadArray(*file_, "tactile/time_us"), kMostFrames) {
+        timesUs_(ReadArray(*file_, "tactile/time_us"), kMaxFrames) {
     samples_.emplace_back(*file_, kAngleSeries, "");
     samples_.emplace_back(*file_, kTemperatureSeries, "");
     for (const SeriesDescription& series : further_) {
@@ -380,7 +380,7 @@ class Hdf5Storage final : public ProfileStorage {
     framesPerBlock_ = std::clamp<std::size_t>(
         std::min<std::size_t>(static_cast<std::size_t>(matrices_[0].chunkLength()), fitting),
         1,
-        kMostReadFrames);
+        kMaxReadFrames);
   }
 
   const SensorLayout& layout() const { return layout_; }
@@ -449,7 +449,7 @@ class Hdf5Storage final : public ProfileStorage {
     std::vector<SeriesDescription> all;
     if (!file_->has("series")) return all;
     const auto names =
-        file_->textAttribute("series", hdf5_layout::kSeriesNames, kMostSeriesNameBytes);
+        file_->textAttribute("series", hdf5_layout::kSeriesNames, kMaxSeriesNameBytes);
     if (!names) throw FormatError(file_->path(), "the group 'series' has no attribute names");
     std::istringstream list(*names);
     for (std::string name; std::getline(list, name, ',');) {
@@ -460,14 +460,14 @@ class Hdf5Storage final : public ProfileStorage {
                           "the group " + inQuotes(group) + " is missing, or one too many");
       const auto texts = [&](const char* array) {
         return ReadArray(*file_, group + array)
-            .texts(kMaxColumns, kMostAttributeBytes, textBytesLeft_);
+            .texts(kMaxColumns, kMaxAttributeBytes, textBytesLeft_);
       };
       const auto columns = texts("/column");
       const auto units = texts("/unit");
       for (std::size_t i = 0; i < columns.size(); ++i)
         series.columns.push_back({columns[i], i < units.size() ? units[i] : ""});
       const auto said = [&](const char* attribute) {
-        return file_->textAttribute(group, attribute, kMostAttributeBytes).value_or("");
+        return file_->textAttribute(group, attribute, kMaxAttributeBytes).value_or("");
       };
       series.role = said("role");
       series.source = said("source");
@@ -523,7 +523,7 @@ class Hdf5Storage final : public ProfileStorage {
       matrix.dynamicMask = readMask(name + "_dynamic_mask", {shape[1], shape[2]});
     }
     if (matrices.empty()) throw FormatError(file_->path(), "\"tactile/m0\" is missing");
-    const auto rules = file_->textAttribute("tactile", kTouchRulesKey, kMostAttributeBytes);
+    const auto rules = file_->textAttribute("tactile", kTouchRulesKey, kMaxAttributeBytes);
     try {
       SensorLayout layout(std::move(matrices));
       return rules ? withTouchRules(layout, *rules) : std::move(layout);
@@ -556,10 +556,10 @@ class Hdf5Storage final : public ProfileStorage {
         // Values outside of the type of the memory are cut to its ends: INT32 holds what is wrong.
         std::vector<std::int32_t> counts(number);
         matrices_[m].read<std::int32_t>(first, count, Hdf5Number::kI32, counts);
-        constexpr std::int32_t kMostCounts = 4095;
+        constexpr std::int32_t kMaxCounts = 4095;
         bool plausible = true;
         for (std::size_t k = 0; k < number; ++k) {
-          plausible &= counts[k] >= 0 && counts[k] <= kMostCounts;
+          plausible &= counts[k] >= 0 && counts[k] <= kMaxCounts;
           values[k] = static_cast<float>(counts[k]);
         }
         if (!plausible)
@@ -590,7 +590,7 @@ class Hdf5Storage final : public ProfileStorage {
   }
 
   std::unique_ptr<Hdf5Process> file_;
-  std::size_t textBytesLeft_ = kMostTextBytes;
+  std::size_t textBytesLeft_ = kMaxHdf5TextBytes;
   Provenance from_;
   RecordingMeta meta_;
   std::vector<Event> events_;
@@ -610,7 +610,7 @@ class Hdf5Storage final : public ProfileStorage {
 
 void requirePalpateLayout(Hdf5Process& file) {
   const fs::path& path = file.path();
-  if (file.textAttribute("", "format", kMostAttributeBytes) != hdf5_layout::kFormat)
+  if (file.textAttribute("", "format", kMaxAttributeBytes) != hdf5_layout::kFormat)
     throw FormatError(path,
                       "is an HDF5 file of another program; import its tables ('palpate import')");
   const auto version = file.integerAttribute("", "format_version");

@@ -17,8 +17,8 @@ namespace {
 
 // Memory for the result grows by steps, which are in proportion to what is to be decompressed: a
 // false size costs little.
-constexpr std::size_t kLeastMcapStep = 64u << 10;
-constexpr std::size_t kMostMcapStep = 4u << 20;
+constexpr std::size_t kMinMcapStep = 64u << 10;
+constexpr std::size_t kMaxMcapStep = 4u << 20;
 constexpr std::size_t kMcapStepPerByte = 32;
 
 std::string mcapLz4(std::string_view raw) {
@@ -52,8 +52,7 @@ std::string mcapDecompressBy(Step decompress,
                              std::string& raw) {
   raw.clear();
   raw.reserve(size + 1);  // takes no memory before it is written to
-  const std::size_t step =
-      std::clamp(kMcapStepPerByte * packed.size(), kLeastMcapStep, kMostMcapStep);
+  const std::size_t step = std::clamp(kMcapStepPerByte * packed.size(), kMinMcapStep, kMaxMcapStep);
   std::size_t used = 0;
   std::size_t made = 0;
   while (true) {

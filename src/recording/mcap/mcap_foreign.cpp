@@ -564,14 +564,14 @@ class ForeignReader {
                          std::uint16_t channel,
                          std::string frameId,
                          const std::set<std::string>& joints) {
-    constexpr std::size_t kMostSeries = 4096;
+    constexpr std::size_t kMaxForeignSeries = 4096;
     const auto same = [&](const ForeignSeries& each) {
       return each.topic == topic && each.channel == channel && each.frameId == frameId &&
              each.joints == joints;
     };
     if (lastSeries_ < series_.size() && same(series_[lastSeries_])) return lastSeries_;
     auto found = std::find_if(series_.begin(), series_.end(), same);
-    if (found == series_.end() && series_.size() >= kMostSeries) {
+    if (found == series_.end() && series_.size() >= kMaxForeignSeries) {
       topics_[topic].hasManyIds = true;
       found = std::find_if(series_.begin(), series_.end(), [&](const ForeignSeries& each) {
         return each.topic == topic && each.joints == joints;
@@ -646,7 +646,7 @@ class ForeignReader {
   // Where the stamps of one topic are of another clock than those of another, as one that counts
   // from the start of a computer, all times are the log times.
   void useOneClock() {
-    constexpr std::int64_t kMostApartUs = 86'400'000'000;
+    constexpr std::int64_t kMaxApartUs = 86'400'000'000;
     std::optional<std::int64_t> least;
     std::optional<std::int64_t> most;
     std::string names;
@@ -656,9 +656,9 @@ class ForeignReader {
       if (!least || ahead < *least) least = ahead;
       if (!most || ahead > *most) most = ahead;
     }
-    if (!least || *most - *least <= kMostApartUs) return;
+    if (!least || *most - *least <= kMaxApartUs) return;
     for (const ForeignSeries& series : series_)
-      if (series.begun && std::abs(series.lastUs - series.lastLogUs) > kMostApartUs)
+      if (series.begun && std::abs(series.lastUs - series.lastLogUs) > kMaxApartUs)
         names += (names.empty() ? "" : ", ") + inQuotes(topics_[series.topic].name);
     for (ForeignPlace& place : places_) place.timeUs = place.logUs;
     for (ForeignSeries& series : series_) series.notLater = 0;

@@ -154,8 +154,8 @@ std::int64_t readProtoTime(std::string_view message) {
     else
       reader.skip(tag & 7);
   }
-  constexpr std::int64_t kMost = std::int64_t{1} << 40;
-  return std::clamp(seconds, -kMost, kMost) * kMcapUsPerSecond +
+  constexpr std::int64_t kMaximum = std::int64_t{1} << 40;
+  return std::clamp(seconds, -kMaximum, kMaximum) * kMcapUsPerSecond +
          std::clamp<std::int64_t>(nanos, 0, 999'999'999) / 1000;
 }
 

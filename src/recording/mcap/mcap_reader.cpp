@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::int64_t kMcapLatestUs = std::int64_t{1} << 60;  // as in a native recording
 constexpr std::size_t kCachedMcapBlocks = 4;
-constexpr float kMostMcapCounts = 4095.0F;
+constexpr float kMaxMcapCounts = 4095.0F;
 
 std::int64_t mcapTextNumber(const std::map<std::string, std::string>& texts,
                             const char* key,
@@ -409,7 +409,7 @@ class McapOwnFile {
                       layout_.offset(role.matrix);
     mcapPixels(*image, to);
     for (std::size_t k = 0; k < layout.numCells(); ++k) {
-      if (isFloat ? !std::isfinite(to[k]) : to[k] > kMostMcapCounts)
+      if (isFloat ? !std::isfinite(to[k]) : to[k] > kMaxMcapCounts)
         return isFloat ? "has a value that is not a number"
                        : "has a value that is not in 0..4095 counts";
     }

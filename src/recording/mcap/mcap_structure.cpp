@@ -196,8 +196,8 @@ class McapWalk {
   }
 
   void takeAttachment(std::uint64_t at, std::uint64_t length) {
-    constexpr std::uint64_t kMostHead = 64u << 10;
-    file_.read(at, static_cast<std::size_t>(std::min(length, kMostHead)), content_);
+    constexpr std::uint64_t kMaxHead = 64u << 10;
+    file_.read(at, static_cast<std::size_t>(std::min(length, kMaxHead)), content_);
     McapContentReader head(content_);
     head.number<std::uint64_t>();
     head.number<std::uint64_t>();
@@ -243,8 +243,8 @@ class McapWalk {
 
   void takeChunk(std::uint64_t at, std::uint64_t length) {
     endLoosePiece();
-    constexpr std::uint64_t kMostHead = 256;
-    file_.read(at, static_cast<std::size_t>(std::min(length, kMostHead)), content_);
+    constexpr std::uint64_t kMaxHead = 256;
+    file_.read(at, static_cast<std::size_t>(std::min(length, kMaxHead)), content_);
     McapContentReader head(content_);
     McapPiece piece;
     head.number<std::uint64_t>();

@@ -32,7 +32,7 @@ constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
 constexpr std::size_t kItemHeadBytes = 4 + 8;
 constexpr std::int64_t kLargestOffsetUs = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kLongestItem = kItemHeadBytes + 8 * kMaxPlaces;
-constexpr std::int64_t kMostItems = kMaxBlockBytes / kItemHeadBytes;
+constexpr std::int64_t kMaxItems = kMaxBlockBytes / kItemHeadBytes;
 constexpr std::int64_t kLatestUs = std::int64_t{1} << 60;  // the year 38505
 
 bool exactAsFloat(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
@@ -168,8 +168,8 @@ void BlockPacker::flush() {
 bool plausible(const Block& block) noexcept {
   return static_cast<std::size_t>(block.stream) < kMaxStreams &&
          static_cast<int>(valueCoding(block.coding)) <= 4 && block.first >= 0 &&
-         block.first <= std::numeric_limits<std::int64_t>::max() - kMostItems && block.n >= 1 &&
-         block.n <= kMostItems && block.t0Us >= -kLatestUs && block.t1Us <= kLatestUs &&
+         block.first <= std::numeric_limits<std::int64_t>::max() - kMaxItems && block.n >= 1 &&
+         block.n <= kMaxItems && block.t0Us >= -kLatestUs && block.t1Us <= kLatestUs &&
          block.t1Us >= block.t0Us &&
          static_cast<std::size_t>(block.n) * kItemHeadBytes < block.data.size() &&
          block.data.size() <= (block.n == 1 ? kLongestItem : kMaxBlockBytes);

@@ -169,8 +169,8 @@ std::optional<TextRow<kTexts>> textRowAt(std::span<const std::byte> page,
 // A row of the table of meta data: key, value and their checksum.
 std::optional<std::pair<std::string, std::string>> metaRowAt(std::span<const std::byte> page,
                                                              std::size_t at) {
-  constexpr std::size_t kMostKey = 256, kMostValue = 8192;  // [bytes]
-  auto row = textRowAt<2>(page, at, false, {kMostKey, kMostValue});
+  constexpr std::size_t kMaxKey = 256, kMaxValue = 8192;  // [bytes]
+  auto row = textRowAt<2>(page, at, false, {kMaxKey, kMaxValue});
   if (!row || row->texts[0].empty() ||
       row->crc != static_cast<std::int64_t>(metaCrc(row->texts[0], row->texts[1])))
     return std::nullopt;
@@ -180,8 +180,8 @@ std::optional<std::pair<std::string, std::string>> metaRowAt(std::span<const std
 // Adds what a row of the table of series describes, if it is one that isn't there yet: true then.
 // Which series it is of, only its checksum tells.
 bool addSeriesRowAt(std::span<const std::byte> page, std::size_t at, SeriesRows& series) {
-  constexpr std::size_t kMost = 4096;  // longer ones don't fit into a page
-  const auto row = textRowAt<4>(page, at, true, {kMaxSeriesName, kMost, kMost, kMost});
+  constexpr std::size_t kMaximum = 4096;  // longer ones don't fit into a page
+  const auto row = textRowAt<4>(page, at, true, {kMaxSeriesName, kMaximum, kMaximum, kMaximum});
   if (!row || row->texts[0].empty()) return false;
   const auto found = seriesFrom(row->texts[0], row->texts[1], row->texts[2], row->texts[3]);
   if (!found) return false;
@@ -333,8 +333,8 @@ void readBlocks(SqliteDatabase& database,
 
 // SQLite's own check of its trees; flipped values it doesn't see.
 void checkIntegrity(SqliteDatabase& database) {
-  constexpr std::int64_t kMostPages = std::int64_t{1} << 28;  // the check needs a bit for each
-  if (database.integerOf("PRAGMA page_count") > kMostPages)
+  constexpr std::int64_t kMaxPages = std::int64_t{1} << 28;  // the check needs a bit for each
+  if (database.integerOf("PRAGMA page_count") > kMaxPages)
     throw FormatError(database.path(), "has too many pages");
   SqliteStatement check = database.prepare("PRAGMA integrity_check(1)");
   if (check.next() && check.text(0) != "ok") {
@@ -445,19 +445,19 @@ bool everyFrameHas(const BlockStore& blocks, std::size_t numValues) {
 
 // Items that the recording once had, as far as it tells.
 std::int64_t expectedItems(const Findings& found, Stream stream) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 40;
+  constexpr std::int64_t kMaximum = std::int64_t{1} << 40;
   std::int64_t expected = found.meta.integer(samplesKey(stream)).value_or(0);
   if (stream == Stream::kTactile) {
     std::int64_t inSeconds = 0;
     for (const SecondSummary& row : found.seconds)
-      if (row.matrix == 0 && row.frames > 0 && row.frames < kMost && inSeconds < kMost)
+      if (row.matrix == 0 && row.frames > 0 && row.frames < kMaximum && inSeconds < kMaximum)
         inSeconds += row.frames;
     expected = std::max(expected, inSeconds);
   }
   const auto& blocks = found.blocks->stream(stream);
   if (!blocks.empty())
     expected = std::max(expected, blocks.rbegin()->first + blocks.rbegin()->second.n);
-  return std::clamp<std::int64_t>(expected, 0, kMost);
+  return std::clamp<std::int64_t>(expected, 0, kMaximum);
 }
 
 // An event for items that are missing between two times: without it, a reader of the saved

@@ -412,7 +412,7 @@ std::optional<std::int64_t> MetaRows::integer(const std::string& key) const {
 }
 
 MetaRows readMeta(SqliteDatabase& database) {
-  constexpr std::size_t kMostRows = 1000;
+  constexpr std::size_t kMaxRows = 1000;
   MetaRows meta;
   SqliteStatement rows = database.prepare("SELECT key, value, crc32 FROM meta");
   while (rows.next()) {
@@ -422,7 +422,7 @@ MetaRows readMeta(SqliteDatabase& database) {
       ++meta.damaged;
     else
       meta.values.insert_or_assign(std::move(key), std::move(value));
-    if (meta.damaged + meta.values.size() > kMostRows)
+    if (meta.damaged + meta.values.size() > kMaxRows)
       throw FormatError(database.path(), "has too many rows of meta data");
   }
   return meta;
@@ -575,14 +575,14 @@ std::int64_t writeOverview(SqliteDatabase& database, std::size_t numMatrices) {
 std::optional<std::vector<SecondSummary>> readOverview(SqliteDatabase& database,
                                                        std::size_t numMatrices,
                                                        std::int64_t numSeconds) {
-  constexpr std::int64_t kMostSeconds = 100'000'000;  // three years
-  if (numSeconds < 1 || numSeconds > kMostSeconds ||
+  constexpr std::int64_t kMaxSeconds = 100'000'000;  // three years
+  if (numSeconds < 1 || numSeconds > kMaxSeconds ||
       database.integerOf("SELECT count(*) FROM sqlite_schema WHERE name='overview'") != 1)
     return std::nullopt;
   std::vector<SecondSummary> seconds;
   // A false number of seconds must not cost memory.
-  constexpr std::int64_t kMostReserved = 200'000;
-  seconds.reserve(static_cast<std::size_t>(std::min(numSeconds, kMostReserved)) * numMatrices);
+  constexpr std::int64_t kMaxReserved = 200'000;
+  seconds.reserve(static_cast<std::size_t>(std::min(numSeconds, kMaxReserved)) * numMatrices);
   std::int64_t read = 0;
   std::int64_t lastId = 0;
   SqliteStatement rows = database.prepare("SELECT id, n, crc32, data FROM overview ORDER BY id");

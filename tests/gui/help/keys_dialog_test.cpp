@@ -73,7 +73,7 @@ TEST_F(KeysDialogTest, ShowsTheListAndTheMouse) {
 
 // Only upwards and downwards, also on a small screen and with large text.
 TEST_F(KeysDialogTest, IsNotScrolledSideways) {
-  for (const int pt : {0, 12, 15, kMostTextPt})
+  for (const int pt : {0, 12, 15, kMaxInterfaceTextPt})
     for (const QSize size : {QSize(1024, 768), QSize(1280, 800), QSize(1366, 768)}) {
       applyTextPt(pt);
       window().resize(size);

@@ -21,8 +21,8 @@ namespace palpate::gui::golden_pictures_test {
 namespace {
 
 constexpr int kSmaller = 10;
-constexpr int kNear = 24;            // of 255, per colour
-constexpr double kMostOther = 0.03;  // part of the pixels that may be further off
+constexpr int kNear = 24;           // of 255, per colour
+constexpr double kMaxOther = 0.03;  // part of the pixels that may be further off
 
 QImage small(const QImage& image) {
   return image
@@ -54,7 +54,7 @@ void compare(const QImage& picture, const std::string& name) {
   const QImage golden = QImage(path).convertToFormat(QImage::Format_RGB32);
   ASSERT_FALSE(golden.isNull()) << path.toStdString();
   ASSERT_EQ(now.size(), golden.size());
-  EXPECT_LE(partThatDiffers(now, golden), kMostOther) << name;
+  EXPECT_LE(partThatDiffers(now, golden), kMaxOther) << name;
 }
 
 class GoldenPicturesTest : public WindowTest {
@@ -111,7 +111,7 @@ TEST_F(GoldenPicturesTest, AnotherPictureIsTold) {
   QCoreApplication::processEvents();
   EXPECT_GT(partThatDiffers(
                 small(window().feature<MatricesFeature>().panel().view().grab().toImage()), before),
-            kMostOther);
+            kMaxOther);
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ class TextSizeFitsTest : public WindowFitsTest, public ::testing::WithParamInter
   ~TextSizeFitsTest() override { applyTextPt(0); }
   // The largest text needs a window of the usual size.
   static std::vector<QSize> sizes() {
-    if (GetParam() == kMostTextPt) return {{1440, 900}};
+    if (GetParam() == kMaxInterfaceTextPt) return {{1440, 900}};
     return {std::begin(kSizes), std::end(kSizes)};
   }
 };

@@ -17,7 +17,7 @@ namespace {
 
 INSTANTIATE_TEST_SUITE_P(Sizes,
                          TextSizeFitsTest,
-                         ::testing::Values(12, 15, kMostTextPt),
+                         ::testing::Values(12, 15, kMaxInterfaceTextPt),
                          ::testing::PrintToStringParamName());
 
 TEST_F(WindowFitsTest, ARecordingWithEveryDock) {
@@ -195,7 +195,7 @@ TEST_P(TextSizeFitsTest, InspectIsNotScrolledSideways) {
   window().setAnimated(false);
   for (const QSize size : sizes())
     for (const int width : {0, 440, 480, 520}) {
-      if (GetParam() == kMostTextPt && width > 0 && width < 500) continue;
+      if (GetParam() == kMaxInterfaceTextPt && width > 0 && width < 500) continue;
       window().resize(size);
       window().docks().reset();
       window().docks().show("Inspect");
@@ -232,7 +232,7 @@ TEST_P(TextSizeFitsTest, InspectShowsItsNumbersInFull) {
 
 TEST_P(TextSizeFitsTest, InspectOfALiveHandIsNotScrolledSideways) {
   // The dock Hand leaves too little beside it with the largest text.
-  if (GetParam() == kMostTextPt) return;
+  if (GetParam() == kMaxInterfaceTextPt) return;
   connectEmulated();
   window().setAnimated(false);
   window().resize(1366, 768);

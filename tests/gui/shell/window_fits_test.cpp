@@ -19,7 +19,7 @@ namespace {
 
 INSTANTIATE_TEST_SUITE_P(Sizes,
                          TextSizeFitsTest,
-                         ::testing::Values(kMostTextPt),
+                         ::testing::Values(kMaxInterfaceTextPt),
                          ::testing::PrintToStringParamName());
 
 TEST_P(TextSizeFitsTest, EveryDockInTheLargestText) {
@@ -369,7 +369,7 @@ TEST_F(WindowFitsTest, TheDockHandHasItsWidthAgainAfterLargerText) {
   };
   const int before = dock->width();
   const auto hintsBefore = hints();
-  applyTextPt(kMostTextPt);
+  applyTextPt(kMaxInterfaceTextPt);
   ASSERT_TRUE(QTest::qWaitFor([&] { return dock->width() > before; }));
   applyTextPt(0);
   EXPECT_TRUE(QTest::qWaitFor([&] { return dock->width() == before; }))

@@ -5,11 +5,11 @@ namespace palpate::gui {
 QString unitOf(const HandDescription& hand) { return QString::fromStdString(hand.unit); }
 
 int decimalsOf(const HandDescription& hand) {
-  constexpr int kMostDecimals = 6;
+  constexpr int kMaxDecimals = 6;
   constexpr double kThreeDigits = 100.0;
   int decimals = 0;
   double scaled = static_cast<double>(hand.maximumCounts);
-  for (; scaled < kThreeDigits && decimals < kMostDecimals; scaled *= 10.0) ++decimals;
+  for (; scaled < kThreeDigits && decimals < kMaxDecimals; scaled *= 10.0) ++decimals;
   return decimals;
 }
 

@@ -28,7 +28,7 @@ double textScale() noexcept { return presentScale(); }
 
 int loadTextPt(const QSettings& settings) {
   const int pt = settings.value(kTextPtKey, 0).toInt();
-  return pt >= kLeastTextPt && pt <= kMostTextPt ? pt : 0;
+  return pt >= kMinInterfaceTextPt && pt <= kMaxInterfaceTextPt ? pt : 0;
 }
 
 void saveTextPt(int pt, QSettings& settings) { settings.setValue(kTextPtKey, pt); }

@@ -6,8 +6,8 @@
 namespace palpate::gui {
 
 // Sizes that can be chosen [pt]; 0: that of the desktop.
-inline constexpr int kLeastTextPt = 7;
-inline constexpr int kMostTextPt = 18;
+inline constexpr int kMinInterfaceTextPt = 7;
+inline constexpr int kMaxInterfaceTextPt = 18;
 
 // 0 where nothing, or nothing sensible, was chosen.
 int loadTextPt(const QSettings& settings);

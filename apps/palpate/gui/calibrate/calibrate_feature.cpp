@@ -35,8 +35,8 @@ CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       panel_(new CalibratePanel(windowState.settings, windowState.ask, window)),
       calibrations_(new CalibrationCache(window)) {
-  dock_ = new Dock(
-      "Calibrate", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
+  dock_ =
+      new Dock("Calibrate", new ContentScroll(panel_, kMinDockContent), &panel_->header(), window);
   pressures_ = std::make_unique<Pressures>(windowState, *calibrations_, panel_->force());
   connect(&windowState.displayed, &DisplayedSource::shown, this, &CalibrateFeature::takeSource);
   connect(&windowState.events, &EventController::changed, this, &CalibrateFeature::takeKept);

@@ -20,7 +20,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kMeasureLookMs = 50;
-constexpr int kMostMeasureS = 600;
+constexpr int kMaxMeasureS = 600;
 constexpr int kMeasureSteps = 1000;
 constexpr int kMeasureBarHeight = 8;  // [px]
 // States of an axis (Device::axisStates) in which it moves.
@@ -55,7 +55,7 @@ MeasureRow::MeasureRow(QSettings& settings, Setup setup, QWidget* parent)
                    setup_.part + "MeasureSeconds",
                    "Seconds to measure the connected hand",
                    "Seconds to measure");
-  seconds_->setRange(1, kMostMeasureS);
+  seconds_->setRange(1, kMaxMeasureS);
   // A stored value that is no number becomes the usual one.
   bool valid = false;
   const int stored =

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kAcross = 120, kUp = 80;     // number of cells
 constexpr double kSurfaceChartAir = 0.12;  // margin beside the samples, as a part of the span
-constexpr double kLeastSpanDegC = 4.0;
+constexpr double kMinSpanDegC = 4.0;
 constexpr double kSurfaceChartPointSize = 7.0, kSurfaceChartChosenSize = 12.0;  // [px]
 constexpr int kBeyondAlpha = 90;  // of 255; opacity outside the measured region
 
@@ -81,7 +81,7 @@ void SurfaceChart::style() {
   }
   const double airK = kSurfaceChartAir * std::max(mostK - leastK, 1.0);
   const double airT =
-      std::max(kSurfaceChartAir * (mostT - leastT), 0.5 * (kLeastSpanDegC - (mostT - leastT)));
+      std::max(kSurfaceChartAir * (mostT - leastT), 0.5 * (kMinSpanDegC - (mostT - leastT)));
   const QCPRange k(std::max(0.0, leastK - airK), mostK + airK), t(leastT - airT, mostT + airT);
   xAxis->setRange(k);
   yAxis->setRange(t);

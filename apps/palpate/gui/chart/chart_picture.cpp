@@ -20,7 +20,7 @@ constexpr double kChartPictureGap = 6.0;      // [units] between a line and its 
 constexpr double kEntryGap = 18.0;            // [units] between entries
 // Line spacing of the legend.
 constexpr double kLineSpacing = 1.3;
-constexpr double kLeastContrast = 3.0;
+constexpr double kMinContrast = 3.0;
 constexpr double kMinAxisLines = 3.0;  // shortest axis [lines of text]
 
 double luminance(const QColor& color) {
@@ -237,7 +237,7 @@ QColor inkOf(const QColor& color) {
   // Translucent shades work on white as on black.
   if (color.alpha() < 255) return color;
   QColor ink = color;
-  while (contrastOnWhite(ink) < kLeastContrast) ink = ink.darker(110);
+  while (contrastOnWhite(ink) < kMinContrast) ink = ink.darker(110);
   return ink;
 }
 

@@ -23,7 +23,7 @@ void styleAxis(QCPAxis& axis, const ThemeColors& colors, const QFont& font) {
 
 // Numbers that would lie on each other in a low or narrow chart are left out.
 void fitTicks(QCustomPlot& plot) {
-  constexpr int kMostAlong = 4, kMostAcross = 9;
+  constexpr int kMaxAlong = 4, kMaxAcross = 9;
   const int line = plot.fontMetrics().lineSpacing();
   constexpr int kNumberWidth = 62;  // [px] with a gap
   bool changed = false;
@@ -35,8 +35,8 @@ void fitTicks(QCustomPlot& plot) {
     changed = true;
   };
   for (QCPAxisRect* rect : plot.axisRects()) {
-    const int along = std::clamp(2 * rect->height() / (3 * line), 1, kMostAlong);
-    const int across = std::clamp(rect->width() / kNumberWidth, 2, kMostAcross);
+    const int along = std::clamp(2 * rect->height() / (3 * line), 1, kMaxAlong);
+    const int across = std::clamp(rect->width() / kNumberWidth, 2, kMaxAcross);
     for (QCPAxis* axis : rect->axes(QCPAxis::atLeft | QCPAxis::atRight)) fit(axis, along);
     for (QCPAxis* axis : rect->axes(QCPAxis::atBottom)) fit(axis, across);
   }

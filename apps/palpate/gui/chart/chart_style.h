@@ -23,7 +23,7 @@ inline constexpr double kWheelNotch = 120.0;
 inline constexpr double kWheelZoom = 1.25;
 
 // Height of a chart in which curves can be read, with the numbers below it [lines of text].
-inline constexpr int kLeastChartLines = 5;
+inline constexpr int kMinChartLines = 5;
 
 // Sets up the numbers, ticks and margins of both axes; called once per chart.
 void arrangeChart(QCustomPlot& plot);

@@ -30,7 +30,7 @@ constexpr double kOverlaidWidth = 1.1;
 constexpr double kAverageWidth = 2.6;
 constexpr int kOverlaidOpacity = 150;  // of 255
 constexpr int kBandOpacity = 45;       // of 255
-constexpr std::size_t kMostInTip = 12;
+constexpr std::size_t kMaxInTip = 12;
 
 QPen overlaidPen(std::size_t recording) {
   QColor color = recording == 0   ? sideColor(CompareSide::kA)
@@ -378,12 +378,12 @@ QString CompareChart::valuesAt(double seconds) const {
   line("B", *curves_.b, curves_.curveB, longestB_, seconds - curves_.offsetS);
   const ComparedCurves& overlaid = curves_.overlaid;
   const std::vector<double> now = {seconds - overlaid.zeroS};
-  for (std::size_t i = 0; i < std::min(overlaidGraphs_.size(), kMostInTip); ++i) {
+  for (std::size_t i = 0; i < std::min(overlaidGraphs_.size(), kMaxInTip); ++i) {
     const OverlaidCurve& each = overlaid.curves[overlaidGraphs_[i].first];
     const double value = alignedValues(each.curve, now).front();
     if (std::isfinite(value)) text += "\n" + each.name + "  " + unit.text(value, 1);
   }
-  if (overlaidGraphs_.size() > kMostInTip)
+  if (overlaidGraphs_.size() > kMaxInTip)
     text += "\n… " + QString::number(overlaidGraphs_.size()) + " curves";
   for (const OverlaidAverage& of : overlaid.averages) {
     const AverageCurve& average = *of.curve;

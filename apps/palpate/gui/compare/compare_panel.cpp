@@ -34,8 +34,8 @@ namespace {
 
 constexpr int kViewShare = 5;  // shares of the height: heat maps and chart
 constexpr int kChartShare = 2;
-constexpr int kLeastHeight = 150;  // [px] of heat maps and chart together; they scroll then
-constexpr int kBesideBoxes = 16;   // [px] between the boxes above the chart and the figures
+constexpr int kMinHeight = 150;   // [px] of heat maps and chart together; they scroll then
+constexpr int kBesideBoxes = 16;  // [px] between the boxes above the chart and the figures
 
 bool contains(const std::vector<OpenedRecordingPtr>& all, const OpenedRecordingPtr& one) {
   return one && std::find(all.begin(), all.end(), one) != all.end();
@@ -46,7 +46,7 @@ int comparePanelIndexOf(const std::vector<OpenedRecordingPtr>& all, const Opened
   return at == all.end() ? -1 : static_cast<int>(at - all.begin());
 }
 
-constexpr double kLeastRange = 1.0;     // [counts]
+constexpr double kMinRange = 1.0;       // [counts]
 constexpr double kHeatMapShare = 0.62;  // of the height of an exported picture
 
 double comparePanelViewLargestOf(const TactileFrame& frame) {
@@ -94,7 +94,7 @@ void ComparePanel::build(QAction* leave, QAction* interpolated, QAction* values)
                Space::kNone));
   stack_ = new FittingPages(this);
   stack_->addWidget(makeEmpty());
-  stack_->addWidget(new ContentScroll(content, {0, kLeastHeight}, this));
+  stack_->addWidget(new ContentScroll(content, {0, kMinHeight}, this));
   setLayout(inColumn({header_, {stack_, 1}}, Space::kNone));
 }
 
@@ -638,8 +638,8 @@ ComparePictureOptions ComparePanel::pictureOptions() const {
       options.largestDifference = answer_.largestDifference.value_or(maximum);
       break;
   }
-  maximum = std::max(maximum, options.look.rangeMin + kLeastRange);
-  options.largestDifference = std::max(options.largestDifference, kLeastRange);
+  maximum = std::max(maximum, options.look.rangeMin + kMinRange);
+  options.largestDifference = std::max(options.largestDifference, kMinRange);
   return options;
 }
 

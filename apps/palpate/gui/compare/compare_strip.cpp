@@ -14,7 +14,7 @@ constexpr int kBar = 11;                 // [px] height
 constexpr int kCompareStripBetween = 4;  // [px]
 constexpr int kCompareStripAround = 4;   // [px]
 // [px] smallest width, so that a single frame is visible and can be dragged
-constexpr double kLeast = 8.0;
+constexpr double kMinimum = 8.0;
 constexpr double kContact = 2.0;  // [px]
 
 }  // namespace
@@ -40,7 +40,7 @@ QRectF CompareStrip::barRect(bool ofB) const {
   const double left = chart_.pixelOf(beginS);
   const double right = chart_.pixelOf(beginS + timed->timing.durationS);
   const double top = kCompareStripAround + (ofB ? kBar + kCompareStripBetween : 0);
-  return {left, top, std::max(kLeast, right - left), static_cast<double>(kBar)};
+  return {left, top, std::max(kMinimum, right - left), static_cast<double>(kBar)};
 }
 
 void CompareStrip::paintBar(QPainter& painter, bool ofB) const {

@@ -27,7 +27,7 @@ namespace {
 
 constexpr QSize kConnectDialogUsualSize(840, 500);
 constexpr int kKindsWidth = 236;          // [px]
-constexpr int kLeastKindsHeight = 160;    // [px]
+constexpr int kMinKindsHeight = 160;      // [px]
 constexpr int kConnectDialogMargin = 20;  // [px]
 constexpr QSize kMinimumPage(380, 160);   // [px]
 
@@ -131,7 +131,7 @@ QWidget* ConnectDialog::makeKinds() {
   column->addWidget(calm_);
   // Names are never cut, however large the text is; with little height the column scrolls.
   side->setMinimumWidth(std::max(kKindsWidth, column->minimumSize().width()));
-  auto* scroll = new ContentScroll(side, QSize(0, kLeastKindsHeight), this);
+  auto* scroll = new ContentScroll(side, QSize(0, kMinKindsHeight), this);
   scroll->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
   return scroll;
 }

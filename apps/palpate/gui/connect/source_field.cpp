@@ -21,8 +21,8 @@ namespace {
 
 constexpr int kUsualPort = 9871;
 constexpr int kHighestPort = 65'535;
-constexpr int kLeastBaud = static_cast<int>(StreamDeviceOptions::kBaud.minimum);
-constexpr int kMostBaud = static_cast<int>(StreamDeviceOptions::kBaud.maximum);
+constexpr int kMinBaud = static_cast<int>(StreamDeviceOptions::kBaud.minimum);
+constexpr int kMaxBaud = static_cast<int>(StreamDeviceOptions::kBaud.maximum);
 constexpr const char* kTcp = "tcp:";
 constexpr const char* kListenAt = "listen:";
 constexpr const char* kUdpAt = "udp:";
@@ -66,7 +66,7 @@ SourceField::SourceField(const QString& name, PortScan& scan, QWidget* parent)
   baud_->setEditable(true);
   baud_->setInsertPolicy(QComboBox::NoInsert);
   baud_->setCompleter(nullptr);
-  baud_->setValidator(new QIntValidator(kLeastBaud, kMostBaud, baud_));
+  baud_->setValidator(new QIntValidator(kMinBaud, kMaxBaud, baud_));
   for (const int each : {9600, 57'600, 115'200, 230'400, 460'800, 921'600, 1'000'000, 2'000'000})
     baud_->addItem(QString::number(each));
   makeFields();
@@ -190,8 +190,8 @@ QString SourceField::problem() const {
       return "Standard input can't be used in the window: choose a port of the list, TCP or UDP.";
     for (const char* prefix : {kTcp, kListenAt, kUdpAt})
       if (source.startsWith(prefix)) return "This is a network name: choose TCP or UDP as source.";
-    if (baud() < kLeastBaud || baud() > kMostBaud)
-      return QString("The baud rate must be between %1 and %2.").arg(kLeastBaud).arg(kMostBaud);
+    if (baud() < kMinBaud || baud() > kMaxBaud)
+      return QString("The baud rate must be between %1 and %2.").arg(kMinBaud).arg(kMaxBaud);
     return {};
   }
   try {

@@ -26,7 +26,7 @@ QIcon programIcon() {
 }
 
 // Most texts that are reported.
-constexpr int kMostTold = 20;
+constexpr int kMaxTold = 20;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void GuardedApplication::note(const char* what) noexcept {
 }
 
 void GuardedApplication::showFailure(const QString& what) {
-  if (reportedFailures_.contains(what) || reportedFailures_.size() >= kMostTold) return;
+  if (reportedFailures_.contains(what) || reportedFailures_.size() >= kMaxTold) return;
   reportedFailures_.insert(what);
   qCritical("An error occurred in the window; it continues: %s", qUtf8Printable(what));
   emit failed("An error occurred in the window: " + what +

@@ -19,8 +19,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::size_t kMostCopiedRows = 100'000;  // as many as a spreadsheet can paste
-constexpr double kCopyDpi = 192.0;                // twice the screen's resolution
+constexpr std::size_t kMaxCopiedRows = 100'000;  // as many as a spreadsheet can paste
+constexpr double kCopyDpi = 192.0;               // twice the screen's resolution
 constexpr const char* kHasExported = "export/done";
 
 // Several views together have no widget.
@@ -29,10 +29,8 @@ bool isVisible(const ExportedView* view) {
 }
 
 QString rowsText(std::size_t rows) {
-  if (rows > kMostCopiedRows)
-    return QString("the first %1 of %2 rows; export them all as CSV")
-        .arg(kMostCopiedRows)
-        .arg(rows);
+  if (rows > kMaxCopiedRows)
+    return QString("the first %1 of %2 rows; export them all as CSV").arg(kMaxCopiedRows).arg(rows);
   return rows == 1 ? QString("1 row") : QString("%1 rows").arg(rows);
 }
 
@@ -192,11 +190,11 @@ ExportController::Copy ExportController::withText(const Copy& asked, const Progr
   std::size_t done = 0;
   TextTable table = *asked.table;
   table.row = [&](std::size_t row) {
-    reportProgress(progress, done++, 2 * std::min(table.numRows, kMostCopiedRows));
+    reportProgress(progress, done++, 2 * std::min(table.numRows, kMaxCopiedRows));
     return asked.table->row(row);
   };
-  copy.tabbed = QString::fromStdString(tabbedText(table, kMostCopiedRows));
-  copy.csv = QByteArray::fromStdString(csvText(table, kMostCopiedRows));
+  copy.tabbed = QString::fromStdString(tabbedText(table, kMaxCopiedRows));
+  copy.csv = QByteArray::fromStdString(csvText(table, kMaxCopiedRows));
   return copy;
 }
 

@@ -14,9 +14,9 @@ namespace palpate::gui {
 
 ExportPlace::ExportPlace(int labelWidth, Ask& ask, QWidget* parent) : QWidget(parent), ask_(ask) {
   // Most file systems allow 255 bytes, of which the ending needs some.
-  constexpr int kMostLetters = 200;
+  constexpr int kMaxLetters = 200;
   name_ = named(new QLineEdit(this), "exportName");
-  name_->setMaxLength(kMostLetters);
+  name_->setMaxLength(kMaxLetters);
   ending_ = makeLabel(this, "exportEnding");
   folder_ = named(new QLineEdit(this), "exportFolder");
   auto* browseButton = makeButton(this, "exportBrowse", "&Browse…");

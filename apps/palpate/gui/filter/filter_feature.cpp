@@ -22,7 +22,7 @@ FilterFeature::FilterFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       action_(windowState.actions.make("filtered", "View", "Apply &filters", {}, true)),
       panel_(new FilterPanel(windowState.activeFilters.editor(), windowState.ask, window)) {
-  dock_ = new Dock("Filter", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
+  dock_ = new Dock("Filter", new ContentScroll(panel_, kMinDockContent), nullptr, window);
   ActiveFilters& activeFilters = windowState.activeFilters;
   action_->setToolTip("Show data after or before filtering");
   panel_->setOn(activeFilters.on());

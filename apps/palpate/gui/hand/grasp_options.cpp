@@ -22,7 +22,7 @@ namespace {
 constexpr const char* kOptionsOpen = "grasp/more";
 constexpr const char* kInNewtons = "grasp/limit_in_newtons";
 constexpr const char* kEachFinger = "grasp/each_finger";
-constexpr const char* kMost = "grasp/most_counts";
+constexpr const char* kMaximum = "grasp/most_counts";
 constexpr const char* kHold = "grasp/hold_s";
 constexpr const char* kCalm = "grasp/calm_s";
 constexpr double kGravity = 9.81;  // [m/s^2]
@@ -128,7 +128,7 @@ void GraspOptions::makeHolding(QFormLayout& form) {
   const HoldingOptions usual;
   most_ = field("mostLimit", "Highest limit", kMinGraspLimitCounts, kMaxGraspLimitCounts, 0);
   most_->setToolTip("Slip-aware: slips raise the limit up to this");
-  recall(settings_, kMost, *most_, usual.maxLimitCounts);
+  recall(settings_, kMaximum, *most_, usual.maxLimitCounts);
   calm_ = field("calmTime", "Ease after", 0.1, 86'400.0, 1);
   calm_->setToolTip("Slip-aware: after this time without slip the limit falls again");
   recall(settings_, kCalm, *calm_, usual.noSlipS);
@@ -221,7 +221,7 @@ void GraspOptions::remember() {
   // A field that is being made.
   if (!newtonsPerCount_) return;
   settings_.setValue(kEachFinger, eachFinger());
-  settings_.setValue(kMost, most_->value());
+  settings_.setValue(kMaximum, most_->value());
   settings_.setValue(kHold, hold_->value());
   settings_.setValue(kCalm, calm_->value());
   for (std::size_t finger = 0; finger < fingerCounts_.size(); ++finger) {

@@ -29,7 +29,7 @@ class ObjectName : public QValidator {
       if (each.category() == QChar::Other_Control || each == QChar::LineSeparator ||
           each == QChar::ParagraphSeparator)
         each = ' ';
-    return text.toUtf8().size() <= static_cast<qsizetype>(kMostObjectBytes) ? Acceptable : Invalid;
+    return text.toUtf8().size() <= static_cast<qsizetype>(kMaxObjectBytes) ? Acceptable : Invalid;
   }
 };
 

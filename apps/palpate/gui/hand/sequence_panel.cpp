@@ -74,7 +74,7 @@ void SequencePanel::makeButtons() {
   down_ = motionButton("Down", "stepDown", "Move the chosen step later", false, this);
   times_ =
       named(new QSpinBox(this), "sequenceTimes", "Number of times the table is run", "Repetitions");
-  times_->setRange(1, MotionSequence::kMostRepetitions);
+  times_->setRange(1, MotionSequence::kMaxRepetitions);
   times_->setFocusPolicy(Qt::StrongFocus);
   start_ = motionButton("Start", "startSequence", {}, true, this);
   file_ =
@@ -178,7 +178,7 @@ void SequencePanel::add(SequenceStep step) {
   } catch (const std::invalid_argument& error) {
     return emit refused(QString(error.what()).remove("step 1: "));
   }
-  if (sequence_.steps.size() >= MotionSequence::kMostSteps)
+  if (sequence_.steps.size() >= MotionSequence::kMaxSteps)
     return emit refused("the sequence has as many steps as it can have");
   const int at = sequence_.steps.empty() ? 0 : steps_->currentRow() + 1;
   sequence_.steps.insert(sequence_.steps.begin() + at, std::move(step));

@@ -23,7 +23,7 @@ namespace palpate::gui {
 namespace {
 
 // End of the slider of a threshold, as a part of full scale: 600 of 4095 counts.
-constexpr double kMostUsefulThreshold = 600.0 / 4095.0;
+constexpr double kMaxUsefulThreshold = 600.0 / 4095.0;
 constexpr const char* kPick = "Saved settings…";
 
 enum TactileSettingsPanelColumn { kSquare, kName, kSensitivity, kThreshold };
@@ -101,7 +101,7 @@ void TactileSettingsPanel::makeRow(int row, const QString& name) {
   const double fullScale = fullScale_;
   made.threshold = new ValueSlider(
       "Threshold of " + name,
-      {0.0, fullScale, std::round(fullScale * kMostUsefulThreshold), 1.0, 0, {}, " counts"},
+      {0.0, fullScale, std::round(fullScale * kMaxUsefulThreshold), 1.0, 0, {}, " counts"},
       table_);
   made.sensitivity->setObjectName("sensitivity" + QString::number(row - 1));
   made.threshold->setObjectName("threshold" + QString::number(row - 1));

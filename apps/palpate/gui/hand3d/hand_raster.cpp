@@ -40,9 +40,9 @@ std::vector<SamplePlaces> handRasterPlacesOf(RasterQuality quality) {
 QSize pixelsOf(const QSizeF& size, double pixelRatio) {
   const double width = size.width() * pixelRatio, height = size.height() * pixelRatio;
   // Largest side of a QImage [pixels].
-  constexpr double kMost = 32767.0;
-  if (!(size.width() > 0.0) || !(size.height() > 0.0) || !(pixelRatio > 0.0) || !(width <= kMost) ||
-      !(height <= kMost))
+  constexpr double kMaximum = 32767.0;
+  if (!(size.width() > 0.0) || !(size.height() > 0.0) || !(pixelRatio > 0.0) ||
+      !(width <= kMaximum) || !(height <= kMaximum))
     return {};
   return {std::max(1, static_cast<int>(std::lround(width))),
           std::max(1, static_cast<int>(std::lround(height)))};

@@ -9,7 +9,7 @@ namespace palpate::gui {
 namespace {
 
 // Lines and points are drawn nearer to the eye by at most this share of their depth.
-constexpr double kMostNearer = 0.05;
+constexpr double kMaxNearer = 0.05;
 
 int litChannel(int value, float light) {
   return std::clamp(static_cast<int>(static_cast<float>(value) * light + 0.5F), 0, 255);
@@ -22,7 +22,7 @@ class Eye {
       : axes_(camera.eyeFromBase()),
         eyeMm_(camera.eyeMm()),
         // Doubled, because what is moved nearer must still be behind the near plane.
-        nearMm_(2.0 * kMostNearer * camera.nearMm() + camera.nearMm()),
+        nearMm_(2.0 * kMaxNearer * camera.nearMm() + camera.nearMm()),
         mmPerPxAndMm_(2.0 * std::tan(camera.inRange().fieldDeg * std::numbers::pi / 360.0) /
                       size.height()),
         clipPerEyeX_(2.0 / (mmPerPxAndMm_ * size.width())),
@@ -42,7 +42,7 @@ class Eye {
   // Moves a point nearer to the eye by `px` plus one pixel, so that a shape that extends `px` to
   // all sides isn't hidden by the surface on which it lies, up to a slope of 45 degrees.
   Eigen::Vector3d nearer(const Eigen::Vector3d& inEye, double px) const {
-    return inEye * (1.0 - std::min(kMostNearer, (px + 1.0) * mmPerPxAndMm_));
+    return inEye * (1.0 - std::min(kMaxNearer, (px + 1.0) * mmPerPxAndMm_));
   }
   // Position in the picture from its middle, x right, y up [px].
   Eigen::Vector2d px(const Eigen::Vector3d& inEye) const {

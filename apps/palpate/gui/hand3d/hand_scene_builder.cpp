@@ -122,7 +122,7 @@ constexpr float kClearestGlass = 0.07F;
 // Opacity at the rim of the sphere.
 constexpr float kDensestGlass = 0.55F;
 // Least radius of a sphere that is drawn.
-constexpr double kLeastRadiusMm = 0.1;
+constexpr double kMinRadiusMm = 0.1;
 
 QRgb withAlpha(const QColor& color, float alpha) {
   return qRgba(color.red(), color.green(), color.blue(), static_cast<int>(alpha * 255.0F));
@@ -169,10 +169,10 @@ using Eigen::Vector3f;
 
 // Least motion that is drawn.
 constexpr double kHandSceneBuilderSlipLeastMm = 0.2;
-constexpr double kLeastTurnDeg = 1.0;
+constexpr double kMinTurnDeg = 1.0;
 // Largest motion of the object that is drawn. A larger estimate is noise, amplified because the
 // contacts are nearly in one line.
-constexpr double kMostMm = 40.0;
+constexpr double kMaxMm = 40.0;
 constexpr double kMaxDeg = 60.0;
 // Height above the surface.
 constexpr double kLiftMm = 1.2;
@@ -184,7 +184,7 @@ constexpr float kContactPx = 3.0F;
 constexpr float kObjectPx = 4.5F;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 // With fewer known components of the six, the motion of the object isn't drawn.
-constexpr int kLeastRank = 2;
+constexpr int kMinRank = 2;
 constexpr int kWholeRank = 6;
 
 void addHead(HandScene& scene,
@@ -563,7 +563,7 @@ HandCamera HandSceneBuilder::usualCamera(const HandLook& wanted) const {
 const Sphere* HandSceneBuilder::sphereOf(const HandLook& look) const {
   const auto& sphere = look.sphereOf == SphereOf::kTaxels ? handState_.contact.taxelSphere
                                                           : handState_.contact.centroidSphere;
-  return sphere && sphere->radiusMm >= kLeastRadiusMm ? &*sphere : nullptr;
+  return sphere && sphere->radiusMm >= kMinRadiusMm ? &*sphere : nullptr;
 }
 
 void HandSceneBuilder::addSphere(HandScene& scene,
@@ -738,14 +738,14 @@ void HandSceneBuilder::addSlip(HandScene& scene,
   // effect of the load. It needs the pose of the fingers.
   if (!moves || arrows.size() < 2 || look.only || !posed()) return;
   const ObjectMotion object = objectMotion(arrows);
-  if (object.rank < kLeastRank) return;
+  if (object.rank < kMinRank) return;
   const double mm = object.translationMm.norm(), deg = object.rotationRad.norm() * kDegPerRad;
-  if (mm > kMostMm || deg > kMaxDeg) return;
+  if (mm > kMaxMm || deg > kMaxDeg) return;
   const QColor color = colors.accent;
   const double enlarged = static_cast<double>(kSlipEnlarged);
   if (mm >= kHandSceneBuilderSlipLeastMm)
     addArrow(scene, object.centerMm, enlarged * object.translationMm, kObjectPx, color.rgb());
-  if (deg >= kLeastTurnDeg)
+  if (deg >= kMinTurnDeg)
     addTurn(scene, object.centerMm, enlarged * object.rotationRad, color.rgb());
   QString words = "object " + figure(mm, 1) + " mm, " + figure(deg, 0) + "°";
   if (object.rank < kWholeRank) words += " (" + QString::number(object.rank) + " of 6 known)";

@@ -95,14 +95,14 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
 // One fact per event, up to 200: its time [s] as the name; its kind and text as the value.
 std::vector<Fact> inspectPanelEventFacts(const OpenedRecording& recording,
                                          const std::vector<Event>& events) {
-  constexpr std::size_t kMostListed = 200;
+  constexpr std::size_t kMaxListed = 200;
   std::vector<Fact> facts;
   const Profile& profile = recording.profile;
   const std::int64_t beginUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0;
   const auto seconds = [&](std::int64_t us) {
     return figure(static_cast<double>(us - beginUs) / kUsPerS, 2);
   };
-  for (std::size_t i = 0; i < std::min(events.size(), kMostListed); ++i) {
+  for (std::size_t i = 0; i < std::min(events.size(), kMaxListed); ++i) {
     const Event& event = events[i];
     QString when = seconds(event.tUs);
     if (event.t1Us != event.tUs) when += " – " + seconds(event.t1Us);
@@ -110,8 +110,8 @@ std::vector<Fact> inspectPanelEventFacts(const OpenedRecording& recording,
     const QString kind = QString::fromStdString(event.kind);
     facts.push_back({when + " s", text.isEmpty() ? kind : kind + ": " + text});
   }
-  if (events.size() > kMostListed)
-    facts.push_back({"more", QString::number(events.size() - kMostListed)});
+  if (events.size() > kMaxListed)
+    facts.push_back({"more", QString::number(events.size() - kMaxListed)});
   if (!recording.eventsFailure.empty())
     facts.push_back({"not read", QString::fromStdString(recording.eventsFailure), true});
   return facts;

@@ -14,7 +14,7 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
                               cacheFolder(windowState.settings),
                               catalogRecordings,
                               window)) {
-  dock_ = new Dock("Library", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
+  dock_ = new Dock("Library", new ContentScroll(panel_, kMinDockContent), nullptr, window);
   connect(panel_, &LibraryPanel::openRequested, this, [&windowState](const QStringList& paths) {
     std::vector<std::filesystem::path> files;
     for (const QString& path : paths) files.emplace_back(path.toStdString());

@@ -33,7 +33,7 @@ constexpr const char* kHeaderKey = "library/columns";
 constexpr const char* kChooseFolder = "Choose a folder…";
 // [ms] time without changes before the folder is scanned again
 constexpr int kLibraryPanelCalmMs = 1000;
-constexpr qsizetype kMostWatched = 500;   // folders
+constexpr qsizetype kMaxWatched = 500;    // folders
 constexpr int kLibraryPanelSteps = 1000;  // of the progress bar
 
 QString countText(int count, const QString& what) {
@@ -259,7 +259,7 @@ void LibraryPanel::scanEnded(const CatalogReport* report) {
     if (report->local)
       for (const auto& folder : report->folders)
         folders.append(QString::fromStdString(folder.string()));
-    folders = folders.mid(0, kMostWatched);
+    folders = folders.mid(0, kMaxWatched);
     const QStringList watched = watcher_.directories();
     for (const QString& folder : watched)
       if (!folders.contains(folder)) watcher_.removePath(folder);

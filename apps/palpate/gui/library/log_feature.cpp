@@ -20,7 +20,7 @@ QString openedText(const OpenedRecording& recording) {
 
 LogFeature::LogFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window), panel_(new LogPanel(windowState.log, windowState.ask, window)) {
-  dock_ = new Dock("Log", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
+  dock_ = new Dock("Log", new ContentScroll(panel_, kMinDockContent), nullptr, window);
   connect(&windowState.opener,
           &RecordingOpener::opened,
           this,

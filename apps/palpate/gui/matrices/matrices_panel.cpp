@@ -23,7 +23,7 @@ namespace {
 constexpr int kMatricesPanelCompactBelow = 700;  // [px] of width: buttons lose their text
 // Parts of full scale that the range of a live hand has at least, so that a first light touch isn't
 // shown in the brightest colour, and grows by: 500 and 250 of 4095 counts.
-constexpr double kLeastLivePart = 500.0 / 4095.0;
+constexpr double kMinLivePart = 500.0 / 4095.0;
 constexpr double kLiveStepPart = 250.0 / 4095.0;
 
 // A part of full scale in whole steps of the last decimal.
@@ -158,7 +158,7 @@ void MatricesPanel::setHand(const HandDescription& hand) {
   // A live source has no whole recording yet.
   range_->setItemText(0, "maximum so far");
   hand_ = hand;
-  largestLive_ = std::max(largestLive_, liveRangePart(hand, kLeastLivePart));
+  largestLive_ = std::max(largestLive_, liveRangePart(hand, kMinLivePart));
   showUnit();
   view_->setHand(hand);
   applyLook();

@@ -6,9 +6,9 @@ namespace palpate::gui {
 
 QSizeF ExportedView::sizeOnScreen() const {
   // Least size [px], for a dock that is nearly closed.
-  constexpr QSizeF kLeast(160.0, 120.0);
+  constexpr QSizeF kMinimum(160.0, 120.0);
   const QSizeF shown = size ? size() : widget ? QSizeF(widget->size()) : QSizeF(900, 720);
-  return shown.expandedTo(kLeast);
+  return shown.expandedTo(kMinimum);
 }
 
 QSizeF ExportedView::proportionsNow() const {

@@ -11,8 +11,8 @@ namespace {
 constexpr double kAirUnits = 0.9;
 constexpr double kUnitsHigh = 19.0;  // size in text units when the text is as large as fits
 constexpr double kUnitsWide = 30.0;
-constexpr double kLeastAnswerUnit = 10.0;  // [px]
-constexpr double kSmallerAnswer = 0.97;    // a step of the search for the size that fits
+constexpr double kMinAnswerUnit = 10.0;  // [px]
+constexpr double kSmallerAnswer = 0.97;  // a step of the search for the size that fits
 
 }  // namespace
 
@@ -45,9 +45,9 @@ void AnswerView::renewAccessibleName() {
 
 double AnswerView::textHeight() const {
   if (scale_ > 0.0) return scale_ * fontInfo().pixelSize();
-  double unit = std::max(kLeastAnswerUnit, std::min(height() / kUnitsHigh, width() / kUnitsWide));
-  while (unit > kLeastAnswerUnit && neededHeight(unit) > height())
-    unit = std::max(kLeastAnswerUnit, kSmallerAnswer * unit);
+  double unit = std::max(kMinAnswerUnit, std::min(height() / kUnitsHigh, width() / kUnitsWide));
+  while (unit > kMinAnswerUnit && neededHeight(unit) > height())
+    unit = std::max(kMinAnswerUnit, kSmallerAnswer * unit);
   return unit;
 }
 

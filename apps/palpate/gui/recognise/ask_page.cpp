@@ -45,8 +45,8 @@ AskPage::AskPage(RecognitionController& controller, Ask& ask, QWidget* parent)
   large.setPointSizeF(kButtonScale * large.pointSizeF());
   ask_->setFont(large);
   fitToText(*ask_, [ask = ask_] {
-    constexpr int kLeastHeight = 44;  // [px]
-    ask->setMinimumHeight(std::max(kLeastHeight, ask->sizeHint().height()));
+    constexpr int kMinHeight = 44;  // [px]
+    ask->setMinimumHeight(std::max(kMinHeight, ask->sizeHint().height()));
   });
   byItself_ = named(
       new QCheckBox("Automatic", this), "recogniseByItself", "Repeat while something is held");

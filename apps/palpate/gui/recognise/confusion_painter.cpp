@@ -6,7 +6,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMostNames = 0.38;  // of the width
+constexpr double kMaxNames = 0.38;  // of the width
 constexpr double kMinSideInPicture = 6.0;
 constexpr double kNameOfSide = 0.86;  // font size relative to the side of a cell
 constexpr int kMinNamePx = 6;         // smaller names are left out
@@ -58,7 +58,7 @@ ConfusionGrid confusionGrid(const ConfusionMatrix& matrix,
   grid.rows = static_cast<int>(matrix.classes().size());
   if (grid.rows == 0) return grid;
   grid.columns = confusionColumns(matrix);
-  const double most = kMostNames * area.width();
+  const double most = kMaxNames * area.width();
   grid.side = side.value_or(kLargestConfusionSide);
   double names = 0.0, above = 0.0;
   // Smaller cells have smaller names, which leave more room for the cells; a few iterations

@@ -26,7 +26,7 @@ namespace {
 constexpr const char* kGraspsAxisXKey = "recognise/scatterX";
 constexpr const char* kGraspsAxisYKey = "recognise/scatterY";
 constexpr const char* kGraspsPartsKey = "recognise/graspsParts";
-constexpr int kMostGraspColumn = 170;  // [px]
+constexpr int kMaxGraspColumn = 170;  // [px]
 
 }  // namespace
 
@@ -154,7 +154,7 @@ void GraspsPage::showTable() {
         column,
         std::clamp(std::max(header->sectionSizeHint(column), header->sectionSize(column)),
                    40,
-                   kMostGraspColumn));
+                   kMaxGraspColumn));
   showState();
 }
 

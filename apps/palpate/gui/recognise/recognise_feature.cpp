@@ -40,8 +40,8 @@ RecogniseFeature::RecogniseFeature(WindowState& windowState, QWidget* window)
       actions_(windowState.actions),
       panel_(new RecognisePanel(
           windowState.settings, windowState.environment.dataFolder, windowState.ask, window)) {
-  dock_ = new Dock(
-      "Recognise", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
+  dock_ =
+      new Dock("Recognise", new ContentScroll(panel_, kMinDockContent), &panel_->header(), window);
   connectAll();
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kBest = 3;
 constexpr double kNameUnits = 3.0;  // largest size of the name
-constexpr double kLeastNameUnits = 1.2;
+constexpr double kMinNameUnits = 1.2;
 constexpr double kPhotoShare = 0.36;            // of the width, at most
 constexpr double kRecognitionAnswerLine = 1.7;  // [units] height of a runner-up's line
 
@@ -176,7 +176,7 @@ double paintAnswer(QPainter& painter,
   const QString headline = named ? answer.name() : answer.confidenceWord();
   // The name is as large as fits.
   double size = kNameUnits * unit;
-  while (size > kLeastNameUnits * unit &&
+  while (size > kMinNameUnits * unit &&
          QFontMetricsF(fontOf(painter, size, true)).horizontalAdvance(headline) > room.width())
     size *= 0.94;
   const QFont large = fontOf(painter, size, true);

@@ -13,9 +13,9 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kPlanPercent = 100.0;
-constexpr double kMostPlanS = 86'400.0;
-constexpr int kMostPlanLost = 1'000'000;
-constexpr int kMostPlanTaxels = 10'000;
+constexpr double kMaxPlanS = 86'400.0;
+constexpr int kMaxPlanLost = 1'000'000;
+constexpr int kMaxPlanTaxels = 10'000;
 
 template <class Field>
 Field* planField(const char* name, const QString& tip, QWidget* parent) {
@@ -36,11 +36,11 @@ PlanLimits::PlanLimits(QWidget* parent)
       "planLeastS",
       "Shortest take; one that stops automatically must be nearly as long as planned",
       made);
-  least_->setRange(0.0, kMostPlanS);
+  least_->setRange(0.0, kMaxPlanS);
   least_->setDecimals(1);
   least_->setSuffix(" s");
   lost_ = planField<QSpinBox>("planMostLost", "Number of frames that may be lost", made);
-  lost_->setRange(0, kMostPlanLost);
+  lost_->setRange(0, kMaxPlanLost);
   saturated_ = planField<QDoubleSpinBox>(
       "planMostSaturated", "Share of the frames that may have a saturated taxel", made);
   saturated_->setRange(0.0, kPlanPercent);
@@ -50,7 +50,7 @@ PlanLimits::PlanLimits(QWidget* parent)
       "planTaxels",
       "Number of taxels that must be active in three frames to count as a touch",
       made);
-  taxels_->setRange(1, kMostPlanTaxels);
+  taxels_->setRange(1, kMaxPlanTaxels);
   quality_ = planField<QDoubleSpinBox>(
       "planLeastQuality",
       "Minimum quality of its best grasp, 0..1: held steadily, complete, not saturated",

@@ -113,7 +113,7 @@ bool PlanModel::setData(const QModelIndex& index, const QVariant& value, int rol
         const auto number = parseInteger(text);
         if (!number) throw Error("repetitions: '" + escapedLine(text) + "' is not a whole number");
         row.repetitions = static_cast<int>(
-            std::clamp<std::int64_t>(*number, 0, RecordingPlan::kMostRepetitions + 1));
+            std::clamp<std::int64_t>(*number, 0, RecordingPlan::kMaxRepetitions + 1));
       }
     }
     controller_.setRow(at, row);

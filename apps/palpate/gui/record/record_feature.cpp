@@ -398,11 +398,10 @@ void RecordFeature::connectUnfinished() {
   connect(&unfinished_, &RecoveryFinder::found, this, [this](const QStringList& paths) {
     // An offer about a new recording is more urgent.
     if (paths.isEmpty() || !offer_->isHidden()) return;
-    constexpr qsizetype kMostNames = 3;
+    constexpr qsizetype kMaxNames = 3;
     QStringList names;
-    for (const QString& path : paths.mid(0, kMostNames)) names.append(path.section('/', -1));
-    if (paths.size() > kMostNames)
-      names.append(QString::number(paths.size() - kMostNames) + " more");
+    for (const QString& path : paths.mid(0, kMaxNames)) names.append(path.section('/', -1));
+    if (paths.size() > kMaxNames) names.append(QString::number(paths.size() - kMaxNames) + " more");
     offer_->offer(
         (paths.size() == 1 ? QString("A recording was never finished: ")
                            : QString::number(paths.size()) + " recordings were never finished: ") +

@@ -89,7 +89,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
   countdown_ = named(new QSpinBox(made),
                      "recordingCountdown",
                      "Seconds counted down before recording starts; Esc cancels");
-  countdown_->setRange(0, RecordingSettings::kMostCountdownS);
+  countdown_->setRange(0, RecordingSettings::kMaxCountdownS);
   countdown_->setSuffix(" s");
   countdown_->setSpecialValueText("none");
   countdown_->setButtonSymbols(QAbstractSpinBox::NoButtons);
@@ -101,7 +101,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
       "before");
   threshold_ = timingField("recordingContactThreshold",
                            0.0,
-                           kMostContactThreshold,
+                           kMaxContactThreshold,
                            2,
                            "",
                            "any active taxel",
@@ -119,8 +119,8 @@ RecordingTiming::RecordingTiming(QWidget* parent)
   form->addRow("&Stop after", stopAfter_);
   released_ =
       timingField("recordingReleased",
-                  kLeastReleasedS,
-                  kMostReleasedS,
+                  kMinReleasedS,
+                  kMaxReleasedS,
                   2,
                   " s",
                   "not by release",
@@ -168,7 +168,7 @@ void RecordingTiming::readInto(RecordingSettings& settings) const {
   settings.countdownS = countdown_->value();
   settings.startOnContact = onContact_->isChecked();
   settings.contactThreshold = threshold_->value();
-  settings.stopWithoutContactS = timingValue(*released_, kLeastReleasedS);
+  settings.stopWithoutContactS = timingValue(*released_, kMinReleasedS);
   settings.limits.stopAfterS = timingValue(*stopAfter_, Limits::kStopAfterS.minimum);
   settings.limits.splitMinutes = timingValue(*splitMinutes_, Limits::kSplitMinutes.minimum);
   settings.limits.splitMb = timingValue(*splitMb_, Limits::kSplitMb.minimum);

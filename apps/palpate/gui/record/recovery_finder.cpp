@@ -13,7 +13,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kIgnored = "recording/ignored";
-constexpr qsizetype kMostIgnored = 500;               // the oldest entries are removed
+constexpr qsizetype kMaxIgnored = 500;                // the oldest entries are removed
 constexpr double kRecoveryFinderSmallestNews = 0.01;  // step of progress reports
 
 std::string narrow(const QString& path) { return path.toStdString(); }
@@ -126,7 +126,7 @@ void RecoveryFinder::ignore(const QStringList& paths) {
     ignored.removeIf([&](const QString& entry) { return pathOf(entry) == path; });
     ignored.append(entryOf(path, known->second));
   }
-  settings_.setValue(kIgnored, ignored.mid(std::max<qsizetype>(0, ignored.size() - kMostIgnored)));
+  settings_.setValue(kIgnored, ignored.mid(std::max<qsizetype>(0, ignored.size() - kMaxIgnored)));
 }
 
 }  // namespace palpate::gui

@@ -105,8 +105,8 @@ SettingsDialog::SettingsDialog(const WindowChoices& choices,
   connect(buttons_, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons_, &QDialogButtonBox::rejected, this, &SettingsDialog::reject);
   // With large text on a small screen the fields scroll: OK and Cancel stay in reach.
-  constexpr int kLeastHeight = 160;  // [px]
-  setLayout(inColumn({{new ContentScroll(fields, QSize(0, kLeastHeight)), 1}, buttons_},
+  constexpr int kMinHeight = 160;  // [px]
+  setLayout(inColumn({{new ContentScroll(fields, QSize(0, kMinHeight)), 1}, buttons_},
                      Space::kWide,
                      around(Space::kDialog)));
   fill(choices);
@@ -126,7 +126,7 @@ void SettingsDialog::addLook(QFormLayout& form) {
   form.addRow("&Theme", theme_);
   textPt_ = named(new TextSizeField(this), "settingsTextPt");
   // The value below the least one stands for the desktop's size.
-  textPt_->setRange(kLeastTextPt - 1, kMostTextPt);
+  textPt_->setRange(kMinInterfaceTextPt - 1, kMaxInterfaceTextPt);
   textPt_->setSpecialValueText("as the desktop");
   textPt_->setSuffix(" pt");
   textPt_->setToolTip("Size of all text, 7 to 18 pt");
@@ -235,7 +235,7 @@ void SettingsDialog::addMemory(QFormLayout& form) {
 void SettingsDialog::fill(const WindowChoices& choices) {
   filling_ = true;
   theme_->setCurrentIndex(indexOf(kAllThemeChoices, choices.theme));
-  textPt_->setValue(choices.textPt > 0 ? choices.textPt : kLeastTextPt - 1);
+  textPt_->setValue(choices.textPt > 0 ? choices.textPt : kMinInterfaceTextPt - 1);
   map_->setCurrentIndex(indexOf(kAllColorMaps, choices.map));
   range_->setCurrentIndex(indexOf(kAllRangeModes, choices.range));
   angle_->setCurrentIndex(indexOf(kAllAngleUnits, choices.units.angle));
@@ -253,7 +253,7 @@ void SettingsDialog::fill(const WindowChoices& choices) {
 WindowChoices SettingsDialog::choices() const {
   WindowChoices choices;
   choices.theme = kAllThemeChoices.at(static_cast<std::size_t>(theme_->currentIndex()));
-  choices.textPt = textPt_->value() < kLeastTextPt ? 0 : textPt_->value();
+  choices.textPt = textPt_->value() < kMinInterfaceTextPt ? 0 : textPt_->value();
   choices.map = kAllColorMaps.at(static_cast<std::size_t>(map_->currentIndex()));
   choices.range = kAllRangeModes.at(static_cast<std::size_t>(range_->currentIndex()));
   const auto chosen = [](const auto& all, const QComboBox* box) {

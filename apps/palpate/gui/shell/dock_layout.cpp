@@ -13,11 +13,11 @@ constexpr quint8 kToolBarsMark = 0xfc;
 constexpr quint8 kFloating = 0x02;
 
 constexpr qsizetype kLargestLayoutBytes = 1 << 16;
-constexpr int kMostItems = 100, kDeepest = 16, kLongestName = 100;
+constexpr int kMaxItems = 100, kDeepest = 16, kLongestName = 100;
 constexpr int kLargestPx = 1 << 15;
 // Limits of sizes, which Qt passes over: docks without one have QWIDGETSIZE_MAX, and places have
 // the sum of those of their docks.
-constexpr int kLargestLimitPx = kMostItems * ((1 << 24) - 1);
+constexpr int kLargestLimitPx = kMaxItems * ((1 << 24) - 1);
 
 class LayoutCheck {
  public:
@@ -74,11 +74,11 @@ class LayoutCheck {
   // Lines of tool bars, none of which floats.
   bool toolBars() {
     const int lines = number();
-    if (!within(lines, 0, kMostItems)) return false;
+    if (!within(lines, 0, kMaxItems)) return false;
     for (int line = 0; line < lines; ++line) {
       if (!within(number(), 0, 3)) return false;
       const int count = number();
-      if (!within(count, 0, kMostItems)) return false;
+      if (!within(count, 0, kMaxItems)) return false;
       for (int i = 0; i < count; ++i) {
         if (!name()) return false;
         byte();  // whether it is shown
@@ -98,12 +98,12 @@ class LayoutCheck {
     const quint8 mark = byte();
     if (depth > kDeepest || (mark != kTabsMark && mark != kSequenceMark)) return false;
     // The tab in front.
-    if (mark == kTabsMark && !within(number(), -1, kMostItems)) return false;
+    if (mark == kTabsMark && !within(number(), -1, kMaxItems)) return false;
     if (const quint8 orientation = byte();
         orientation != Qt::Horizontal && orientation != Qt::Vertical)
       return false;
     const int count = number();
-    if (!within(count, 0, kMostItems)) return false;
+    if (!within(count, 0, kMaxItems)) return false;
     for (int i = 0; i < count; ++i) {
       const quint8 item = byte();
       if (item == kWidgetMark ? !widget()

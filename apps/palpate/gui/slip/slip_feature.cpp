@@ -20,7 +20,7 @@ SlipFeature::SlipFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       reference_(windowState.actions.make("slipReference", "Analysis", "Measure s&lip from here")),
       panel_(new SlipPanel(windowState.settings, window)) {
-  dock_ = new Dock("Slip", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
+  dock_ = new Dock("Slip", new ContentScroll(panel_, kMinDockContent), nullptr, window);
   reference_->setToolTip("Use the frame shown as the slip reference");
   connectBench();
   // The next connection may have its history at the same address.

@@ -26,7 +26,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr std::size_t kSlipPanelMostKept = 8;
-constexpr std::size_t kMostLive = 20'000;             // frames of a live chart
+constexpr std::size_t kMaxLive = 20'000;              // frames of a live chart
 constexpr int kListWidth = 380, kDrawingWidth = 240;  // [px] widths in the default dock
 // [px] of the first text size; in a narrower list, matrices are "0 distal"
 constexpr int kShortNames = 440;
@@ -374,8 +374,8 @@ void SlipPanel::renewLiveHand(const HandDescription& hand) {
 void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipDetection>& detections) {
   if (!live() || !liveHand_ || detections.size() != liveSeries_.matrices.size()) return;
   if (liveSeries_.timeS.empty()) liveSeries_.firstUs = frame.hostUs;
-  if (liveSeries_.timeS.size() >= 2 * kMostLive) {
-    liveSeries_.dropFirst(kMostLive);
+  if (liveSeries_.timeS.size() >= 2 * kMaxLive) {
+    liveSeries_.dropFirst(kMaxLive);
     liveSlips_.reset();
   }
   if (!liveSlips_) liveSlips_.emplace(detections.size());

@@ -19,10 +19,10 @@ constexpr double kLow = 320.0;  // [px] lower is low
 constexpr double kFaintest = 0.2;       // smallest opacity of the taxels
 constexpr double kSlipViewFaint = 0.6;  // opacity of the taxels
 constexpr double kEllipseSds = 2.0;
-constexpr double kSkewSeen = 0.05;   // smaller skewness has no mark
-constexpr double kMostSkew = 1.5;    // limit for the size of a mark
-constexpr double kLeastArrow = 6.0;  // [px] shorter arrows become a dot
-constexpr double kHead = 7.0;        // [px] head of an arrow
+constexpr double kSkewSeen = 0.05;  // smaller skewness has no mark
+constexpr double kMaxSkew = 1.5;    // limit for the size of a mark
+constexpr double kMinArrow = 6.0;   // [px] shorter arrows become a dot
+constexpr double kHead = 7.0;       // [px] head of an arrow
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -50,7 +50,7 @@ void paintArrow(QPainter& painter,
                 const QColor& rim) {
   const QPointF way = to - from;
   const double length = std::hypot(way.x(), way.y());
-  if (length < kLeastArrow) {
+  if (length < kMinArrow) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(color);
     painter.drawEllipse(from, 2.5, 2.5);
@@ -199,7 +199,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
     const double size = std::abs(static_cast<double>(skew));
     if (size < kSkewSeen) return;
     const QPointF side = skew < 0.0F ? -way : way;
-    const double length = 4.0 + 8.0 * std::min(size, kMostSkew) / kMostSkew;
+    const double length = 4.0 + 8.0 * std::min(size, kMaxSkew) / kMaxSkew;
     painter.setPen(QPen(rim, 1.0));
     painter.setBrush(colors.warning);
     painter.drawPolygon(

@@ -14,7 +14,7 @@ constexpr const char* kLastFolderKey = "recent/folder";
 RecentFiles::RecentFiles(QSettings& settings, QObject* parent)
     : QObject(parent), settings_(settings), paths_(settings.value(kRecentFilesKey).toStringList()) {
   paths_.removeAll(QString());
-  paths_ = paths_.mid(0, kMost);
+  paths_ = paths_.mid(0, kMaximum);
 }
 
 void RecentFiles::add(const QString& path) {
@@ -22,7 +22,7 @@ void RecentFiles::add(const QString& path) {
   paths_.removeAll(absolute);
   missing_.removeAll(absolute);
   paths_.prepend(absolute);
-  paths_ = paths_.mid(0, kMost);
+  paths_ = paths_.mid(0, kMaximum);
   store();
 }
 

@@ -13,7 +13,7 @@ namespace palpate::gui {
 class RecentFiles : public QObject {
   Q_OBJECT
  public:
-  static constexpr int kMost = 10;
+  static constexpr int kMaximum = 10;
 
   // `settings` must outlive this object.
   explicit RecentFiles(QSettings& settings, QObject* parent = nullptr);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // [letters]; one row of the timeline has no room for more.
-constexpr int kMostLabel = 60;
+constexpr int kMaxLabel = 60;
 void recordingFields(SettingsTable& table, RecordingSettings& recording) {
   using Limits = RecordingLimits;
   Limits& limits = recording.limits;
@@ -40,14 +40,14 @@ void recordingFields(SettingsTable& table, RecordingSettings& recording) {
   table.number(
       "recording/split_mb", limits.splitMb, Limits::kSplitMb.minimum, Limits::kSplitMb.maximum);
   table.number(
-      "recording/countdown_s", recording.countdownS, 0.0, RecordingSettings::kMostCountdownS);
+      "recording/countdown_s", recording.countdownS, 0.0, RecordingSettings::kMaxCountdownS);
   table.flag("recording/start_on_contact", recording.startOnContact);
   table.number("recording/stop_without_contact_s",
                recording.stopWithoutContactS,
-               kLeastReleasedS,
-               kMostReleasedS);
+               kMinReleasedS,
+               kMaxReleasedS);
   table.number(
-      "recording/contact_threshold", recording.contactThreshold, 0.0, kMostContactThreshold);
+      "recording/contact_threshold", recording.contactThreshold, 0.0, kMaxContactThreshold);
   table.flag("recording/mcap", recording.withMcap);
   table.flag("recording/ask", recording.askEachTime);
   for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit)
@@ -112,7 +112,7 @@ RecordingSettings loadRecordingSettings(const QSettings& settings) {
   recording.folder = folderFromText(recording.folder);
   if (!QDir::isAbsolutePath(recording.folder)) recording.folder = defaultRecordingsFolder();
   recording.nameTemplate = recording.nameTemplate.trimmed();
-  for (QString& label : recording.markLabels) label = label.simplified().left(kMostLabel);
+  for (QString& label : recording.markLabels) label = label.simplified().left(kMaxLabel);
   return recording;
 }
 

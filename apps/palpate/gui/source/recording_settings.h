@@ -27,8 +27,8 @@ struct RecordingSettings {
   QString repetition;
   // When it stops by itself, and goes on in a new file.
   RecordingLimits limits;
-  // Seconds that are counted down before it begins, 0..kMostCountdownS.
-  static constexpr int kMostCountdownS = 60;
+  // Seconds that are counted down before it begins, 0..kMaxCountdownS.
+  static constexpr int kMaxCountdownS = 60;
   int countdownS = 0;
   // It begins with contact, and ends when nothing has been touched for a time [s]; a taxel touches
   // above the threshold, in the unit of the hand.
@@ -52,7 +52,7 @@ QString folderFromText(const QString& typed);
 // never stops the program.
 RecordingSettings loadRecordingSettings(const QSettings& settings);
 // Ranges of stopWithoutContactS [s] and contactThreshold.
-inline constexpr double kLeastReleasedS = 0.05, kMostReleasedS = 1e4, kMostContactThreshold = 1e6;
+inline constexpr double kMinReleasedS = 0.05, kMaxReleasedS = 1e4, kMaxContactThreshold = 1e6;
 
 void saveRecordingSettings(const RecordingSettings& recording, QSettings& settings);
 

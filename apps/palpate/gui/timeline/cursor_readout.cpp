@@ -9,14 +9,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kReadoutMargin = 5;              // [px] around the text
-constexpr int kLowLines = 8;                   // a plot with room for fewer lines is low
-constexpr int kLowShare = 3;                   // there the box takes the third part of the height
-constexpr int kLowAir = 1;                     // [px] around the text and the box there
-constexpr int kReadoutAir = 6;                 // [px] to the border of the plot
-constexpr std::size_t kMostReadoutCurves = 6;  // more would hide the curves
+constexpr int kReadoutMargin = 5;             // [px] around the text
+constexpr int kLowLines = 8;                  // a plot with room for fewer lines is low
+constexpr int kLowShare = 3;                  // there the box takes the third part of the height
+constexpr int kLowAir = 1;                    // [px] around the text and the box there
+constexpr int kReadoutAir = 6;                // [px] to the border of the plot
+constexpr std::size_t kMaxReadoutCurves = 6;  // more would hide the curves
 // Of a long recording a value may have to be read from the file: so many frames are tried for one.
-constexpr std::size_t kMostReads = 64;
+constexpr std::size_t kMaxReads = 64;
 
 QString readoutNumber(double value) { return QString::number(value, 'g', 5); }
 
@@ -48,7 +48,7 @@ void CursorReadout::renew() {
     lines.append("Δt " + QString::number(seconds, 'f', 3) + " s" +
                  (seconds > 0.0 ? " (" + readoutNumber(1.0 / seconds) + " Hz)" : QString()));
     const auto& curves = chart_.curves();
-    for (std::size_t i = 0; i < std::min(curves.size(), kMostReadoutCurves); ++i) {
+    for (std::size_t i = 0; i < std::min(curves.size(), kMaxReadoutCurves); ++i) {
       const auto change = changeOf(curves[i], *span);
       QString line = curves[i].name + "  " + (change ? readoutNumber(change->from) : QString("–")) +
                      " → " + (change ? readoutNumber(change->to) : QString("–"));
@@ -79,7 +79,7 @@ std::optional<RangeChange> CursorReadout::changeOf(const PlottedCurve& curve,
   const bool inMemory = store.holds(curve.choice, span.fromS, span.toS);
   std::size_t numReads = 0;  // at one end
   return rangeChange(frames->second - frames->first + 1, timeSAt, [&](std::size_t sample) {
-    if (!inMemory && ++numReads > kMostReads) return std::numeric_limits<double>::quiet_NaN();
+    if (!inMemory && ++numReads > kMaxReads) return std::numeric_limits<double>::quiet_NaN();
     const auto value = store.valueAt(curve.choice, timeSAt(sample));
     if (value) numReads = 0;
     return value ? curve.conversion.of(*value) : std::numeric_limits<double>::quiet_NaN();

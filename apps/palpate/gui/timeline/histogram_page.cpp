@@ -26,7 +26,7 @@ HistogramPage::HistogramPage(const SelectedCurves& selected, QWidget* parent) : 
                 "histogramBins",
                 "0: automatic, after Freedman and Diaconis",
                 "Number of bins");
-  bins_->setRange(0, static_cast<int>(kMostHistogramBins));
+  bins_->setRange(0, static_cast<int>(kMaxHistogramBins));
   bins_->setSpecialValueText("automatic");
   bins_->setKeyboardTracking(false);
   words_ = makeLabel(this, "histogramWords");

@@ -14,7 +14,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kTableFilter = "Table (*.csv);;All files (*)";
-constexpr qsizetype kMostProblems = 3;
+constexpr qsizetype kMaxProblems = 3;
 // Topic of the message about an import.
 constexpr const char* kImportTopic = "import of labels";
 
@@ -143,14 +143,14 @@ void LabelExchange::take(const LabelTable& table, const QString& path, EventEdit
   if (table.problems.empty()) return windowState_.messages.flash(said);
   QStringList problems;
   for (const std::string& problem : table.problems) {
-    if (problems.size() == kMostProblems) break;
+    if (problems.size() == kMaxProblems) break;
     problems.append(QString::fromStdString(problem));
   }
   const auto bad = static_cast<qsizetype>(table.problems.size());
   if (table.more)
     problems.append("and more");
-  else if (bad > kMostProblems)
-    problems.append(QString::number(bad - kMostProblems) + " more");
+  else if (bad > kMaxProblems)
+    problems.append(QString::number(bad - kMaxProblems) + " more");
   fail(said + "; left out: " + problems.join("; "), &editor, !added.empty());
 }
 

@@ -27,11 +27,11 @@ namespace {
 
 // Without a frame for so long [s], the chart scrolls by itself.
 constexpr double kOldS = 0.4;
-constexpr std::size_t kMostEvents = 500;
-constexpr std::size_t kMostRecordings = 100;
+constexpr std::size_t kMaxEvents = 500;
+constexpr std::size_t kMaxRecordings = 100;
 // Least time that the chart moves on when it is drawn [s]: every second frame of an SDH-2, 2 pixels
 // of a chart of 30 s on a usual screen.
-constexpr double kLeastStepS = 0.05;
+constexpr double kMinStepS = 0.05;
 // The first samples are drawn at once.
 constexpr std::size_t kFewSamples = 3;
 // Height of the bar of a recording, as a share of that of the chart.
@@ -81,7 +81,7 @@ LiveChart::LiveChart(QWidget* parent)
       "Wheel: how many seconds are shown; Shift+wheel: scroll back; drag: cursors with "
       "differences");
   nameTime();
-  fitToText(*this, [this] { setMinimumHeight(kLeastChartLines * fontMetrics().lineSpacing()); });
+  fitToText(*this, [this] { setMinimumHeight(kMinChartLines * fontMetrics().lineSpacing()); });
   xAxis->setTicker(secondsTicker_);
   connect(axes_.get(), &UnitAxes::byHandChanged, this, &LiveChart::refill);
   connect(axes_.get(), &UnitAxes::logarithmicChanged, this, &LiveChart::rebuildGraphs);
@@ -200,7 +200,7 @@ void LiveChart::refresh(double silentS) {
   if (!following_) return showBehind();
   // A step that is not seen would take as long to draw as a large one. What arrived is drawn by the
   // next step, or when nothing comes any more.
-  const double stepS = std::max(kLeastStepS, windowS_ / std::max(1, axisRect()->width()));
+  const double stepS = std::max(kMinStepS, windowS_ / std::max(1, axisRect()->width()));
   if (nowS >= nowS_ && nowS - nowS_ < stepS && series_.numSamples() > kFewSamples) return;
   forget(std::min(series_.oldestS(), nowS - kMaxWindowS));
   follow(nowS);
@@ -215,8 +215,8 @@ void LiveChart::follow(double nowS) {
 
 void LiveChart::showRange(double fromS, double toS) {
   xAxis->setRange(fromS, toS);
-  constexpr double kMostTicks = 12.0, kTickRoom = 60.0;  // [px]
-  const double ticks = std::clamp(axisRect()->width() / kTickRoom, 2.0, kMostTicks);
+  constexpr double kMaxTicks = 12.0, kTickRoom = 60.0;  // [px]
+  const double ticks = std::clamp(axisRect()->width() / kTickRoom, 2.0, kMaxTicks);
   secondsTicker_->setTickStep(niceAbove(windowS_ / ticks));
   arrangeNames();
   refill();
@@ -483,14 +483,14 @@ void LiveChart::forget(double beforeS) {
     if (event.shape) removeItem(event.shape);
     if (event.name) removeItem(event.name);
   };
-  while (!events_.empty() && (events_.front().endS < beforeS || events_.size() > kMostEvents)) {
+  while (!events_.empty() && (events_.front().endS < beforeS || events_.size() > kMaxEvents)) {
     drop(events_.front());
     events_.pop_front();
   }
   while (!recordings_.empty() &&
          (beforeS == std::numeric_limits<double>::infinity() ||
           (!recordings_.front().runs &&
-           (recordings_.front().endS < beforeS || recordings_.size() > kMostRecordings)))) {
+           (recordings_.front().endS < beforeS || recordings_.size() > kMaxRecordings)))) {
     removeItem(recordings_.front().bar);
     recordings_.pop_front();
   }
@@ -579,8 +579,8 @@ void LiveChart::arrangeNames() {
   if (key == arrangedFor_) return;
   arrangedFor_ = key;
   const int lineHeight = fontMetrics().lineSpacing();
-  constexpr int kMostLines = 4, kBetween = 10;  // [px]
-  const int lines = std::clamp(axisRect()->height() / (2 * lineHeight), 1, kMostLines);
+  constexpr int kMaxChartLines = 4, kBetween = 10;  // [px]
+  const int lines = std::clamp(axisRect()->height() / (2 * lineHeight), 1, kMaxChartLines);
   std::vector<double> usedTo(static_cast<std::size_t>(lines), -1e12);  // [px]
   for (const Shown& event : events_) {
     const double width = fontMetrics().horizontalAdvance(event.name->text());

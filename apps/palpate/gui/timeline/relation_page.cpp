@@ -16,7 +16,7 @@ namespace palpate::gui {
 namespace {
 
 // More points than a screen has are thinned out evenly.
-constexpr std::size_t kMostPoints = 20'000;
+constexpr std::size_t kMaxPoints = 20'000;
 
 std::string relationCell(double value) {
   return std::isfinite(value) ? numberText(value) : std::string();
@@ -79,7 +79,7 @@ void RelationPage::show() {
   QVector<QCPCurveData> points;
   QCPRange rangeX(0.0, 1.0), rangeY(0.0, 1.0);
   bool anyX = false, anyY = false;
-  const std::size_t step = x.size() / kMostPoints + 1;
+  const std::size_t step = x.size() / kMaxPoints + 1;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
     includeIn(rangeX, anyX, x[i]);

@@ -14,11 +14,11 @@ namespace {
 // Up to so many samples are read in the thread of the window (a few milliseconds).
 constexpr std::size_t kReadAtOnce = 3000;
 // Most samples that are read for the visible span.
-constexpr std::size_t kMostExact = 16'000;
+constexpr std::size_t kMaxExact = 16'000;
 // Samples of the first look at a long recording.
 constexpr std::size_t kSpread = 1500;
 // Most taxels in all these samples together: a sensor with many taxels gets fewer samples.
-constexpr std::size_t kMostLookedAt = 5'000'000;
+constexpr std::size_t kMaxLookedAt = 5'000'000;
 constexpr int kNewsMs = 200;
 constexpr double kForever = 1e12;  // [s]; longer than any recording
 
@@ -146,7 +146,7 @@ std::shared_future<void> SeriesStore::lookAtFrames() {
     try {
       const std::size_t frames = profile.numFrames();
       const std::size_t spread =
-          std::clamp<std::size_t>(kMostLookedAt / profile.layout().numCells(), 1, kSpread);
+          std::clamp<std::size_t>(kMaxLookedAt / profile.layout().numCells(), 1, kSpread);
       TactileFrame frame;
       UnreadableSamples unreadable;  // the overview counts them all
       for (std::size_t i = 0; i <= spread && !*stop; ++i) {
@@ -326,7 +326,7 @@ void SeriesStore::askForExact() {
     if (!isReady(*profile_, entry.choice)) continue;  // asked again when it is computed
     double fromS = fromS_ - (toS_ - fromS_);
     double toS = toS_ + (toS_ - fromS_);
-    const auto many = [&] { return numSamples(*profile_, entry.choice, fromS, toS) > kMostExact; };
+    const auto many = [&] { return numSamples(*profile_, entry.choice, fromS, toS) > kMaxExact; };
     if (many()) {
       fromS = fromS_;
       toS = toS_;

@@ -21,7 +21,7 @@ constexpr int kSignalTreeKind = Qt::UserRole;
 constexpr int kIndex = Qt::UserRole + 1;
 // Name of a group before it is edited.
 constexpr int kName = Qt::UserRole + 2;
-constexpr int kMostNumbers = 64;
+constexpr int kMaxNumbers = 64;
 enum SignalTreeKind {
   kSection,
   kChosen,
@@ -55,7 +55,7 @@ std::set<int> numbersIn(const QVariant& value) {
   for (const QString& word : value.toStringList()) {
     bool good = false;
     const int number = word.toInt(&good);
-    if (good && number >= 0 && number < kMostNumbers) numbers.insert(number);
+    if (good && number >= 0 && number < kMaxNumbers) numbers.insert(number);
   }
   return numbers;
 }
@@ -397,13 +397,13 @@ void SignalTree::keyPressEvent(QKeyEvent* event) {
 }
 
 void SignalTree::openBelow(const QWidget& button) {
-  constexpr int kWidth = 300, kMostHeight = 460, kGap = 2;  // [px]
+  constexpr int kWidth = 300, kMaxHeight = 460, kGap = 2;  // [px]
   const QRect screen = button.screen()->availableGeometry();
   const QRect of(button.mapToGlobal(QPoint()), button.size());
   const int below = screen.bottom() - of.bottom() - kGap;
   const int above = of.top() - kGap - screen.top();
-  const bool opensBelow = below >= kMostHeight || below >= above;
-  resize(kWidth, std::min(kMostHeight, opensBelow ? below : above));
+  const bool opensBelow = below >= kMaxHeight || below >= above;
+  resize(kWidth, std::min(kMaxHeight, opensBelow ? below : above));
   const int left = std::max(screen.left(), screen.right() - width());
   const QPoint at(std::clamp(of.left(), screen.left(), left),
                   opensBelow ? of.bottom() + kGap : of.top() - kGap - height());

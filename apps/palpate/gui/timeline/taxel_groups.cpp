@@ -13,7 +13,7 @@ QString tidy(const QString& name) { return name.simplified().left(TaxelGroups::k
 
 TaxelGroups::TaxelGroups(QSettings& settings, QObject* parent)
     : QObject(parent), settings_(settings) {
-  const int count = std::min(settings_.beginReadArray(kTaxelGroupsKey), kMost);
+  const int count = std::min(settings_.beginReadArray(kTaxelGroupsKey), kMaximum);
   for (int i = 0; i < count; ++i) {
     settings_.setArrayIndex(i);
     Kept kept{tidy(settings_.value("name").toString()), settings_.value("taxels").toString()};
@@ -41,7 +41,7 @@ bool TaxelGroups::keep(const QString& asked, const TaxelSelection& taxels) {
   const QString name = tidy(asked);
   if (name.isEmpty() || taxels.empty()) return false;
   std::erase_if(kept_, [&](const Kept& kept) { return kept.name == name; });
-  if (kept_.size() >= static_cast<std::size_t>(kMost)) return false;
+  if (kept_.size() >= static_cast<std::size_t>(kMaximum)) return false;
   kept_.push_back({name, QString::fromStdString(taxels.text())});
   std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) {
     return QString::localeAwareCompare(a.name, b.name) < 0;

@@ -13,7 +13,7 @@ namespace palpate::gui {
 class TaxelGroups : public QObject {
   Q_OBJECT
  public:
-  static constexpr int kMost = 200;
+  static constexpr int kMaximum = 200;
   static constexpr int kMaxNameLength = 60;
 
   explicit TaxelGroups(QSettings& settings, QObject* parent = nullptr);

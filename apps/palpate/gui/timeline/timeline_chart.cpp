@@ -23,7 +23,7 @@ constexpr double kEmptyDurationS = 1.0;
 // Margin beside a shown span, as a share of it.
 constexpr double kTimelineChartAir = 0.08;
 // Share of the old page with which a new page starts.
-constexpr std::size_t kMostGapMarks = 2000;
+constexpr std::size_t kMaxGapMarks = 2000;
 // A view of later times shows h:min:s [s].
 constexpr double kTimelineChartLongestInS = 1200.0;
 // Below this visible duration [s] ticks need fractions of a second.
@@ -34,7 +34,7 @@ constexpr double kFewSecondsS = 8.0;
 TimelineChart::TimelineChart(QWidget* parent)
     : Chart(parent), axes_(std::make_unique<UnitAxes>(*this)), span_(this) {
   setAccessibleName("Timeline");
-  fitToText(*this, [this] { setMinimumHeight(kLeastChartLines * fontMetrics().lineSpacing()); });
+  fitToText(*this, [this] { setMinimumHeight(kMinChartLines * fontMetrics().lineSpacing()); });
   secondsTicker_ = xAxis->ticker();
   clockTicker_.reset(new QCPAxisTickerTime);
   clockTicker_->setTickCount(secondsTicker_->tickCount());
@@ -165,7 +165,7 @@ void TimelineChart::rebuildGraphs() {
   }
   gaps_.clear();
   if (recording_) gaps_ = recording_->timingNow().gaps;
-  for (std::size_t i = 0; i < std::min(gaps_.size(), kMostGapMarks); ++i) {
+  for (std::size_t i = 0; i < std::min(gaps_.size(), kMaxGapMarks); ++i) {
     const double begin = recording_->timeAt(gaps_[i].frame);
     shadeGap(*this, begin, begin + gaps_[i].seconds);
     gapLabels_.push_back(wordAt(*this,
@@ -184,7 +184,7 @@ void TimelineChart::rebuildGraphs() {
 void TimelineChart::shadeUnreadable() {
   const auto& runs = recording_->unreadableNow().runs;
   const std::size_t last = recording_->profile.numFrames() - 1;
-  for (std::size_t i = 0; i < std::min(runs.size(), kMostGapMarks); ++i)
+  for (std::size_t i = 0; i < std::min(runs.size(), kMaxGapMarks); ++i)
     shadeGap(*this,
              recording_->timeAt(runs[i].first > 0 ? runs[i].first - 1 : 0),
              recording_->timeAt(std::min(runs[i].last + 1, last)));

@@ -18,7 +18,7 @@ namespace {
 constexpr int kTimelineHeaderStroke = 18;  // [px] length of a stroke
 constexpr int kAfterStroke = 6;            // [px]
 constexpr int kAfterName = 16;             // [px]
-constexpr int kMostLegendLines = 2;
+constexpr int kMaxLegendLines = 2;
 
 }  // namespace
 
@@ -50,10 +50,10 @@ std::vector<QPoint> Legend::places(int roomPx) const {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const int needed =
         kTimelineHeaderStroke + kAfterStroke + fontMetrics().horizontalAdvance(entries_[i].name);
-    if (at.x() > 0 && at.y() + 1 < kMostLegendLines && at.x() + needed > roomPx)
+    if (at.x() > 0 && at.y() + 1 < kMaxLegendLines && at.x() + needed > roomPx)
       at = {0, at.y() + 1};
     // The dots need room on the last line if something follows that has none.
-    const bool last = at.y() + 1 == kMostLegendLines;
+    const bool last = at.y() + 1 == kMaxLegendLines;
     const int reserved = last && i + 1 < entries_.size() ? more + kAfterName : 0;
     if (at.x() + needed > roomPx - reserved && (last || at.x() == 0)) break;
     places.push_back(at);
@@ -79,7 +79,7 @@ QPoint Legend::dotsPlace() const {
   const int end = at.back().x() + kTimelineHeaderStroke + kAfterStroke +
                   fontMetrics().horizontalAdvance(entries_[at.size() - 1].name) + kAfterName;
   const bool fits = end + fontMetrics().horizontalAdvance("…") <= width();
-  if (!fits && at.back().y() + 1 < kMostLegendLines) return {0, at.back().y() + 1};
+  if (!fits && at.back().y() + 1 < kMaxLegendLines) return {0, at.back().y() + 1};
   return {end, at.back().y()};
 }
 

@@ -7,7 +7,7 @@
 namespace palpate::gui {
 
 // The least size of the content of most docks [px].
-inline constexpr QSize kLeastDockContent(220, 90);
+inline constexpr QSize kMinDockContent(220, 90);
 
 class ContentScroll : public QScrollArea {
   Q_OBJECT

@@ -7,8 +7,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kLeastLetters = 10;  // of a line
-constexpr int kHighest = 10'000;   // [px]
+constexpr int kMinLetters = 10;   // of a line
+constexpr int kHighest = 10'000;  // [px]
 constexpr int kFlags = Qt::AlignLeft | Qt::AlignVCenter | Qt::TextWrapAnywhere;
 
 }  // namespace
@@ -35,7 +35,7 @@ QRect LongWordLabel::textRect(int width) const {
 
 QSize LongWordLabel::minimumSizeHint() const {
   const QSize least = QLabel::minimumSizeHint();
-  const int broken = kLeastLetters * fontMetrics().averageCharWidth() + 2 * margin();
+  const int broken = kMinLetters * fontMetrics().averageCharWidth() + 2 * margin();
   return {std::min(least.width(), broken), fontMetrics().height() + 2 * margin()};
 }
 

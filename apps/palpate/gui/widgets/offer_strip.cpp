@@ -48,9 +48,9 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
 }
 
 void OfferStrip::placeOthers() {
-  constexpr double kMostShare = 0.5;  // of the width for buttons beside the text
+  constexpr double kMaxShare = 0.5;  // of the width for buttons beside the text
   const int buttons = accept_->sizeHint().width() + others_->sizeHint().width();
-  const bool beside = buttons < kMostShare * width();
+  const bool beside = buttons < kMaxShare * width();
   if (beside == (others_->parent() == row_)) return;
   if (beside) {
     below_->removeItem(others_);

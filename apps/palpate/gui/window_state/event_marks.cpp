@@ -55,7 +55,7 @@ QString detailWords(const Json& value) {
 // The details of an event in words, a line for each of its members; empty: it has none, or none
 // that can be read.
 QString detailsText(const std::string& json) {
-  constexpr qsizetype kMostLetters = 400;
+  constexpr qsizetype kMaxLetters = 400;
   if (json.empty()) return {};
   QStringList lines;
   try {
@@ -66,7 +66,7 @@ QString detailsText(const std::string& json) {
     return {};
   }
   const QString text = lines.join("\n");
-  return text.size() > kMostLetters ? text.left(kMostLetters) + "…" : text;
+  return text.size() > kMaxLetters ? text.left(kMaxLetters) + "…" : text;
 }
 
 EventLane laneOf(const std::string& kind) {

@@ -24,7 +24,7 @@ FormulaCurves::FormulaCurves(QSettings& settings, QObject* parent)
     : QObject(parent), settings_(settings) {
   for (const QString& text : settings_.value(kFormulaCurvesKey).toStringList()) {
     const QStringList parts = text.split(kBetweenParts);
-    if (parts.size() == 3 && !parts[0].isEmpty() && !parts[1].isEmpty() && kept_.size() < kMost)
+    if (parts.size() == 3 && !parts[0].isEmpty() && !parts[1].isEmpty() && kept_.size() < kMaximum)
       kept_.push_back({parts[0], parts[1], parts[2]});
   }
 }
@@ -41,7 +41,7 @@ bool FormulaCurves::keep(const FormulaCurve& curve) {
                            curve.unit.simplified().left(kMaxNameLength)};
   if (clean.name.isEmpty() || clean.formula.isEmpty()) return false;
   std::erase_if(kept_, [&](const FormulaCurve& each) { return each.name == clean.name; });
-  if (kept_.size() >= kMost) return false;
+  if (kept_.size() >= kMaximum) return false;
   kept_.push_back(clean);
   std::sort(kept_.begin(), kept_.end(), [](const FormulaCurve& a, const FormulaCurve& b) {
     return a.name < b.name;

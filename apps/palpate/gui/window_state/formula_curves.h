@@ -26,7 +26,7 @@ struct FormulaCurve {
 class FormulaCurves : public QObject {
   Q_OBJECT
  public:
-  static constexpr std::size_t kMost = 100;
+  static constexpr std::size_t kMaximum = 100;
   static constexpr int kMaxNameLength = 60;
 
   explicit FormulaCurves(QSettings& settings, QObject* parent = nullptr);
