@@ -85,7 +85,9 @@ void SlipStage::setOpens(bool opens) {
 void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
   const std::lock_guard lock(mutex_);
   if (changed_ || detectors_.size() != layout.numMatrices()) {
-    detectors_ = slipDetectors(hand_, options_);
+    detectors_.clear();  // with the masks of the frame, not those of the hand
+    for (std::size_t m = 0; m < layout.numMatrices(); ++m)
+      detectors_.emplace_back(layout.matrix(m), withScaleOf(hand_, m, options_));
     slipping_.assign(detectors_.size(), std::nullopt);
     changed_ = false;
   }

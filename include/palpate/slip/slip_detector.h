@@ -1,5 +1,5 @@
 // Slip detector of one matrix: it measures how the contact moves and decides whether that is slip.
-// The live slip stage and SlipRun use one per matrix, see slipDetectors().
+// The live slip stage and SlipRun use one per matrix.
 //
 // The motion is measured by one of the methods of SlipTracker, or by the method `contest`: the
 // motion of `register`, multiplied by the score P(moved) of the reference frame and the present
@@ -136,7 +136,7 @@ class SlipDetector {
   bool hasLastScored_ = false;
 };
 
-// Returns a detector per matrix of a hand, each with the scale of its matrix. Throws
+// Returns a detector per matrix of a hand, with the scale and masks of that matrix. Throws
 // std::invalid_argument.
 std::vector<SlipDetector> slipDetectors(const HandDescription& hand,
                                         const SlipDetectorOptions& options = {});
