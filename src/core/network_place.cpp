@@ -8,6 +8,7 @@
 
 #include <netdb.h>
 #include <netinet/in.h>
+#include <sys/socket.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
@@ -15,6 +16,10 @@
 
 namespace palpate {
 namespace {
+
+static_assert(sizeof(sockaddr_storage) == sizeof(SocketAddress::storage));
+
+bool isV4(const SocketAddress& address) { return address.get()->sa_family == AF_INET; }
 
 [[noreturn]] void failToListen(const NetworkPlace& place, const std::string& name, int error) {
   if (error == EADDRINUSE)
@@ -40,7 +45,7 @@ std::string NetworkPlace::text() const {
 bool NetworkPlace::isOpenToOthers() const {
   const auto found = socketAddressOf(*this);
   if (!found) return true;
-  if (found->storage.ss_family == AF_INET) return !address.starts_with("127.");
+  if (isV4(*found)) return !address.starts_with("127.");
   const in6_addr& bytes = reinterpret_cast<const sockaddr_in6*>(&found->storage)->sin6_addr;
   return !IN6_IS_ADDR_LOOPBACK(&bytes) &&
          !(IN6_IS_ADDR_V4MAPPED(&bytes) && bytes.s6_addr[12] == 127);
@@ -83,8 +88,7 @@ std::optional<SocketAddress> socketAddressOf(const NetworkPlace& place) {
   std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
   ::freeaddrinfo(found);
   // The system takes "1" for 0.0.0.1, too.
-  if (address.storage.ss_family == AF_INET && address.place().address != place.address)
-    return std::nullopt;
+  if (isV4(address) && address.place().address != place.address) return std::nullopt;
   return address;
 }
 
@@ -92,7 +96,7 @@ FileDescriptor listenAt(NetworkPlace& place, const std::string& name, int type, 
   auto address = socketAddressOf(place);
   if (!address)
     throw std::invalid_argument("'" + shortened(place.address) + "' is not a numeric address");
-  FileDescriptor fd(::socket(address->storage.ss_family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  FileDescriptor fd(::socket(address->get()->sa_family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const int on = 1;
   if (fd.get() >= 0 && type == SOCK_STREAM)
     ::setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);

@@ -2,13 +2,15 @@
 // them: what Palpate chooses by itself is 127.0.0.1, which no other machine reaches.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 
-#include <sys/socket.h>
-
 #include <palpate/core/file_descriptor.h>
+
+struct sockaddr;
 
 namespace palpate {
 
@@ -27,10 +29,10 @@ std::optional<NetworkPlace> networkPlaceOf(const std::string& text);
 inline constexpr const char* kNetworkPlaceRule =
     "ADDRESS is numeric, PORT 0..65535 (0: a free one)";
 
-// A place as the system has it; without one, room for any.
+// A place as the system has it; without one, room for any: a sockaddr_storage and its socklen_t.
 struct SocketAddress {
-  sockaddr_storage storage{};
-  socklen_t size = sizeof storage;
+  alignas(8) std::array<std::byte, 128> storage{};
+  unsigned size = 128;
 
   const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
   sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
