@@ -1,6 +1,7 @@
 #include "palpate/emulator/scene.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <numbers>
 #include <stdexcept>
 

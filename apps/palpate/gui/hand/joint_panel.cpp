@@ -10,6 +10,7 @@
 #include <QSet>
 #include <QSlider>
 #include <algorithm>
+#include <initializer_list>
 #include <set>
 #include <string_view>
 
