@@ -128,10 +128,10 @@ Eigen::MatrixXd DiscriminantAnalysis::apply(const Eigen::MatrixXd& x) const {
 }
 
 Eigen::VectorXd DiscriminantAnalysis::featureWeights() const {
-  const Eigen::VectorXd squared = directions.cwiseAbs2() * separation;
-  const Eigen::VectorXd weights = squared.cwiseSqrt();
-  const double sum = weights.size() > 0 ? weights.sum() : 0.0;
-  return sum > 0.0 ? Eigen::VectorXd(weights / sum) : weights;
+  Eigen::VectorXd weights = (directions.cwiseAbs2() * separation).cwiseSqrt();
+  const double sum = weights.sum();
+  if (sum > 0.0) weights /= sum;
+  return weights;
 }
 
 }  // namespace palpate
