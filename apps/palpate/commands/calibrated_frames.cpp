@@ -138,10 +138,10 @@ NamedSignals namedSignals(const std::optional<CalibrationChoice>& choice,
   return {withComputedSeries(frames, computed), std::move(computed)};
 }
 
-void reportAssumptions(const NamedSignals& signals,
+void reportAssumptions(const NamedSignals& named,
                        const std::vector<std::string>& names,
                        bool quiet) {
-  const ComputedOptions& computed = signals.computed;
+  const ComputedOptions& computed = named.computed;
   if (!computed.calibration) return;
   const bool unknown = !computed.calibration->pressure.knowsArea() &&
                        std::ranges::any_of(names, [](const std::string& name) {

@@ -50,7 +50,7 @@ NamedSignals namedSignals(const std::optional<CalibrationChoice>& choice,
                           const Profile& frames);
 // Prints what the forces assume, each sentence once, where there is a calibration; where `names`
 // has a force that isn't known, by reportLoss().
-void reportAssumptions(const NamedSignals& signals,
+void reportAssumptions(const NamedSignals& named,
                        const std::vector<std::string>& names,
                        bool quiet);
 

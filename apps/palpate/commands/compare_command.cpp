@@ -168,13 +168,12 @@ void addCurvesOf(const CommandLine& given,
   const TimedRecording whole = opened(file, given.quiet());
   const TimedProfile& timed = whole.timed;
   if (timed.profile.numFrames() == 0) throw Error(file + ": has no frames");
-  const NamedSignals signals = namedSignals(calibration, file, whole.recording, timed.profile);
-  const TypedSignal signal =
-      typedSignal(*given.text("average"), signals.profile, file, "--average");
-  reportAssumptions(signals, namesOf(signal, signals.profile.layout()), given.quiet());
+  const NamedSignals named = namedSignals(calibration, file, whole.recording, timed.profile);
+  const TypedSignal signal = typedSignal(*given.text("average"), named.profile, file, "--average");
+  reportAssumptions(named, namesOf(signal, named.profile.layout()), given.quiet());
   ProgressLine progress("reading " + file, given.quiet());
   const auto series = std::make_shared<const Series>(
-      typedSeries(signals.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));
+      typedSeries(named.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));
   const double longestS = gapFromS(timed.timing);
   if (!choices.ofGrasps) {
     const Alignment how = given.chosen("align", alignmentWords()).value_or(Alignment::kContact);

@@ -81,13 +81,13 @@ int deriveCommand(const Arguments& words) {
   takeTimes(given, recorded, file, line.callback());
   const Profile frames = filteredBy(recipe, recorded, file, line.callback());
   if (frames.numFrames() == 0) throw Error(file + ": has no frames");
-  const NamedSignals signals = namedSignals(calibration, file, recorded, frames);
-  const Profile& profile = signals.profile;
+  const NamedSignals named = namedSignals(calibration, file, recorded, frames);
+  const Profile& profile = named.profile;
   const auto [from, to] = framesOf(frameChoice, file, profile);
   std::vector<std::string> used;
   for (const NamedFormula& one : formulas)
     used.insert(used.end(), one.formula.names().begin(), one.formula.names().end());
-  reportAssumptions(signals, used, given.quiet());
+  reportAssumptions(named, used, given.quiet());
   // The whole recording is computed, so that a slope at the ends of the part is that of its
   // neighbours.
   std::vector<NamedCurve> curves;

@@ -322,14 +322,14 @@ int spectrumCommand(const Arguments& words) {
   ProgressLine line("reading " + file, given.quiet());
   Recording recorded = openReported(file, line, given.quiet());
   takeTimes(given, recorded, file, line.callback());
-  const NamedSignals signals = namedSignals(
+  const NamedSignals named = namedSignals(
       calibration, file, recorded, filteredBy(recipe, recorded, file, line.callback()));
-  const Profile& profile = signals.profile;
+  const Profile& profile = named.profile;
   const std::vector<TypedSignal> chosen = chosenSignals(given, profile);
   std::vector<std::string> used;
   for (const TypedSignal& one : chosen)
     for (const std::string& name : namesOf(one, profile.layout())) used.push_back(name);
-  reportAssumptions(signals, used, given.quiet());
+  reportAssumptions(named, used, given.quiet());
   if (twoSignals) return writeCoherence(given, profile, chosen, options, line);
   const TypedSignal& signal = chosen.front();
   const Series series = seriesOf(given, profile, signal, line.callback());
