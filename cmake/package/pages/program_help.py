@@ -214,7 +214,7 @@ class Program:
         self.window = read_command(program, "", "the window", ["--demo"])
         filters = [line.split()[0] for line in run(program, "filter", "--list").splitlines()
                    if re.match(r"[a-z]", line)]
-        hands = [json.loads(line)["key"] for line in run(program, "hands", "--json").splitlines()]
+        hands = [hand["key"] for hand in json.loads(run(program, "hands", "--json"))["hands"]]
         for command in self.all():
             for option in command.options:
                 if option.name == "hand":
