@@ -270,8 +270,9 @@ TEST(GraspCommand, LimitsOfFingersAndInNewtonsAreChecked) {
   EXPECT_NE(wrong({"--finger-limits", "200,200,200"}).find("needs --mode"), std::string::npos);
   EXPECT_NE(wrong({"--mode", "reactive", "--finger-limits", "200,200"}).find("takes 3 numbers"),
             std::string::npos);
-  EXPECT_NE(wrong({"--mode", "reactive", "--finger-limits", "200,2,200"}).find("no count in 3"),
-            std::string::npos);
+  EXPECT_NE(
+      wrong({"--mode", "reactive", "--finger-limits", "200,2,200"}).find("is not a count in 3"),
+      std::string::npos);
   EXPECT_NE(wrong({"--mode", "reactive", "--force-limit", "2"}).find("need one another"),
             std::string::npos);
   EXPECT_NE(

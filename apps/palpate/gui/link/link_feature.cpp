@@ -47,11 +47,13 @@ LinkFeature::LinkFeature(WindowState& windowState, QWidget* window)
   connectAlarms();
   connectOthers();
   connect(&windowState.live, &LiveController::refreshed, this, &LinkFeature::look);
-  connect(
-      &windowState.derivedResults,
-      &DerivedResults::unmeasurableChanged,
-      panel_,
-      [this, &windowState] { panel_->setUnmeasurable(windowState.derivedResults.unmeasurable()); });
+  connect(&windowState.derivedResults,
+          &DerivedResults::unmeasurableChanged,
+          panel_,
+          // The panel may outlive this feature.
+          [panel = panel_, &windowState] {
+            panel->setUnmeasurable(windowState.derivedResults.unmeasurable());
+          });
   connect(&windowState.live,
           &LiveController::eventsReceived,
           this,
