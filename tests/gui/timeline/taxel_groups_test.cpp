@@ -131,13 +131,16 @@ TEST_F(TaxelGroupsTest, TheListStaysOnTheScreen) {
   FormulaCurves formulas(settings());
   SignalTree tree(groups, formulas);
   tree.setSource(sdh2(), {.hasAngles = true, .hasTemperatures = true});
+  tree.winId();  // without a display, the first window is moved by a frame that popups don't have
   QWidget button(nullptr, Qt::FramelessWindowHint);
   const QRect screen = button.screen()->availableGeometry();
   for (const double share : {0.0, 0.3, 0.5, 0.7, 1.0}) {
     const int top = screen.top() + static_cast<int>(share * (screen.height() - 20));
     button.setGeometry(screen.right() - 80, top, 80, 20);
     tree.openBelow(button);
-    EXPECT_TRUE(screen.contains(tree.geometry())) << share;
+    EXPECT_TRUE(screen.contains(tree.geometry()))
+        << share << ": " << tree.x() << "," << tree.y() << " " << tree.width() << "x"
+        << tree.height() << " in " << screen.width() << "x" << screen.height();
     EXPECT_FALSE(tree.geometry().intersects(button.geometry())) << share;
     tree.hide();
   }

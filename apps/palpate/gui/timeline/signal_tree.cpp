@@ -403,7 +403,6 @@ void SignalTree::openBelow(const QWidget& button) {
   const int below = screen.bottom() - of.bottom() - kGap;
   const int above = of.top() - kGap - screen.top();
   const bool opensBelow = below >= kMaxHeight || below >= above;
-  layout()->activate();  // so that the minimum width counts the first time, too
   resize(kWidth, std::min(kMaxHeight, opensBelow ? below : above));
   const int left = std::max(screen.left(), screen.right() - width());
   const QPoint at(std::clamp(of.left(), screen.left(), left),
