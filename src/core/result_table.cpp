@@ -20,10 +20,10 @@ void appendNumberCell(std::string& text, double value, int decimals) {
     text += fixedText(value, decimals);
 }
 
-void appendCsvText(std::string& text, const std::string& cell) {
+std::string csvText(const std::string& cell) {
   std::string line = csvLine({cell});
   line.pop_back();
-  text += line;
+  return line;
 }
 
 void appendCsvCell(std::string& text, const Cell& cell, const ResultColumn& column) {
@@ -34,7 +34,7 @@ void appendCsvCell(std::string& text, const Cell& cell, const ResultColumn& colu
   else if (const auto* flag = std::get_if<bool>(&cell))
     text += *flag ? '1' : '0';
   else if (const auto* words = std::get_if<std::string>(&cell))
-    appendCsvText(text, *words);
+    text += csvText(*words);
 }
 
 void appendJsonCell(std::string& text, const Cell& cell, const ResultColumn& column) {
@@ -76,9 +76,20 @@ double numberOf(const Cell& cell) {
 ResultTable::ResultTable(std::string name, std::vector<ResultColumn> columns)
     : name_(std::move(name)), columns_(std::move(columns)) {}
 
-TableText::TableText(const ResultTable& table, TableTextOptions options)
+TableText::TableText(const ResultTable& table, TableTextOptions options, const std::string& added)
     : name_(table.name()), columns_(table.columns()), options_(std::move(options)) {
-  if (!options_.addedName.empty()) columns_.push_back({options_.addedName, CellKind::kText});
+  const bool isJson = options_.form == TableForm::kJson;
+  for (const ResultColumn& each : columns_) {
+    const bool isFirst = beforeCells_.empty();
+    beforeCells_.push_back(isJson ? (isFirst ? "" : ", ") + Json(each.name).text(-1) + ": "
+                                  : std::string(isFirst ? "" : ","));
+  }
+  if (!options_.addedName.empty()) {
+    columns_.push_back({options_.addedName, CellKind::kText});
+    afterRow_ = isJson ? ", " + Json(options_.addedName).text(-1) + ": " + Json(added).text(-1)
+                       : "," + csvText(added);
+  }
+  afterRow_ += isJson ? "}" : "\n";
 }
 
 std::string TableText::begin() const {
@@ -100,27 +111,17 @@ std::string TableText::begin() const {
   return csvLine(names) + (options_.unitsRow ? csvLine(units) : "");
 }
 
-void TableText::appendRow(std::string& text,
-                          const std::vector<Cell>& cells,
-                          const std::string& added) const {
-  if (options_.form == TableForm::kCsv) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (i > 0) text += ',';
-      appendCsvCell(text, cells[i], columns_[i]);
-    }
-    if (!options_.addedName.empty()) appendCsvText(text += ',', added);
-    text += '\n';
-    return;
-  }
-  text += ",\n{";
+void TableText::appendRow(std::string& text, const std::vector<Cell>& cells) const {
+  const bool isJson = options_.form == TableForm::kJson;
+  if (isJson) text += ",\n{";
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) text += ", ";
-    text += Json(columns_[i].name).text(-1) + ": ";
-    appendJsonCell(text, cells[i], columns_[i]);
+    text += beforeCells_[i];
+    if (isJson)
+      appendJsonCell(text, cells[i], columns_[i]);
+    else
+      appendCsvCell(text, cells[i], columns_[i]);
   }
-  if (!options_.addedName.empty())
-    text += ", " + Json(options_.addedName).text(-1) + ": " + Json(added).text(-1);
-  text += '}';
+  text += afterRow_;
 }
 
 std::size_t writeTableText(ResultTable& table,

@@ -71,11 +71,11 @@ TEST(ResultTable, jsonHasNullForWhatIsNotFinite) {
 
 TEST(ResultTable, aColumnCanBeAddedToEveryRow) {
   auto table = fruits();
-  const TableText text(table, {.addedName = "file"});
+  const TableText text(table, {.addedName = "file"}, "a,b.dsa");
   std::string out = text.begin();
   std::vector<Cell> cells;
   ASSERT_TRUE(table.next(cells));
-  text.appendRow(out, cells, "a,b.dsa");
+  text.appendRow(out, cells);
   EXPECT_EQ(out, "name,count,mass,ripe,file\n\"apple, red\",3,150.0,1,\"a,b.dsa\"\n");
 }
 

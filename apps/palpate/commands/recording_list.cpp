@@ -424,11 +424,11 @@ int writeTables(const RecordingList& list, bool quiet, const TableRun& run) {
                         TextTarget& target,
                         const Progress& progress) {
                       const std::unique_ptr<ResultTable> table = run.of(file, recording, progress);
-                      const TableText text(*table, options);
+                      const TableText text(*table, options, file.string());
                       target.head(text.begin());
                       std::string rows;
                       for (std::vector<Cell> cells; table->next(cells);) {
-                        text.appendRow(rows, cells, file.string());
+                        text.appendRow(rows, cells);
                         if (rows.size() < kPieceOfRows) continue;
                         target.write(rows);
                         rows.clear();

@@ -205,18 +205,19 @@ struct TableTextOptions {
 // [{"name", "unit", "kind"}], "rows": [{name: value, ..}, ..]}; null where it isn't known.
 class TableText {
  public:
-  TableText(const ResultTable& table, TableTextOptions options);
+  // `added`: the text of the added column, the same in each row.
+  TableText(const ResultTable& table, TableTextOptions options, const std::string& added = {});
   std::string begin() const;  // the names, and the units where they are wanted
   // Appends a row. Rows of JSON begin with a comma, except the first row of the whole text, whose
   // comma the caller leaves out.
-  void appendRow(std::string& text,
-                 const std::vector<Cell>& cells,
-                 const std::string& added = {}) const;
+  void appendRow(std::string& text, const std::vector<Cell>& cells) const;
 
  private:
   std::string name_;
   std::vector<ResultColumn> columns_;
   TableTextOptions options_;
+  std::vector<std::string> beforeCells_;  // separators, and of JSON the names
+  std::string afterRow_;                  // the added column and what ends a row
 };
 
 inline constexpr const char* kJsonTableEnd = "\n]\n}\n";  // behind the last row of JSON
