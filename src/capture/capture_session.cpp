@@ -272,6 +272,9 @@ Rest CaptureSession::restNow() const {
     const std::lock_guard lock(baselineMutex_);
     recent = recent_;
   }
+  // A sensor that was disconnected has no recent frames.
+  const std::int64_t sinceUs = nowUs() - static_cast<std::int64_t>(options_.baselineS * kUsPerS);
+  while (!recent.empty() && recent.front()->hostUs < sinceUs) recent.pop_front();
   if (recent.size() < 2)
     throw Error("no baseline was taken: fewer than two frames came in the last " +
                 fixedText(options_.baselineS, 1) + " s");

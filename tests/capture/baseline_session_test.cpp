@@ -70,6 +70,21 @@ TEST(BaselineSession, IsTakenAndUndone) {
   EXPECT_EQ(pad.seen(), (Values{98.0F, 48.0F}));
 }
 
+TEST(BaselineSession, OfADisconnectedSensorThereIsNone) {
+  PadSession pad;
+  pad.read(2.0, {100.0F, 50.0F});
+  pad.clock.pass(4'000'000);
+  try {
+    pad.session->takeBaseline();
+    FAIL() << "no frame came for 4 s";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("fewer than two frames"), std::string::npos);
+  }
+  EXPECT_FALSE(pad.session->canUndoBaseline());
+  pad.read(0.1, {100.0F, 50.0F});
+  EXPECT_EQ(pad.session->restNow().numFrames, 10u) << "the old ones don't count";
+}
+
 TEST(BaselineSession, RefusesWhatIsNoRest) {
   PadSession pad;
   EXPECT_THROW(pad.session->takeBaseline(), Error) << "no frame came";

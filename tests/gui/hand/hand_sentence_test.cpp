@@ -200,7 +200,8 @@ const std::vector<Row> kRows{
      "finished"},
     {"UnpluggedDuringTheLastMotion",
      [](auto&, auto& status) { status.last = reportOf(GraspOutcome::kPortGone); },
-     "Ready. The motion port was disconnected during a motion, and is connected again."},
+     "Ready. The motion port was disconnected during a motion; when it came back, the hand was "
+     "stopped."},
     {"UnpluggedSince",
      [](auto& facts, auto& status) {
        status.last = reportOf(GraspOutcome::kFinished);

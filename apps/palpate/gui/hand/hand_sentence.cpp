@@ -61,7 +61,8 @@ QString blockedText(const HandFacts& facts) {
 // When the reason that ended the last grasp no longer exists.
 QString overText(const GraspReport& last, const HandFacts& facts) {
   if (last.outcome == GraspOutcome::kPortGone)
-    return "Ready. The motion port was disconnected during a motion, and is connected again.";
+    return "Ready. The motion port was disconnected during a motion; when it came back, the hand "
+           "was stopped.";
   if (facts.goneUs > last.endUs) return "Ready. The motion port was disconnected, and is back.";
   if (last.outcome == GraspOutcome::kRefused && facts.limitMeasurable)
     return "Ready. The last grasp was refused: its limit couldn't be measured; now it can.";

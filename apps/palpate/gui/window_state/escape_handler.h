@@ -23,11 +23,11 @@ class EscapeHandler {
     kWork,
     kComputation,
     kConnecting,
+    // The comparison, which hides the selections.
+    kCompare,
     // Selections.
     kTaxels,
     kSpan,
-    // Other views.
-    kCompare,
     kFullScreen
   };
   // `leave` returns whether there was anything to leave. What it refers to must outlive this
