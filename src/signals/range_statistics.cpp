@@ -6,18 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "palpate/core/statistics.h"
+
 namespace palpate {
-namespace {
-
-// Of at least one number.
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-}  // namespace
 
 RangeStatistics rangeStatistics(std::span<const double> timeS,
                                 std::span<const double> values,
@@ -59,7 +50,7 @@ RangeStatistics rangeStatistics(std::span<const double> timeS,
   }
   if (result.count > 1) result.sd = std::sqrt(squares / (count - 1.0));
   result.rms = std::sqrt(result.mean * result.mean + squares / count);
-  result.median = medianOf(std::move(finite));
+  result.median = median(std::move(finite));
   if (timeSquares > 0.0) result.slope = products / timeSquares;
   return result;
 }

@@ -1,6 +1,6 @@
 // A WebSocket server in Foxglove's protocol: clients see a list of channels, subscribe to some of
-// them and receive their messages. It knows neither hands nor the content of messages; that is
-// foxglove_stream.h.
+// them and receive their messages. It knows neither hands nor the content of messages: those are
+// known to foxglove_messages.h and live_stream.h.
 //
 // Source: Foxglove WebSocket protocol v1 (foxglove/ws-protocol, docs/spec.md), subprotocols
 // "foxglove.websocket.v1" and "foxglove.sdk.v1". Text messages are JSON objects with a key "op":
