@@ -95,7 +95,8 @@ std::optional<SocketAddress> socketAddressOf(const NetworkPlace& place) {
 FileDescriptor listenAt(NetworkPlace& place, const std::string& name, int type, int backlog) {
   auto address = socketAddressOf(place);
   if (!address)
-    throw std::invalid_argument("'" + shortened(place.address) + "' is not a numeric address");
+    throw std::invalid_argument("'" + shortened(place.address) +
+                                "' is not a numeric address; name one such as 127.0.0.1 or ::1");
   FileDescriptor fd(::socket(address->get()->sa_family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const int on = 1;
   if (fd.get() >= 0 && type == SOCK_STREAM)
