@@ -68,6 +68,32 @@ TEST_F(AlarmNotifierTest, AHandThatIsNotProtectedRingsUntilThatIsAcknowledged) {
   EXPECT_EQ(rings_, 4);
 }
 
+// Both ports were lost in a motion, and the alarms named only the tactile one.
+TEST_F(AlarmNotifierTest, AHandThatMovesAndCannotBeStoppedComesFirst) {
+  const QString moving =
+      "the hand is still moving, and the window can't stop it: use the emergency stop, or switch "
+      "its power off; ";
+  GraspStatus status;
+  EXPECT_EQ(handAlarm(status, 0), "");
+  status.cannotMove = "unplugged";
+  status.portGone.emplace();
+  status.portGone->text = "the motion port is gone";
+  status.portGone->endUs = 5 * kSecondUs;
+  EXPECT_EQ(handAlarm(status, 5 * kSecondUs), "") << "nothing moved";
+  status.portGone->remainingMotionS = 2.5;
+  const QString text = moving + "the motion port is gone";
+  EXPECT_EQ(handAlarm(status, 5 * kSecondUs), text);
+  EXPECT_EQ(handAlarm(status, 7'499'999), text) << "the same words: it doesn't sound each second";
+  EXPECT_EQ(handAlarm(status, 7'500'000), "") << "its motion has ended";
+  status.unprotected = "stopped: the tactile port is gone";
+  EXPECT_EQ(handAlarm(status, 6 * kSecondUs),
+            moving + "not protected: stopped: the tactile port is gone");
+  EXPECT_EQ(handAlarm(status, 8 * kSecondUs), "not protected: stopped: the tactile port is gone");
+  QSignalSpy changed(&bell_, &AlarmNotifier::changed);
+  bell_.updateAlarms({kNoFrames}, kSecondUs, text);
+  EXPECT_EQ(changed.back()[0].toStringList(), QStringList({text, "no frame for 2 s"}));
+}
+
 TEST_F(AlarmNotifierTest, MutedItIsSeenOnly) {
   const QSignalSpy raised(&bell_, &AlarmNotifier::raised);
   bell_.setMuted(true);

@@ -3,7 +3,22 @@
 #include <QApplication>
 #include <utility>
 
+#include <palpate/core/time.h>
+
 namespace palpate::gui {
+
+QString handAlarm(const GraspStatus& status, std::int64_t nowUs) {
+  QString why = QString::fromStdString(status.unprotected);
+  if (!why.isEmpty()) why.prepend("not protected: ");
+  if (!status.portGone) return why;
+  const GraspReport& gone = *status.portGone;
+  // No number of seconds: a text that changes would sound again.
+  if (static_cast<double>(nowUs - gone.endUs) / kUsPerS >= gone.remainingMotionS.value_or(0.0))
+    return why;
+  return "the hand is still moving, and the window can't stop it: use the emergency stop, or "
+         "switch its power off; " +
+         (why.isEmpty() ? QString::fromStdString(gone.text) : why);
+}
 
 AlarmNotifier::AlarmNotifier(QObject* parent)
     : QObject(parent), playSound([] { QApplication::beep(); }) {}

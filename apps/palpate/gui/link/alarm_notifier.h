@@ -10,8 +10,14 @@
 #include <vector>
 
 #include <palpate/capture/link_health.h>
+#include <palpate/control/grasp_control.h>
 
 namespace palpate::gui {
+
+// The alarm of the hand, one line: that it moves and can't be stopped, because its motion port is
+// gone; why it is not protected. Empty: neither, or that was acknowledged. `nowUs`: the present
+// time by the session's clock [us since 1970].
+QString handAlarm(const GraspStatus& status, std::int64_t nowUs);
 
 class AlarmNotifier : public QObject {
   Q_OBJECT
@@ -19,8 +25,7 @@ class AlarmNotifier : public QObject {
   static constexpr std::int64_t kAgainUs = 10'000'000;
 
   explicit AlarmNotifier(QObject* parent = nullptr);
-  // Sets the present alarms; `monoUs`: monotonic time [us]; `hand`: why the hand is not protected,
-  // one line; empty: it is, or that was acknowledged.
+  // Sets the present alarms; `monoUs`: monotonic time [us]; `hand`: see handAlarm().
   void updateAlarms(const std::vector<Alarm>& alarms,
                     std::int64_t monoUs,
                     const QString& hand = {});

@@ -29,10 +29,8 @@ namespace {
 
 constexpr const char* kMutedKey = "alarms/muted";
 
-QString handAlarm(const LiveSource& source) {
-  if (!source.control) return {};
-  const std::string why = source.control->status().unprotected;
-  return why.empty() ? QString() : "not protected: " + QString::fromStdString(why);
+QString handAlarmOf(const LiveSource& source) {
+  return source.control ? handAlarm(source.control->status(), source.session->nowUs()) : QString();
 }
 
 }  // namespace
@@ -126,8 +124,8 @@ void LinkFeature::connectAlarms() {
   mute(state().settings.value(kMutedKey, false).toBool());
   state().escapeHandler.add(EscapeHandler::Order::kAlarm, [this] {
     const LiveSource* source = state().live.source();
-    // A hand that is not protected is acknowledged, not passed over.
-    if (alarms_->isHidden() || (source && !handAlarm(*source).isEmpty())) return false;
+    // A hand that is not protected is acknowledged, not passed over, nor is one that moves.
+    if (alarms_->isHidden() || (source && !handAlarmOf(*source).isEmpty())) return false;
     alarms_->hide();
     return true;
   });
@@ -148,7 +146,7 @@ void LinkFeature::look() {
   const LinkHealth& health = live.health();
   alarmNotifier_.updateAlarms(source->finished() ? std::vector<Alarm>() : health.alarms,
                               systemClock().monotonicUs(),
-                              handAlarm(*source));
+                              handAlarmOf(*source));
   const StreamDevice* stream = source->streamDevice();
   std::vector<Fact> facts = stream ? factsOf(*stream) : std::vector<Fact>();
   for (const auto& sensor : source->session->seriesSources())

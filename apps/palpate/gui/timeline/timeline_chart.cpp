@@ -22,7 +22,7 @@ constexpr int kTimelineChartFaint = 110;
 constexpr double kEmptyDurationS = 1.0;
 // Margin beside a shown span, as a share of it.
 constexpr double kTimelineChartAir = 0.08;
-// Share of the old page with which a new page starts.
+// Gaps that are marked, and likewise runs of unreadable frames.
 constexpr std::size_t kMaxGapMarks = 2000;
 // A view of later times shows h:min:s [s].
 constexpr double kTimelineChartLongestInS = 1200.0;

@@ -72,10 +72,10 @@ class TimelineFeature : public Feature {
   void showSignal();
   std::vector<PlottedCurve> curves() const;
   void showCurves();
-  // Why a formula can't be computed on this recording; empty: it can.
   // Why curves of forces have gaps; empty: the calibration knows the area of its indenter, or no
   // force is plotted.
   QString reasonOfGaps(const std::vector<PlottedCurve>& curves) const;
+  // Why a formula can't be computed on this recording; empty: it can.
   QString reasonAgainst(const FormulaCurve& formula) const;
   void showReading();
   void showSelection();
