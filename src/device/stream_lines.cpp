@@ -472,10 +472,10 @@ void StreamLineParser::readJson(std::string_view line, const Sink& sink) {
   std::string description;
   bool isFrame = false;
   try {
-    const Json whole = Json::parse(line);
+    Json object = Json::parse(line);
     // rosbridge sends a message in an envelope.
-    const bool isEnvelope = whole.at("op").isString() && whole.at("op").asString() == "publish";
-    const Json object = isEnvelope ? whole.at("msg") : whole;
+    if (const Json op = object.at("op"); op.isString() && op.asString() == "publish")
+      object = object.at("msg");
     const auto addNumbers = [&](const char* key, StreamItemKind kind, std::vector<double>& kept) {
       if (!object.contains(key)) return;
       const Json list = object.at(key);

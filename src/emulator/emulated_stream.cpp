@@ -18,11 +18,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/file_descriptor.h"
 #include "palpate/core/network_place.h"
-#include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 
 #include "emulator/stream_encoder.h"

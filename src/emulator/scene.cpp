@@ -109,12 +109,12 @@ void requirePreshape(const JsonField& field, const HandDescription& hand) {
 constexpr double kMaxSceneSeconds = 1e6;
 constexpr double kMinRepeatS = 1.0;
 
-constexpr double kSceneMostVelocity = 1000.0;  // [deg/s, mm/s]
+constexpr double kSceneMaxVelocity = 1000.0;  // [deg/s, mm/s]
 constexpr double kSceneUsualVelocity = 30.0;
 
 // Velocity that every axis reaches.
 double largestVelocity(const HandDescription& hand) {
-  double most = kSceneMostVelocity;
+  double most = kSceneMaxVelocity;
   for (const AxisDescription& axis : hand.axes)
     if (axis.maximumVelocityDegPerS > 0.0) most = std::min(most, axis.maximumVelocityDegPerS);
   return most;

@@ -171,7 +171,7 @@ bool XsensorSource::readFrame(Frame& frame) {
       sensor->rows = sizeIn(value);
     } else if (word == "Columns" && sensor) {
       sensor->columns = sizeIn(value);
-    } else if (word == "SENSELS" && sensor) {
+    } else if (word == "SENSELS" && sensor && frame.fault.empty()) {  // the first fault is told
       readSensels(frame, *sensor);
       sensor = nullptr;
     }

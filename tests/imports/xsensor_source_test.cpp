@@ -58,6 +58,9 @@ TEST(XsensorSource, AFrameWithoutAllItsNumbersIsRefusedWithItsLine) {
   const TemporaryFolder folder;
   for (const auto& [part, with, why] : std::vector<std::array<std::string, 3>>{
            {"3,4,5.5,,,\r\n", "", "has 1 row instead of 2"},
+           {"3,4,5.5,,,\r\nSENSOR,HX-RF S1,,,,\r\nRows,2,,,,\r\n",  // of two faults the first
+            "SENSOR,HX-RF S1,,,,\r\n",
+            "\"HX-LF S1\" has 1 row instead of 2"},
            {"3,4,5.5,,,\r\n", "3,4,5.5,6,,\r\n", "has 4 numbers instead of 3"},
            {"HX-RF S1", "HX-RF S2", "without \"right HX-RF S1\""},
            {"Rows,2,,,,\r\n", "", "without the rows and columns of \"HX-LF S1\""}}) {
