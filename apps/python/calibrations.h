@@ -10,7 +10,8 @@
 
 namespace palpate::python {
 
-// The arguments of these names.
+// Arguments of Calibration.apply() and derive(). Without sensitivity (0..1) or threshold [counts]
+// those of the calibration are assumed.
 struct ForceChoice {
   std::optional<double> sensitivity, threshold;
   bool tare = false, drift = true;

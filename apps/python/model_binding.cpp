@@ -164,8 +164,8 @@ void bindModels(py::module_& module) {
            py::arg("session_offset") = "model",
            "Evaluates the model on recordings with known classes: dict accuracy, interval (Wilson, "
            "95 %), grasps, right, top3, coverage, accuracy_when_sure, sessions, classes, confusion "
-           "{labels, counts[truth][called]}, .. adapt: number of grasps of each class and session "
-           "that adapt the model and don't count, from the first on.")
+           "{labels, counts[truth][called]}, .. adapt: this many grasps of each class and "
+           "session, the first ones, adapt the model and don't count.")
       .def("adapt",
            &adapted,
            py::arg("source"),

@@ -143,7 +143,7 @@ def to_pandas(table: dict, *, unit: str = "counts"):
 
 def to_xarray(table: dict, *, unit: str = "counts"):
     """xarray.Dataset of a table: dims time (host time as datetime64, UTC; `row` where the table has
-    no time), matrix, and axis (x, y, z) of places and directions; the attribute units of each
+    no time), matrix, and axis (x, y, z) of positions and directions; the attribute units of each
     variable, as the Table says (a plain dict has none), where `unit` replaces counts. Lists of
     different lengths, such as fingers of grasps(), are left out. ImportError without xarray,
     ValueError for what isn't a table."""

@@ -266,10 +266,12 @@ void bindSignals(py::module_& module) {
       "max(1, m5_max)'; angle3 [deg] and temperature4 [deg C] are interpolated, t [s] is the time "
       "from the first frame. 'm1_centroid_x_mm', 'hand_sphere_diameter_mm', 'm1_slip_mm' and "
       "others are computed from the frames; 'hand_force_n', 'm1_force_n' [N] and 'm1_pressure_kpa' "
-      "[kPa] need a Calibration, and are those of its apply() with the same sensitivity, "
-      "threshold, tare and drift. NaN: not known. spectrum(profile.time_s, derive(profile, "
-      "'m1_slip_mm')) is the spectrum of such a signal. ValueError for a text that isn't a "
-      "formula, and for a signal that the recording doesn't have.");
+      "[kPa] need a Calibration: they are those of its apply() with the same sensitivity, "
+      "threshold, tare and drift, which also lists the assumptions, but NaN for a contact that is "
+      "out of range, or whose force is not known because the calibration has no area. NaN: not "
+      "known. spectrum(profile.time_s, derive(profile, 'm1_slip_mm')) is the spectrum of such a "
+      "signal. ValueError for a text that isn't a formula, and for a signal that the recording "
+      "doesn't have.");
   module.def("strongest_taxel",
              &strongest,
              py::arg("profile"),
