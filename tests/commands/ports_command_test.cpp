@@ -90,7 +90,8 @@ TEST_F(PortsCommand, WritesTheListToAFile) {
   EXPECT_NE(table.find(tactile.path() + ",,,0,tactile,2.9.0.0,1D9B0057,"), std::string::npos)
       << table;
   expectOneLineError(palpate({"ports", "--no-probe", "-o", csv}), 1, {"ports.csv"});
-  expectOneLineError(palpate({"ports", "--no-probe", "-o", "x.txt"}), 2, {".csv, .json"});
+  expectOneLineError(palpate({"ports", silent.path(), "-o", "x.txt"}), 2, {".csv, .json"});
+  EXPECT_EQ(silent.receive(0), Bytes{}) << "bytes were sent";
 }
 
 TEST_F(PortsCommand, LeavesAloneWhatAnotherProgramHolds) {

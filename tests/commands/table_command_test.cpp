@@ -99,6 +99,9 @@ TEST(TableCommands, RefuseAnOutputBeforeTheWork) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"derive", none, "m1_mean"}, {"evaluate", none}, {"calibrate", "tare", none, "--apply"}})
     expectOneLineError(palpate(withFile(words, none, {"-o", out})), 1, {"out.json", "--force"});
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"derive", none, "m1_mean"}, {"compare", none, none}})
+    expectOneLineError(palpate(withFile(words, none, {"-o", "x.txt"})), 2, {".csv, .json"});
   expectOneLineError(
       palpate({"classify", out, none, "-o", out, "--force"}), 1, {"out.json", "the input itself"});
   expectOneLineError(palpate({"evaluate", none, "--model", out, "-o", out, "--force"}),

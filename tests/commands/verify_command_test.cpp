@@ -58,6 +58,10 @@ TEST_F(VerifyCommand, WritesATableToAFile) {
   EXPECT_EQ(palpate({"verify", sound(), "-o", json}).exitCode, 0);
   EXPECT_EQ(Json::parse(testing::readFile(json)).at("rows").size(), 1u);
   testing::expectOneLineError(palpate({"verify", sound(), "-o", csv}), 1, {"states.csv"});
+  const testing::TemporaryFolder empty;
+  testing::expectOneLineError(
+      palpate({"verify", empty.path(), "-o", csv, "--force"}), 1, {"no recording"});
+  EXPECT_EQ(testing::readFile(csv), table);
   testing::expectOneLineError(palpate({"verify", sound(), "-o", "x.txt"}), 2, {".csv, .json"});
 }
 

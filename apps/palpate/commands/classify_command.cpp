@@ -67,7 +67,6 @@ int classifyCommand(const Arguments& words) {
        .minArguments = 2},
       words);
   if (given.helpShown()) return kDone;
-  tableTextOf(given);
   if (given.has("units-row") && !given.has("output"))
     throw UsageError("--units-row needs -o OUT.csv");
   OffsetChoice choice;

@@ -1,6 +1,5 @@
 // `palpate help columns` and `palpate help commands` print pages of the manual: every column of
 // every result table (docs/manual/tables.md), the help of every command (docs/manual/options.md).
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <span>
@@ -86,17 +85,15 @@ std::vector<ShownTable> shownTables() {
   return tables;
 }
 
-void printHelpOf(const std::string& name, const Arguments& words) {
-  std::cout << "\n## " << name << "\n\n```\n" << std::flush;
-  const auto& all = allCommands();
-  const auto command = std::find_if(
-      all.begin(), all.end(), [&](const Command& each) { return each.name == words.front(); });
-  Arguments rest(words.begin() + 1, words.end());
-  rest.emplace_back("--help");
-  if (command->run)
-    command->run(rest);
+void printHelpOf(const Command& command, Arguments words = {}) {
+  std::cout << "\n## " << command.name;
+  for (const std::string& word : words) std::cout << ' ' << word;
+  std::cout << "\n\n```\n" << std::flush;
+  words.emplace_back("--help");
+  if (command.run)
+    command.run(words);
   else
-    runWindowCommand(command->name, rest);
+    runWindowCommand(command.name, words);
   std::cout << "```\n" << std::flush;
 }
 
@@ -105,10 +102,9 @@ void printOptions() {
                "Every option of every command with its range and default, as `palpate help "
                "commands` prints it.\n";
   for (const Command& command : allCommands()) {
-    printHelpOf(command.name, {command.name});
+    printHelpOf(command);
     if (std::string_view(command.name) == "calibrate")
-      for (const std::string& kind : calibrationKinds())
-        printHelpOf("calibrate " + kind, {"calibrate", kind});
+      for (const std::string& kind : calibrationKinds()) printHelpOf(command, {kind});
   }
 }
 

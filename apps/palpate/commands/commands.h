@@ -10,11 +10,11 @@ namespace palpate::commands {
 
 // Exit codes, the same for every command. kDone: success.
 constexpr int kDone = 0;
-// Failed; one line on stderr names what, where, and what to do.
+// Failed; one line on stderr says what failed, where, and what to do.
 constexpr int kFailed = 1;
 // Wrong usage; one line on stderr.
 constexpr int kWrongUsage = 2;
-// Done in part: damaged input, or only some of several files; the output names what and how much.
+// Done in part: damaged input, or only some of several files; the output says what is missing and how much.
 constexpr int kPartlyDone = 3;
 
 using Arguments = std::vector<std::string>;

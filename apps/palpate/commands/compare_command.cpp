@@ -249,8 +249,7 @@ int compareCommand(const Arguments& words) {
             {"average",
              "SIGNAL",
              "average a signal: m1_mean, hand_sum, m5_x2_y9, angle3, m1_force_n, or a formula as "
-             "for "
-             "derive"},
+             "for derive"},
             boundChoice("of",
                         "WHAT",
                         "all grasps of each FILE, or each as a whole",

@@ -230,7 +230,6 @@ int ghostsCommand(const Arguments& words) {
        .example = "palpate ghosts --below 5 --filter min-median:window=3,masked=1"},
       words);
   if (given.helpShown()) return kDone;
-  tableTextOf(given);
   const Recipe own = recipeOf(given);
   const std::vector<Recipe> recipes =
       given.has("filter") || given.has("recipe") ? std::vector{own} : ghostCandidates();

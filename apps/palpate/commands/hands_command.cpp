@@ -116,7 +116,7 @@ std::unique_ptr<ResultTable> handTable(const std::vector<ListedHand>& hands) {
   return std::make_unique<RowTable<ListedHand>>("hands", std::move(columns), std::move(rows));
 }
 
-// Exit code 3 where the others are listed.
+// Returns kPartlyDone where a hand can't be read.
 int showHands(const CommandLine& given, const std::vector<ListedHand>& hands) {
   int code = kDone;
   if (formOf(given) == TableForm::kJson) {

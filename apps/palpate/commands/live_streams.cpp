@@ -105,13 +105,6 @@ StreamTargets streamTargetsOf(const CommandLine& given, const std::string& optio
   return targets;
 }
 
-void warnAboutTargets(const StreamTargets& targets) {
-  if (!targets.foxglove) return;
-  const NetworkPlace place{targets.foxglove->server.address, targets.foxglove->server.port};
-  if (place.isOpenToOthers())
-    sayLine(place.text() + ": any machine that reaches this address can read the hand");
-}
-
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given) {
   const auto path = given.text("calibration");
   if (!path) return std::nullopt;
@@ -139,12 +132,15 @@ LiveStreams::LiveStreams(CaptureSession& session,
       stream_(session.device().hand(), [&session] { return session.health(); }),
       chain_(streamedStages(&session, session.device().hand(), calibration),
              sendingTo(session, stream_)) {
-  warnAboutTargets(targets_);
   for (const StreamTarget& target : targets_.datagrams) stream_.switchOn(target.kind, target.port);
   if (targets_.foxglove) {
     FoxgloveOptions options = *targets_.foxglove;
     options.server.onRefusedOrigin = [](const std::string& why) { sayLine("foxglove: " + why); };
+    const NetworkPlace place{options.server.address, options.server.port};
     stream_.switchOn(std::move(options));
+    // Not before: an address that is refused isn't open to anyone.
+    if (place.isOpenToOthers())
+      sayLine(place.text() + ": any machine that reaches this address can read the hand");
   }
   chain_.connect(session);
   chain_.start();

@@ -49,9 +49,6 @@ std::vector<std::unique_ptr<Stage>> streamedStages(CaptureSession* session,
 // The calibration that --calibration names; nothing when the option is missing. Throws Error.
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given);
 
-// Says on stderr what the user must know about them: who else can read the hand.
-void warnAboutTargets(const StreamTargets& targets);
-
 // Processes the frames of a session and sends the results as long as this object exists. The
 // session must outlive it.
 class LiveStreams {

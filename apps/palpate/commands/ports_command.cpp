@@ -174,9 +174,10 @@ int portsCommand(const Arguments& words) {
        .example = "palpate ports"},
       words);
   if (given.helpShown()) return kDone;
+  const TableForm form = formOf(given);
   std::vector<Row> rows = rowsOf(given.words());
   if (!given.has("no-probe")) probe(rows);
-  if (formOf(given) == TableForm::kJson) {
+  if (form == TableForm::kJson) {
     printJson(given, Json::object().set("ports", rowsJson(*portTable(std::move(rows)))));
     return kDone;
   }

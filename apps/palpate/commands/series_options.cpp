@@ -21,8 +21,6 @@ std::pair<std::string, std::string> seriesValue(const std::string& option,
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-void printSeries(const std::string& text) { sayLine(text); }
-
 std::int64_t lostOf(const RecordingReport& report, const RecordedSeries& series) {
   return report.counter(seriesCounter(series.name, "lost")) + series.lost;
 }
@@ -58,7 +56,7 @@ void addSeriesSources(const CommandLine& given, CaptureSession& session) {
       if (const auto at = columns.extract(options.name)) options.columns = columnsOf(at.mapped());
       auto source = std::make_unique<SeriesSource>(std::move(options));
       if (source->isOpenToOthers())
-        printSeries(text + ": any machine that reaches this address can send rows");
+        sayLine(text + ": any machine that reaches this address can send rows");
       session.addSeries(std::move(source));
     } catch (const std::invalid_argument& wrong) {
       throw UsageError("--series " + escapedLine(text) + ": " + escapedLine(wrong.what()));
@@ -78,7 +76,7 @@ void SeriesNotice::show() {
     const SeriesSource& source = *session_.seriesSources()[i];
     Shown& shown = shown_[i];
     const std::string place = shown.place ? std::string() : source.notice();
-    if (!place.empty()) printSeries(place);
+    if (!place.empty()) sayLine(place);
     shown.place = shown.place || !place.empty();
     const PortStatus port = source.status().port;
     const bool comes = port.state == PortState::kStreaming;
@@ -86,10 +84,10 @@ void SeriesNotice::show() {
     const bool isSaid = port.message.empty() || port.message.starts_with("looking for") ||
                         (source.localPort() && port.items == 0);
     if (!comes && !isSaid && (!shown.missed || port.state != shown.state)) {
-      printSeries("series " + source.name() + ": " + port.message);
+      sayLine("series " + source.name() + ": " + port.message);
       shown.missed = true;
     } else if (comes && std::exchange(shown.missed, false)) {
-      printSeries("series " + source.name() + " is there");
+      sayLine("series " + source.name() + " is there");
     }
     if (comes || shown.missed) shown.state = port.state;
   }

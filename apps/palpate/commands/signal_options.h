@@ -16,8 +16,7 @@ namespace palpate::commands {
 inline constexpr const char* kSignalNames =
     "m1_mean, hand_sum, m5_x2_y9 (matrix, column, row), angle3, temperature4; of a series its name "
     "and column, such as wrist_fz; computed from the frames m1_centroid_x_mm, m1_slip_mm, "
-    "m1_force_n "
-    "and others";
+    "m1_force_n and others";
 
 // Either is set.
 struct TypedSignal {

@@ -313,7 +313,6 @@ int spectrumCommand(const Arguments& words) {
     for (const char* one : {"matrix", "x", "y", "signal"})
       if (given.has(one))
         throw UsageError(std::string("--coherence names its signals itself: leave out --") + one);
-  tableTextOf(given);
   frameChoiceOf(given);
   const SpectrumOptions options = spectrumOptionsOf(given, twoSignals || oneLine);
   const Recipe recipe = recipeOf(given);

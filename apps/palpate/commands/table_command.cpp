@@ -62,7 +62,7 @@ std::vector<OptionSpec> withOutputOptions(std::vector<OptionSpec> options,
 std::vector<OptionSpec> withOneTableOptions(std::vector<OptionSpec> options,
                                             const std::string& json) {
   options.push_back(unitsRowOption());
-  options.push_back({"json", "", json + "; -o: by the ending"});
+  options.push_back({"json", "", json + "; -o: by the ending", &tableTextOf});
   return withOutputOptions(std::move(options), "OUT.csv");
 }
 

@@ -24,7 +24,8 @@ std::vector<OptionSpec> withOutputOptions(
     std::vector<OptionSpec> options,
     const std::string& file = "OUT.json",
     const std::string& help = "write the result to this file");
-// The same with --units-row and --json: of a command with one table.
+// The same with --units-row and --json, which CommandLine checks with -o as tableTextOf(): of a
+// command with one table.
 std::vector<OptionSpec> withOneTableOptions(
     std::vector<OptionSpec> options, const std::string& json = "one object of JSON instead of CSV");
 

@@ -86,7 +86,8 @@ int verifyCommand(const Arguments& words) {
                                          escapedLine(report.message);
                         return outcome;
                       });
-  if (toFile) worst = worse(worst, writeTable(given, *verifiedTable(std::move(files))));
+  // Without any file the table of an earlier call stays.
+  if (!files.empty()) worst = worse(worst, writeTable(given, *verifiedTable(std::move(files))));
   return worse(worst, code);
 }
 
