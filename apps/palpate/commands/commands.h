@@ -14,7 +14,8 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 // Wrong usage; one line on stderr.
 constexpr int kWrongUsage = 2;
-// Done in part: damaged input, or only some of several files; the output says what is missing and how much.
+// Done in part: damaged input, or only some of several files; the output says what is missing and
+// how much.
 constexpr int kPartlyDone = 3;
 
 using Arguments = std::vector<std::string>;
